@@ -1,9 +1,9 @@
 """Main classes of the library. `load` reads a file, a name or plain data, and returns a `GearTrain`.
 
 gear_train                   `load`, and the class whose methods call the functions of the other packages
-gearbox, gear_series         all states of a train with clutches; all gears that its shift elements can produce
-train_graph, train_variants  train as a networkx graph; outputs for many tooth counts at once
-accuracy                     error and run time of the methods on one train
+gearbox, gear_series         results for all states of a gearbox; all gears that its clutches and brakes can produce
+train_graph, train_variants  the train as a networkx graph; output speeds for many tooth counts at once
+accuracy                     error and run time of the computation methods for one train
 
 Results are computed at the first request and cached. The equations are in docs/theory.md for speeds, docs/torques.md
 for torques and docs/motion.md for motion.

@@ -1,8 +1,8 @@
-"""Error and run time of the methods that compute speeds, motion and torques, for one train.
+"""Error and run time of the computation methods for speeds, motion and torques of one train.
 
 Each method is compared with the most accurate method of its stage: exact speeds, motion composed from transmission
-functions, or torque over a revolution at many positions. The scripts in docs/scripts/studies/ measure whole families of
-trains.
+functions, or torques computed at many positions of one revolution. The scripts in docs/scripts/studies/ measure whole
+families of trains.
 """
 
 from __future__ import annotations
@@ -50,7 +50,9 @@ class MethodAccuracy(Shown):
     reference: str
     """Reference of the comparison: another method, the method's own error estimate, or the power balance."""
     prepared: float | None = None
-    """Time of preparations before the run, such as the computation of teeth [s]; None if there were none."""
+    """Run time of preparations, such as the computation of tooth shapes, which is not included in `seconds` [s]; None
+    if the method needs no preparations.
+    """
     ratio: float = 1.0
     """Run time divided by the run time of the fastest method of the stage."""
 
@@ -74,7 +76,7 @@ class TrainAccuracy(Tabular, TrainResult):
     methods: tuple[MethodAccuracy, ...]
     """Measured methods, ordered by stage."""
     neglected: dict[str, str]
-    """Reason why a stage was not measured, for each stage that does not apply to the train."""
+    """Reason why a stage was not measured, keyed by stage. Stages that were measured are omitted."""
 
     def _summary(self) -> str:
         return f"{self._named}: {len(self.methods)} methods at {self.positions} positions"
@@ -108,9 +110,9 @@ def find_accuracy(train: GearTrain, state: str | None = None, positions: int = 1
 
 
 def _best_of(task: Callable[[], Any]) -> tuple[float, Any]:
-    """Return the minimum time of several runs of a task [s], and the result of the task.
+    """Return the minimum run time of a task over several repetitions [s], and the result of the task.
 
-    The minimum excludes the time that the first run takes to import libraries.
+    The minimum excludes the time that the first repetition takes to import libraries.
     """
     times: list[float] = []
     while not times or sum(times) < _ENOUGH or (len(times) < 2 and sum(times) < _LONG):
@@ -121,7 +123,9 @@ def _best_of(task: Callable[[], Any]) -> tuple[float, Any]:
 
 
 def _measure_speeds(train: GearTrain, state: str | None, _: int) -> Iterator[MethodAccuracy]:
-    """Yield the rows on speeds: exact elimination, if it is the default method of `solve`, and floats."""
+    """Yield the accuracy of the methods for speeds: exact elimination, if `solve` uses it by default, and
+    floating-point elimination.
+    """
     usual = train.solve(state)
     if not usual.verdict:
         raise QuestionError(Problem(usual.verdict.text))
@@ -144,7 +148,9 @@ def _measure_speeds(train: GearTrain, state: str | None, _: int) -> Iterator[Met
 
 
 def _measure_motion(train: GearTrain, state: str | None, positions: int) -> Iterator[MethodAccuracy]:
-    """Yield the rows on motion: composition and first-order superposition."""
+    """Yield the accuracy of the methods for motion: composition of transmission functions and first-order
+    superposition.
+    """
     if not train.mechanics.meshes_in(state) and not train.mechanics.couplings:
         raise QuestionError(Problem(_NO_FORM))
     import numpy as np
@@ -177,7 +183,9 @@ def _measure_motion(train: GearTrain, state: str | None, positions: int) -> Iter
 
 
 def _measure_torques(train: GearTrain, state: str | None, _: int) -> Iterator[MethodAccuracy]:
-    """Yield the rows on torques: balance with losses, and mean torque over a run of several positions."""
+    """Yield the accuracy of the methods for torques: torque balance with losses, and mean torque over a run, computed
+    with different numbers of positions.
+    """
     if not train.declaration.is_loaded(state):
         raise QuestionError(Problem("no loads are declared"))
     # a new train in each run, because results are cached

@@ -1,4 +1,4 @@
-"""Enumeration of the gears of a gearbox for all sets of closed shift elements, and search for series of gears."""
+"""Enumeration of the gears of a gearbox over all sets of closed shift elements, and search for series of gears."""
 
 from __future__ import annotations
 
@@ -30,16 +30,20 @@ class PossibleGear(Result):
     """Gear of a gearbox that results from closing a set of shift elements (clutches and brakes)."""
 
     engaged: tuple[str, ...]
-    """Closed shift elements, in the order of declaration."""
+    """Names of the closed shift elements, in the order of declaration."""
     ratio: Fraction | None
     """Speed of the input divided by the speed of the output; None if the output is at rest."""
     states: tuple[str, ...]
-    """Declared states in which exactly these elements are closed; empty if the gear is not declared."""
+    """Names of the declared states in which exactly these shift elements are closed; empty if the gear is not
+    declared.
+    """
 
 
 @dataclass(frozen=True)
 class GearSeries(Result):
-    """Series of forward gears in order of decreasing ratio, with its steps and its spread."""
+    """Series of forward gears in order of decreasing ratio, with the steps between the gears and the spread of the
+    ratios.
+    """
 
     KEYS = ("gears", Key("steps", to=as_float), Key("spread", to=as_float), "deviation", "double_shifts")
 
@@ -53,7 +57,7 @@ class GearSeries(Result):
 
     @property
     def steps(self) -> tuple[Fraction, ...]:
-        """Step of each gear except the last: its ratio divided by the ratio of the next gear."""
+        """Step of each gear except the last: ratio of the gear divided by the ratio of the next gear."""
         return tuple(a / b for a, b in pairwise(self.ratios))
 
     @property
@@ -63,18 +67,20 @@ class GearSeries(Result):
 
     @property
     def deviation(self) -> float:
-        """Population standard deviation of the natural logarithms of the steps; it is 0 if all steps are equal."""
+        """Population standard deviation of the natural logarithms of the steps [1]; 0 if all steps are equal."""
         return pstdev(map(log, self.steps))
 
     @property
     def double_shifts(self) -> int:
-        """Number of shifts in which more than one element opens, or more than one element closes."""
+        """Number of shifts between consecutive gears in which more than one element opens or more than one element
+        closes.
+        """
         return sum(not _is_single(a, b) for a, b in pairwise(self.gears))
 
 
 @dataclass(frozen=True)
 class GearSearch(Tabular, Result):
-    """All gears of a gearbox, and the gear series with the largest spread and with the most even steps."""
+    """All gears of a gearbox, with the gear series of maximum spread and the gear series of most uniform steps."""
 
     MEANINGS: ClassVar = {
         "closed": "Engaged clutches and brakes.",
@@ -94,25 +100,27 @@ class GearSearch(Tabular, Result):
     output: str
     """Name of the output link."""
     closed: int
-    """Number of shift elements that must be closed so that the inputs determine all speeds."""
+    """Number of shift elements that must be closed to determine all speeds."""
     combinations: int
-    """Number of combinations of `closed` shift elements, which were all examined."""
+    """Number of combinations of `closed` shift elements. All of them were examined."""
     gears: tuple[PossibleGear, ...]
-    """All gears: forward gears, then reverse gears, both in order of decreasing magnitude of the ratio, then gears with
-    the output at rest.
+    """All gears: forward gears, then reverse gears, both in order of decreasing magnitude of the ratio, then gears
+    whose output is at rest.
     """
     free: tuple[tuple[str, ...], ...] = ()
-    """Combinations of `closed` elements that leave some speeds undetermined."""
+    """Combinations of `closed` shift elements that leave some speeds undetermined."""
     locked: tuple[tuple[str, ...], ...] = ()
-    """Combinations of `closed` elements that lock the train or contradict its inputs."""
+    """Combinations of `closed` shift elements that lock the train or contradict its inputs."""
     requested: int = 0
     """Requested number of gears in a series; 0 if no series was requested."""
     series: int = 0
-    """Number of series whose steps and shifts satisfy the request; 0 if no series was requested."""
+    """Number of gear series whose steps and shifts satisfy the request; 0 if no series was requested."""
     widest: GearSeries | None = None
     """Gear series with the maximum spread; None if no series satisfies the request."""
     evenest: GearSeries | None = None
-    """Gear series with the minimum deviation of the steps; None if no series satisfies the request."""
+    """Gear series with the minimum standard deviation of the logarithmic steps; None if no series satisfies the
+    request.
+    """
 
     def _summary(self) -> str:
         ways = f"{self.combinations} combinations of {self.closed} closed elements"
@@ -158,7 +166,7 @@ def find_gears(
     -------
     GearSearch
         All gears with exact ratios, and the requested series. Combinations have the minimum number of closed elements
-        with which the speeds can be determined.
+        that determines all speeds.
 
     Raises
     ------
@@ -189,8 +197,8 @@ def find_gears(
 
 
 def _rank(gear: PossibleGear) -> tuple[int, Fraction]:
-    """Return the sort key of a gear: forward gears, then reverse gears, both in order of decreasing magnitude of the
-    ratio, then gears with the output at rest.
+    """Return the sort key of a gear. Forward gears come first, then reverse gears, both in order of decreasing
+    magnitude of the ratio, then gears whose output is at rest.
     """
     return (2, Fraction(0)) if gear.ratio is None else (int(gear.ratio < 0), -abs(gear.ratio))
 
@@ -200,10 +208,10 @@ def _is_single(one: PossibleGear, other: PossibleGear) -> bool:
 
 
 def _all_gears(train: GearTrain, source: str, link: str) -> GearSearch:
-    """Return all gears with the minimum number of closed elements that can determine the speeds, without searching for
-    series.
+    """Return all gears that have the minimum number of closed elements, without a search for series.
 
-    All such combinations have the same size, because they are the bases of a matroid.
+    This is the number of closed elements that is required to determine all speeds. All such combinations have the same
+    size, because they are the bases of a matroid.
     """
     declared = train.declaration
     names: dict[frozenset[str], list[str]] = {}
@@ -237,7 +245,7 @@ def _all_gears(train: GearTrain, source: str, link: str) -> GearSearch:
 # ------------------------------------------------------------------------------------------------- series, as paths
 
 Links = Mapping[int, Sequence[int]]
-"""Indices of the gears that may follow each gear in a series, by index of the gear (adjacency list)."""
+"""Indices of the gears that may follow a gear in a series, keyed by the index of the gear (adjacency list)."""
 
 
 def _links(gears: Sequence[PossibleGear], low: Fraction, high: Fraction, single: bool) -> Links:
@@ -255,14 +263,18 @@ def _links(gears: Sequence[PossibleGear], low: Fraction, high: Fraction, single:
 
 
 _Found = tuple[int, GearSeries | None, GearSeries | None]
-"""Number of series, the series with maximum spread, and the series with minimum deviation; None without a series."""
+"""Number of series, series with the maximum spread, and series with the minimum deviation. Both series are None if
+there is no series.
+"""
 _Way = tuple[float, int, tuple[int, ...]]
-"""Sum of squares or variance of the logarithmic steps, number of double shifts, and gears of a series, by index."""
+"""Sum of squares or variance of the logarithmic steps, number of double shifts, and indices of the gears of a
+series.
+"""
 
 
 def _series(gears: Sequence[PossibleGear], links: Links, number: int) -> _Found:
-    """Count the series of `number` gears, and find the series with the maximum spread and with the minimum variance of
-    the logarithmic steps, by dynamic programming.
+    """Count the series of `number` gears by dynamic programming, and find the series with the maximum spread and the
+    series with the minimum variance of the logarithmic steps.
 
     If the first and the last gear are given, the mean logarithmic step is fixed, so the series with the minimum sum of
     squares also has the minimum variance. Ties in spread are broken by variance, and ties in variance by the number of
@@ -284,8 +296,8 @@ def _series(gears: Sequence[PossibleGear], links: Links, number: int) -> _Found:
 
 
 def _series_from(start: int, gears: Sequence[PossibleGear], links: Links, number: int) -> dict[int, tuple[_Way, int]]:
-    """Return for each last gear the series from `start` with the minimum sum of squared logarithmic steps, and the
-    number of series that end at this gear.
+    """Return, for each last gear, the best series that starts with gear `start`, and the number of such series. The
+    best series has the minimum sum of squared logarithmic steps.
     """
     logs = [log(each.ratio or 1) for each in gears]
     reach: dict[int, tuple[_Way, int]] = {start: ((0.0, 0, (start,)), 1)}

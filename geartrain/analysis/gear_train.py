@@ -86,7 +86,7 @@ class GearTrain:
         method : {"auto", "exact", "sparse"}
             "auto" is "exact" unless the coupled system is too dense. "sparse" factorises `equations().matrix()` in
             float64 and reports residuals, condition numbers and errors; "floats" is an older name of "sparse". If a
-            train mixes speeds in radians and in turns, all speeds are floats with any method.
+            train contains speeds in radians and speeds in turns, every method returns all speeds as floats.
 
         Returns
         -------
@@ -135,10 +135,9 @@ class GearTrain:
         turns : float, optional
             Revolutions of the input in the run, greater than 0. The torque is computed at every position of the run,
             with the instantaneous ratio and friction of teeth, pins and bearings. By default, torques are computed
-            exactly
-            at mean speeds.
+            exactly at the mean speeds.
         samples : int
-            Number of positions in the run, at least 2; positions at kinks and jumps are added.
+            Number of positions in the run, at least 2. Positions at kinks and jumps of the ratios are added.
         of : str, optional
             Link whose torque over the run is requested; by default the crank, or else the input.
         on_done : callable, optional
@@ -179,7 +178,8 @@ class GearTrain:
         outputs : sequence of str
             Names of outputs or links; by default all outputs, or all links if the train has no outputs.
         without : sequence of str
-            Names of pairs to omit, because the transmission errors in their loops are incompatible.
+            Names of pairs to omit. This is necessary if the transmission errors of the pairs in a loop are
+            incompatible.
 
         Returns
         -------
@@ -189,8 +189,8 @@ class GearTrain:
         Raises
         ------
         QuestionError
-            If the train does not move, if a pair or output is not declared, or if clutches drive a requested output in
-            steps.
+            If the train does not move, if a pair or output is not declared, or if clutches drive a requested output
+            stepwise.
         """
         from geartrain.dynamics.motion.motion_model import Motion
         from geartrain.dynamics.motion.motion_problem import find_motion_problem
@@ -238,7 +238,8 @@ class GearTrain:
         state : str, optional
             Name of a state; by default the first state, or all states for "lever".
         turns : Fraction
-            Revolutions of the input from the pose in which all angles are 0; used by "plan" and "dials".
+            Revolutions of the input from the pose in which all angles are 0. Only "plan" and "dials" use this
+            parameter.
         labels : bool
             True to add names and tooth counts.
         outputs : sequence of str
@@ -262,8 +263,8 @@ class GearTrain:
 
     @classmethod
     def declare(cls, data: Mapping[str, Any]) -> GearTrain:
-        """Build a train from plain data; circuits and the prescriptions of each state are computed when they are first
-        requested.
+        """Build a train from plain data. The circuits, and the speeds and loads prescribed in each state, are computed
+        when they are first requested.
 
         Parameters
         ----------
@@ -311,20 +312,24 @@ class GearTrain:
     def meshes(self) -> tuple[GearMesh, ...]:
         """Gear pairs with a tooth form, each with its transmission function; empty if no form is declared.
 
-        The driving wheel of a pair is that of the first state in which it is determined. `mechanics.meshes_in` returns
-        the pairs with the driving wheels in another state.
+        The driving wheel of a pair is taken from the first state in which it is determined. `mechanics.meshes_in`
+        returns the pairs with the driving wheels in another state.
         """
         return self.mechanics.meshes
 
     # ------------------------------------------------------------------------------------------ speeds and equations
 
     def answers(self) -> Iterator[Answer]:
-        """Yield the solved speeds of every state in the order of declaration; one answer if the train has no states."""
+        """Yield the solved speeds of every state in the order of declaration. If the train has no states, yield one
+        answer.
+        """
         return (self.solve(state) for state in (self.states or (None,)))
 
     @property
     def mobility(self) -> Mobility:
-        """Mobility by counting and by exact rank, with redundant and locking loops (docs/theory.md, 6)."""
+        """Mobility of the train by the counting formula and by exact rank, with redundant and locking loops
+        (docs/theory.md, 6).
+        """
         return self.kinematics.mobility
 
     def equations(self, state: str | None = None) -> WillisSystem:
@@ -441,15 +446,17 @@ class GearTrain:
 
     @cached_property
     def build_findings(self) -> tuple[BuildFinding, ...]:
-        """Findings of the buildability check: parts that cannot be built, or are inadvisable (docs/buildability.md)."""
+        """Findings of the buildability check: parts that cannot be built or whose design is inadvisable
+        (docs/buildability.md).
+        """
         from geartrain.dynamics.train_check import find_build_findings
 
         return find_build_findings(self.mechanics)
 
     @cached_property
     def closure(self) -> MeshPhasing:
-        """Assembly condition of the train: phases of the teeth in every loop of pairs at the declared positions of
-        axes, and mounting angles of the wheels.
+        """Assembly condition of the train: phases of the teeth in every loop of pairs at the declared axis positions,
+        and mounting angles of the wheels.
         """
         from geartrain.kinematics.phasing import find_phasing
 
@@ -459,14 +466,15 @@ class GearTrain:
     # ------------------------------------------------------------------------------------ loads, and motion in time
 
     def driven(self, load: str, source: str, state: str | None = None) -> Torques:
-        """Compute the torques if the link `source` drives and a unit of power leaves the train at the link `load`.
+        """Compute the torques for the case that the link `source` drives and unit power leaves the train at the link
+        `load`.
 
         The result contains the efficiency in this direction, or reports self-locking.
 
         Parameters
         ----------
         load, source : str
-            Link at which the power leaves the train, and link at which it enters the train.
+            Links at which the power leaves and enters the train, respectively.
         state : str, optional
             A declared state; None only if the train has no states.
         """
@@ -545,7 +553,7 @@ class GearTrain:
             Speed of the first turning input, in its declared sense, as a string such as "1 turn/s" or a number [rad/s];
             by default, the declared drive is used.
         turns : float
-            Number of revolutions of this input that are evaluated, in its mean motion.
+            Number of revolutions of the mean motion of this input that are evaluated.
         state : str, optional
             A declared state; None only if the train has no states.
         skip : float
@@ -557,7 +565,8 @@ class GearTrain:
         outputs : sequence of str
             Names of outputs or links; by default all outputs, or all links if the train has no outputs.
         without : sequence of str
-            Names of pairs to omit, because the transmission errors in their loops are incompatible.
+            Names of pairs to omit. This is necessary if the transmission errors of the pairs in a loop are
+            incompatible.
         samples : int, optional
             Number of samples that are recorded; by default 12 per shortest period of a pair, at most 40000.
         fast : bool, optional
@@ -757,7 +766,9 @@ class GearTrain:
 
     @property
     def unfolded(self) -> GearTrain:
-        """Train in which each equal planet (`copies`) is declared as a separate link; self if there are none."""
+        """Train in which each equal planet (`copies`) is declared as a separate link; the same object if the train has
+        no such planets.
+        """
         # not cached if it is the train itself, which would be a reference cycle
         return self._unfolded if has_copies(self.declaration) else self
 
@@ -769,14 +780,14 @@ class GearTrain:
 
     @cached_property
     def kinematics(self) -> TrainKinematics:
-        """Results that do not depend on tooth forms: tree of turning pairs, senses of axes, inputs and brakes of each
-        state, gridlock, float speeds, and sensitivity to tooth counts.
+        """Results that do not depend on tooth forms: tree of turning pairs, rotation senses of axes, inputs and brakes
+        of each state, gridlock, floating-point speeds, and sensitivity to tooth counts.
         """
         return TrainKinematics(self.declaration)
 
     @cached_property
     def mechanics(self) -> TrainMechanics:
-        """Results that depend on tooth forms and loads: drivers of pairs, transmission errors, and torques."""
+        """Results that depend on tooth forms and loads: driving wheels of pairs, transmission errors, and torques."""
         from geartrain.dynamics.train_mechanics import TrainMechanics
 
         return TrainMechanics(self.kinematics)
@@ -822,8 +833,8 @@ def load(source: str | Path | Mapping[str, Any]) -> GearTrain:
     Returns
     -------
     GearTrain
-        Train with its circuits and the prescriptions of its states; all other results are computed when they are first
-        requested.
+        Train with its circuits and the speeds and loads prescribed in its states. All other results are computed when
+        they are first requested.
 
     Raises
     ------

@@ -38,95 +38,103 @@ class GearState(Result):
     state: str
     """Name of the state."""
     engaged: tuple[str, ...]
-    """Names of the closed clutches and brakes, including one-way clutches that hold."""
+    """Names of the closed clutches and brakes, including one-way clutches that are engaged."""
     verdict: Verdict
     """Verdict on the speeds. A neutral state is free, and a park state is locked."""
     ratio: Fraction | None
-    """Speed of the input divided by the speed of the output; None if one of them is at rest or undetermined."""
+    """Speed of the input divided by the speed of the output [1]; None if one of the two links is at rest or its speed
+    is undetermined.
+    """
     step: Fraction | None
-    """Ratio of this state divided by the ratio of the next state. None for the last state, if one of the two states has
-    no ratio, or if the signs of the ratios differ.
+    """Ratio of this state divided by the ratio of the next state [1]. None if this is the last state, if one of the two
+    states has no ratio, or if the ratios have opposite signs.
     """
     driven_by: str
-    """Link whose speed is the unit of `speeds` and `slips`: the input, or another input that turns if the input is at
-    rest. Empty if no input turns; `speeds` and `slips` then have the unit of the train.
+    """Name of the link whose speed is the unit of `speeds` and `slips`: the input, or another turning input if the
+    input is at rest. If no input turns, this name is empty, and `speeds` and `slips` are in the speed unit of the
+    train.
     """
     speeds: Mapping[str, Fraction]
-    """Speed of each link whose speed is determined, divided by the speed of `driven_by`."""
+    """Speed of each link divided by the speed of `driven_by`. Links whose speed is undetermined are omitted."""
     slips: Mapping[str, Fraction]
-    """Slip speed of each open element, divided by the speed of `driven_by`. The slip of a brake is the speed of its
-    link, and the slip of a clutch is the speed of its first link relative to its second. Elements whose slip is
-    undetermined are omitted.
+    """Slip speed of each open clutch or brake, divided by the speed of `driven_by`. The slip of a brake is the speed of
+    its link, and the slip of a clutch is the speed of its first link relative to its second link. Elements whose slip
+    is undetermined are omitted.
     """
     torques: Mapping[str, Fraction | None]
-    """Torque that each closed element exerts on its link (for a clutch, on its first link), divided by the torque of
-    the input; None if it is statically indeterminate. Empty if the torques of the train are not determined.
+    """Torque that each closed brake exerts on its link, or each closed clutch on its first link, divided by the torque
+    of the input. The value is None if the torque is statically indeterminate. The mapping is empty if the torques of
+    the train are not determined.
     """
     efficiency: Fraction | float | None
     """Output power divided by input power; None if the torques are not determined."""
     recirculating: Fraction | None
-    """Power that recirculates between gear sets, divided by input power; None if the torques are not determined."""
+    """Power that recirculates between gear sets, divided by the input power; None if the torques are not determined."""
     mesh_power: Fraction | None
-    """Maximum power through a pair relative to its carrier, divided by the input power; 0 if all links turn as one
-    body. None if the torques are not determined.
+    """Maximum power that a pair transmits relative to its carrier, divided by the input power; 0 if all links turn as
+    one body. None if the torques are not determined.
     """
     one_way: tuple[str, ...] = ()
-    """Names of the one-way clutches that hold and transmit a torque. They hold only while the input drives."""
+    """Names of the one-way clutches that are engaged and transmit a torque. They remain engaged only while the input
+    drives.
+    """
 
     @property
     def applied(self) -> tuple[str, ...]:
-        """Names of the closed clutches and brakes that are actuated; one-way clutches are omitted."""
+        """Names of the closed clutches and brakes that are actuated. One-way clutches are omitted."""
         return tuple(name for name in self.engaged if name not in self.one_way)
 
 
 @dataclass(frozen=True)
 class Shift(Result):
-    """Shift from one state of a gearbox to a following state, with the elements that open and those that close."""
+    """Shift from one state of a gearbox to the next state that has a ratio, with the elements that open and the
+    elements that close.
+    """
 
     KEYS = ("before", "after", "released", "applied", "is_double")
 
     before: str
-    """State before the shift."""
+    """Name of the state before the shift."""
     after: str
-    """State after the shift."""
+    """Name of the state after the shift."""
     released: tuple[str, ...]
-    """Names of the clutches and brakes that open."""
+    """Names of the clutches and brakes that open. One-way clutches are omitted."""
     applied: tuple[str, ...]
-    """Names of the clutches and brakes that close."""
+    """Names of the clutches and brakes that close. One-way clutches are omitted."""
 
     @property
     def is_double(self) -> bool:
-        """True if more than one element opens or more than one closes (double-transition shift)."""
+        """True if more than one element opens or more than one element closes (double-transition shift)."""
         return max(len(self.released), len(self.applied)) > 1
 
 
 @dataclass(frozen=True)
 class ShiftElement(Result):
-    """Clutch or brake, with its maximum torque and its maximum slip over all states."""
+    """Clutch or brake, with its maximum torque and its maximum slip speed over all states of the gearbox."""
 
     KEYS = ("name", "kind", "states", Key("torque", to=as_float), "torque_state", "slip", "slip_state")
 
     name: str
     """Name of the clutch or brake."""
     kind: ElementKind
-    """Kind of the element: "brake" or "clutch", with "one-way " before it for a one-way clutch."""
+    """Kind of the element: "brake", "clutch", "one-way brake" or "one-way clutch"."""
     states: tuple[str, ...]
-    """States in which the element is closed."""
+    """Names of the states in which the element is closed."""
     torque: Fraction | None
-    """Torque with maximum magnitude over all states, divided by the torque of the input; None if undetermined."""
+    """Torque of maximum magnitude over all states, divided by the torque of the input; None if it is undetermined."""
     torque_state: str
-    """State in which `torque` occurs; empty if `torque` is None."""
+    """Name of the state in which `torque` occurs; empty if `torque` is None."""
     slip: Fraction | None
-    """Slip speed with the maximum magnitude while the element is open, divided by the speed of the state's link
-    `driven_by`; None if it is not determined in any state.
+    """Slip speed of maximum magnitude over all states in which the element is open, divided by the speed of the link
+    `driven_by` of that state; None if the slip is undetermined in every state.
     """
     slip_state: str
-    """State in which `slip` occurs; empty if `slip` is None."""
+    """Name of the state in which `slip` occurs; empty if `slip` is None."""
 
 
 @dataclass(frozen=True)
 class Gearbox(Tabular, Result):
-    """Results of all states of a train with clutches.
+    """Results for all states of a train with clutches.
 
     See Also
     --------
@@ -156,11 +164,11 @@ class Gearbox(Tabular, Result):
     output: str
     """Name of the output link."""
     states: tuple[GearState, ...]
-    """States in the order of declaration."""
+    """Results of all states, in the order of declaration."""
     elements: tuple[ShiftElement, ...]
     """Clutches and brakes in the order of declaration."""
     shifts: tuple[Shift, ...]
-    """Shifts between consecutive states with a ratio, if both ratios have the same sign."""
+    """Shifts between consecutive states that have ratios of the same sign. States without a ratio are skipped."""
 
     def _summary(self) -> str:
         ratios = ", ".join(f"{each.state} {float(each.ratio):.4g}" for each in self.states[:6] if each.ratio)
@@ -169,7 +177,7 @@ class Gearbox(Tabular, Result):
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
         """Columns of a table with one row for each state: closed elements, ratio, step, efficiency, recirculating
-        power, and link speeds divided by the speed of `driven_by`.
+        power, and speeds of the links divided by the speed of `driven_by`.
         """
         links = dict.fromkeys(link for each in self.states for link in each.speeds)
         numbers = {
@@ -186,7 +194,7 @@ class Gearbox(Tabular, Result):
 
     @property
     def spread(self) -> Fraction | None:
-        """Maximum ratio divided by minimum ratio of the forward states; None without forward states."""
+        """Maximum ratio of the forward states divided by their minimum ratio [1]; None if there is no forward state."""
         ratios = [each.ratio for each in self.states if each.ratio is not None and each.ratio > 0]
         return max(ratios) / min(ratios) if ratios else None
 
@@ -207,7 +215,9 @@ def find_gearbox(train: TrainMechanics, output: str | None = None) -> Gearbox:
 
 
 def gearbox_ends(declared: Train, output: str | None) -> tuple[str, str]:
-    """Return the names of the input link and the output link; raise `QuestionError` if the train is not a gearbox."""
+    """Return the names of the input link and the output link. `QuestionError` is raised if the train is not a
+    gearbox.
+    """
     if not declared.clutches or not declared.states:
         what = f"'{declared.name}' is not a gearbox"
         why = "a gearbox declares `clutches`, and `states` that engage them"
@@ -261,7 +271,9 @@ def _state(train: TrainMechanics, answer: Answer, source: str, link: str) -> Gea
 
 
 def _slip(speeds: Mapping[str, Fraction], clutch: Clutch) -> Fraction | None:
-    """Return the slip speed of a clutch (first link relative to second) or brake (its link) in the unit of `speeds`."""
+    """Return the slip speed of a clutch (its first link relative to its second) or of a brake (its link) in the unit of
+    `speeds`; None if it is undetermined.
+    """
     one, other = clutch.locks or (clutch.fixes or "", "")
     if one not in speeds or (other and other not in speeds):
         return None
@@ -269,14 +281,18 @@ def _slip(speeds: Mapping[str, Fraction], clutch: Clutch) -> Fraction | None:
 
 
 def _load(train: TrainMechanics, state: str, source: str, link: str) -> Torques | None:
-    """Return the torques if the input drives and unit power leaves at the output; None if they are undetermined."""
+    """Return the torques for the case that the input `source` drives and unit power leaves the train at the output
+    `link`; None if the torques are undetermined.
+    """
     found = solve_driven(train, link, source, state)
     # torques are divided by the input torque, so a torque of 0 counts as undetermined
     return found if found.verdict and found.external.get(source) else None
 
 
 def _torques(load: Torques, source: str, engaged: Mapping[str, tuple[str, ...]]) -> dict[str, Fraction | None]:
-    """Return the torque of each closed element; `engaged` maps the name of an element to the links that it holds."""
+    """Return the torque of each closed element, keyed by element name. `engaged` maps the name of each element to the
+    names of the links that it connects or brakes.
+    """
     drive, held = load.external[source], {each.links: each.torques for each in load.held}
     known = {name: held[links] for name, links in engaged.items() if links in held}
     # elements that hold the same links share their torque in an unknown ratio
@@ -285,7 +301,9 @@ def _torques(load: Torques, source: str, engaged: Mapping[str, tuple[str, ...]])
 
 
 def _circulation(load: Torques) -> Fraction | None:
-    """Return the power that recirculates between gear sets, divided by input power; None if the input power is 0."""
+    """Return the power that recirculates between gear sets, divided by the input power; None if the input power is
+    0.
+    """
     flow = find_power_flow(load)
     if not flow.power_in:
         return None
@@ -294,9 +312,9 @@ def _circulation(load: Torques) -> Fraction | None:
 
 
 def _between_sets(load: Torques, flow: PowerFlow) -> list[PowerStream]:
-    """Return the power streams with all pairs of a gear set merged into one node.
+    """Return the power streams between gear sets. All pairs of a gear set are merged into one node.
 
-    A gear set is a group of pairs with the same carrier that are connected by shared links other than the carrier.
+    A gear set is a group of pairs that have the same carrier and are connected by links other than the carrier.
     """
     sets: dict[str, str] = {}
     for carrier in dict.fromkeys(pair.links[2] for pair in load.pairs.values()):

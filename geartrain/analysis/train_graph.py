@@ -1,4 +1,4 @@
-"""Graph of a train with attributes of its links and pairs, which are computed on first access."""
+"""Graph of a train. The attributes of its links and pairs are computed on first access."""
 
 from __future__ import annotations
 
@@ -72,7 +72,8 @@ def build_train_graph(train: TrainMechanics, state: str | None = None) -> Graph:
     Nodes have the attributes `declared`, `frame` (True for the fixed link), `wheels`, `reference` (the link that
     carries its axis) and `speed`. Edges have the attributes `kind`, `label`, `declared` and `axis`; edges of pairs also
     have `circuit`, `carrier`, `ratio`, `form`, `transmission`, `mesh` and `efficiency` (docs/library.md, 2). Attributes
-    that are not declared are computed when they are read, so that a train without a solution has a graph too.
+    that are not declared are computed when they are read, so a graph can also be built for a train whose speeds cannot
+    be solved.
 
     Parameters
     ----------
@@ -113,7 +114,9 @@ def build_train_graph(train: TrainMechanics, state: str | None = None) -> Graph:
 
 
 def _frozen(graph: Graph) -> Graph:
-    """Return the graph with frozen nodes, edges and declared attributes; other attributes can be added."""
+    """Return the graph with its nodes, its edges and their declared attributes made read-only. Users can still add
+    other attributes.
+    """
     before = {"frozen", *vars(graph)}
     nx.freeze(graph)
     for name in vars(graph).keys() - before:  # methods replaced by nx.freeze
@@ -125,13 +128,15 @@ def _frozen(graph: Graph) -> Graph:
 
 
 class _GraphFacts:
-    """Values of attributes of a train in one state, each computed once for all nodes and edges."""
+    """Attribute values of the links and pairs of a train in one state. Each value is computed only once."""
 
     def __init__(self, train: TrainMechanics, state: str | None) -> None:
         self._train, self._state = train, state
 
     def reference(self, link: str) -> str | None:
-        """Return the link that carries the axis of `link` and relative to which it turns; None for the frame."""
+        """Return the link that carries the axis of `link`, so that the rotation of `link` is measured relative to it;
+        None for the frame.
+        """
         return self._train.tree.top.get(link)
 
     def speed(self, link: str) -> SpeedValue | None:
@@ -144,7 +149,7 @@ class _GraphFacts:
         return self._circuits[name].carrier
 
     def ratio(self, name: str) -> Fraction:
-        """Return the speed of the first link of a circuit divided by the speed of the second link, both relative to the
+        """Return the speed of the first link of a circuit divided by the speed of its second link, both relative to the
         carrier.
         """
         return self._circuits[name].ratio
@@ -155,13 +160,14 @@ class _GraphFacts:
 
     def mesh(self, name: str) -> GearMesh | CouplingMesh | None:
         """Return the gear pair with its tooth geometry and its driving wheel in this state, or the coupling with its
-        dimensions; None for a pair or coupling without teeth or dimensions.
+        dimensions. Return None if the teeth of the pair or the dimensions of the coupling are not declared.
         """
         return self._meshes.get(name)
 
     def transmission(self, name: str) -> TransmissionFunction:
-        """Return the transmission function of a mesh with its driving wheel in this state, or of a coupling; without
-        tooth form or dimensions, a constant ratio with the first wheel, or the driving link of the coupling, as driver.
+        """Return the transmission function of a gear pair or coupling in this state. Without a declared tooth form or
+        dimensions, the function has a constant ratio, and the driver is the first wheel of the pair or the driving link
+        of the coupling.
         """
         from geartrain.teeth.transmission import ExactRatio
 
@@ -173,7 +179,9 @@ class _GraphFacts:
         return ExactRatio(abs(Fraction(driver, driven)), 2 * pi / (abs(driver) if circuit.kind == "gear" else 1))
 
     def efficiency(self, name: str) -> tuple[Fraction | float, Fraction | float]:
-        """Return the basic efficiencies of a pair with the first and with the second link of its circuit driving."""
+        """Return the basic efficiency of a pair when the first link of its circuit drives, and its basic efficiency
+        when the second link drives.
+        """
         from geartrain.dynamics.torques.mean_efficiencies import find_mean_efficiencies
 
         found = find_mean_efficiencies(self._losses, self._circuits[name])
@@ -194,7 +202,9 @@ class _GraphFacts:
 
     @cached_property
     def _losses(self) -> LoadCase:
-        """Load case with fixed carriers, in which the losses of a pair do not depend on the speeds of the train."""
+        """Load case in which all carriers are fixed, so that the losses of a pair do not depend on the speeds of the
+        train.
+        """
         from geartrain.dynamics.torques.load_case import LoadCase
 
         own = self._train

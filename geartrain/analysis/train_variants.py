@@ -1,4 +1,4 @@
-"""Speeds of outputs for many combinations of tooth counts at once, by exact formulas."""
+"""Speeds of outputs for many combinations of tooth counts, computed together by exact formulas."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ MOST_VARIANTS = 100_000_000  # 0.8 GB for each column of float64
 
 @dataclass(frozen=True)
 class TrainVariants(Tabular, Result):
-    """Table of the speeds of outputs for combinations of tooth counts.
+    """Table of the speeds of outputs for many combinations of tooth counts.
 
     For a table `found`, `found["moon"]` is the column of the output or wheel "moon".
 
@@ -39,15 +39,19 @@ class TrainVariants(Tabular, Result):
     outputs: tuple[str, ...]
     """Names of the outputs, in the order of the columns of `speeds` and `errors`."""
     counts: Ints
-    """Tooth counts, with one combination per row, shape (n, wheels); the last wheel varies fastest."""
+    """Tooth counts, one combination per row, shape (n, wheels), where n is the number of combinations; the tooth count
+    of the last wheel varies fastest.
+    """
     speeds: Floats
-    """Speeds of the outputs [unit of the train], shape (n, outputs); NaN if the train is locked or free, or if the
-    tooth counts do not satisfy the condition of a closed loop.
+    """Speeds of the outputs [unit of the train], shape (n, outputs), where n is the number of combinations. NaN if the
+    train is locked or free, or if the tooth counts do not satisfy the condition of a closed loop.
     """
     errors: Floats
-    """Bounds on the relative errors of the speeds, shape (n, outputs); infinite if no digit is certain."""
+    """Upper bounds on the relative errors of the speeds, shape (n, outputs), where n is the number of combinations;
+    infinite if no digit of the speed is certain.
+    """
     formulas: Formulas
-    """Exact formulas of the outputs; the method `exact` evaluates them."""
+    """Exact formulas of the output speeds. The method `exact` evaluates them."""
 
     def __len__(self) -> int:
         return len(self.counts)
@@ -59,7 +63,7 @@ class TrainVariants(Tabular, Result):
         return "Tooth count of the wheel." if column in self.wheels else "Speed of the output [unit of the train]."
 
     def __getitem__(self, name: str) -> Any:
-        """Return the column of an output or a wheel; raise `KeyError` for any other name."""
+        """Return the column of an output or a wheel. `KeyError` is raised for any other name."""
         if name in self.outputs:
             return self.speeds[:, self.outputs.index(name)]
         if name in self.wheels:
@@ -67,7 +71,7 @@ class TrainVariants(Tabular, Result):
         raise KeyError(f"no column '{name}'; columns are {', '.join((*self.wheels, *self.outputs))}")
 
     def exact(self, row: int, output: str) -> Fraction | None:
-        """Return the exact speed of one output for one combination; None if it is undetermined.
+        """Return the exact speed of one output for one combination of tooth counts; None if the speed is undetermined.
 
         Parameters
         ----------
@@ -81,7 +85,7 @@ class TrainVariants(Tabular, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Columns of a table: tooth counts of each wheel, and speeds of each output."""
+        """Columns of a table with one row for each combination: tooth count of each wheel and speed of each output."""
         return {name: self[name] for name in (*self.wheels, *self.outputs)}
 
 

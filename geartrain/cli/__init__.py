@@ -4,7 +4,7 @@ verbs           groups of commands, imported on request; exit codes
 common          options that commands share, loading of trains, output of results
 option_values   parsers of option values; `long_runs` has progress bars, journals, and options of dynamics
 declarations    `init`, `format`, `list`, `periods`; `check`, `solve`, `gearbox` have modules of their own
-inspection      a group of commands: `equations`, `formula`, `graph`, `bench`, `schema`
+inspection      commands `equations`, `formula`, `graph`, `bench`, `schema`
 report          `report`, `compare`; `draw` writes pictures, `view` has `view` and `watch`
 torques, motion, sphere
 mesh            a pair of wheels of any tooth form, with `pair_options`; `pin` in a slot
@@ -27,7 +27,7 @@ from geartrain.cli.verbs import EndingGroup, LazyGroup, Verbs, guarded
 
 
 class VerbGroup(EndingGroup, LazyGroup):
-    """Group of all commands of `geartrain`, each of which is imported when it is used."""
+    """Group of all commands of `geartrain`. A command is imported when it is used."""
 
     verbs = Verbs(
         {
@@ -103,7 +103,9 @@ def _root(
 
 
 def _start_lightly() -> None:
-    """Reduce the run time of short commands: collect garbage less often, and do not search for pydantic plugins."""
+    """Reduce the start-up time of short commands: collect garbage less often, and do not search for
+    pydantic plugins.
+    """
     # modules and models are about 100,000 long-lived objects: a collection after every 700 new ones takes a tenth of
     # the time of a short command, and the final collection at exit takes a quarter
     gc.set_threshold(100_000, 20, 20)
@@ -116,7 +118,7 @@ def main(name: str = "geartrain") -> None:
     """Run the command line and exit. The exit code is 2 for invalid input, which is reported on standard error, and 3
     for internal errors.
 
-    name   program name in usage and help, as a user types it to start the program
+    name   program name shown in usage messages and help
     """
     _start_lightly()
     sys.exit(guarded(partial(app, prog_name=name)))

@@ -1,4 +1,4 @@
-"""Arguments, exit codes and output that the commands share."""
+"""Arguments, exit codes and output functions that the commands share."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ Seed = Annotated[int, typer.Option("--seed", min=0, help="Random seed.")]
 
 
 def load_all(files: list[str]) -> list[GearTrain]:
-    """Load all trains. Raise one `GearTrainError` with the problems of every file that cannot be read."""
+    """Load all trains. If files cannot be read, raise one `GearTrainError` with the problems of all these files."""
     from geartrain.analysis.gear_train import load
 
     trains: list[GearTrain] = []
@@ -77,21 +77,25 @@ def load_all(files: list[str]) -> list[GearTrain]:
 
 
 def is_sound(train: GearTrain, state: str | None) -> bool:
-    """Return True if the named state (by default the first) is determined and as expected, and the teeth have no
-    faults.
+    """Return True if the speeds in the named state (None: the first state) are determined and as expected, and no teeth
+    are faulty.
     """
     return bool(train.solve(train.declaration.state_or_first(state))) and not train.mechanics.faults
 
 
 def exit_code(sound: bool, to: Sink) -> int:
-    """Return the exit code; if the output is a file, report on standard error that a train is not as expected."""
+    """Return the exit code of a command. If `sound` is False and the output is a file, also print a note on standard
+    error that a train is not as expected.
+    """
     if not sound and to.path is not None:
         tell("a train is not determined, or not as expected: `geartrain check` lists why (exit code 1)")
     return GOOD if sound else VERDICT
 
 
 def chosen_states(train: GearTrain, state: str | None) -> tuple[str | None, ...]:
-    """Return the named state, or all states with computable speeds; report each omitted state on standard error."""
+    """Return the named state, or all states with computable speeds if `state` is None. Each omitted state is reported
+    on standard error.
+    """
     if state is not None:
         return (state,)
     for case in train.kinematics.cases.values():
@@ -101,7 +105,7 @@ def chosen_states(train: GearTrain, state: str | None) -> tuple[str | None, ...]
 
 
 def option_error(place: str, what: str, fix: str, why: str = "") -> QuestionError:
-    """Return an error that is reported at an argument or option of the command line."""
+    """Return an error whose location `place` is an argument or option of the command line."""
     return QuestionError(Problem(what, why, fix, place))
 
 
@@ -111,7 +115,7 @@ def tell(text: str) -> None:
 
 
 def complain(error: GearTrainError) -> None:
-    """Print every problem on standard error."""
+    """Print every problem that an error contains on standard error."""
     for problem in error.problems:
         tell(f"error: {problem}")
 
@@ -125,19 +129,21 @@ class Sink:
     force: bool = False
     """True to overwrite an existing file."""
     plain: bool = False
-    """True if standard output was requested as `-`; it then receives the content of a file."""
+    """True if the user wrote `-` for standard output, which then receives the content of the file."""
     form: str = ""
-    """Suffix that sets the format of standard output, as in `-.csv`."""
+    """Suffix that sets the format of standard output, such as `.csv` in `-.csv`; empty if the user gave no suffix."""
     theme: ThemeName = "light"
     """Colour theme of a picture: light, dark or print."""
 
     @property
     def suffix(self) -> str:
-        """Suffix of the file or of standard output in lower case; "" if there is none."""
+        """Suffix of the file or of standard output, in lower case; an empty string if there is no suffix."""
         return self.path.suffix.lower() if self.path is not None else self.form
 
     def write(self, data: bytes, said: str = "") -> None:
-        """Write a complete result to standard output, or atomically to the file; then report its name and `said`."""
+        """Write a complete result to standard output, or atomically to the file. After writing a file, print its name,
+        followed by `said`, on standard error.
+        """
         if self.path is None:
             # text printed so far must precede the bytes
             sys.stdout.flush()
@@ -161,7 +167,7 @@ def is_standard(out: Path) -> bool:
 def sink(out: Path | None, force: bool, allowed: Collection[str] = (), option: str = "-o") -> Sink:
     """Return the destination of a result, after checking that it can be written.
 
-    allowed   allowed suffixes; empty for all
+    allowed   allowed suffixes; all suffixes are allowed if empty
 
     Raises `GearTrainError` if the file cannot be written, or if packages that an HTML page needs are not installed.
     """
@@ -204,7 +210,7 @@ def check_distinct_outputs(*sinks: Sink) -> None:
 
 
 def emit(text: str, out: Sink = STANDARD) -> None:
-    """Write text atomically to a file, or print it; control characters in it are escaped."""
+    """Write text atomically to a file, or print it. Control characters in the text are escaped."""
     text = printable(text)
     text = text if text.endswith("\n") else text + "\n"
     if out.path is None:
@@ -214,8 +220,8 @@ def emit(text: str, out: Sink = STANDARD) -> None:
 
 
 def show(documents: Sequence[Document], out: Sink, suffix: str | None = None) -> None:
-    """Write documents to an HTML or Markdown file, or print them at the width of the terminal (80 columns in a
-    pipe).
+    """Write documents to an HTML or Markdown file, or print them at the width of the terminal (80 columns if the output
+    is piped).
     """
     from geartrain.report.text import to_markdown, to_terminal, to_text
 
@@ -236,7 +242,9 @@ def show(documents: Sequence[Document], out: Sink, suffix: str | None = None) ->
 
 
 def give(out: Sink, json: bool, data: Callable[[], Any], documents: Callable[[], Sequence[Document]]) -> None:
-    """Write a result as JSON if requested by option or suffix, otherwise as documents; compute only this format."""
+    """Write a result as JSON if the --json option or the file suffix requests it; otherwise write it as documents. Only
+    the requested format is computed.
+    """
     if json or out.suffix == ".json":
         emit(as_json(data()), out)
     else:
@@ -244,14 +252,16 @@ def give(out: Sink, json: bool, data: Callable[[], Any], documents: Callable[[],
 
 
 def draw(figure: Any, out: Sink) -> None:
-    """Write a figure atomically to a file; the default format is .svg."""
+    """Write a figure atomically to a file. The default format is .svg."""
     from geartrain.drawing import render
 
     out.write(render(figure, out.suffix or ".svg", theme=out.theme))
 
 
 def suffix_of(out: Path | None, allowed: Iterable[str], option: str = "-o") -> str:
-    """Return the suffix of an output file, or "" if it has none; reject suffixes that are not allowed."""
+    """Return the suffix of an output file, or an empty string if there is none. Raise an error if the suffix is not
+    allowed.
+    """
     suffix = out.suffix.lower() if out else ""
     if suffix and allowed and suffix not in allowed:
         raise option_error(option, f"'{suffix}' is not an output format of this option", f"use {', '.join(allowed)}")
@@ -259,14 +269,16 @@ def suffix_of(out: Path | None, allowed: Iterable[str], option: str = "-o") -> s
 
 
 def file_name(text: str, ending: str) -> Path:
-    """Return a file in the current folder named after `text`, with unsuitable characters replaced by hyphens."""
+    """Return a path in the current folder: `text`, with unsuitable characters replaced by hyphens, followed by
+    `ending`.
+    """
     # at most 120 characters: file systems limit names to 255 bytes
     stem = re.sub(r"[^\w.+-]+", "-", text).strip("-.")[:120]
     return Path(f"{stem or 'train'}{ending}")
 
 
 def as_json(data: Any) -> str:
-    """Format results as JSON; characters that would control a terminal are escaped."""
+    """Return results as a JSON string, in which control characters are escaped."""
     from geartrain.numerics.results import plain
 
     data = plain(data)
@@ -277,7 +289,7 @@ def as_json(data: Any) -> str:
 
 
 def table_text(rows: Sequence[Mapping[str, Any]]) -> str:
-    """Format rows with the same keys as CSV with a header; return an empty string if `rows` is empty."""
+    """Return rows that have the same keys as CSV text with a header line; an empty string if `rows` is empty."""
     from geartrain.numerics.files import csv_text
 
     return csv_text(list(rows[0]), [list(row.values()) for row in rows]).rstrip("\n") if rows else ""

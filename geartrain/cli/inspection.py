@@ -26,7 +26,7 @@ _HERE = "geartrain.cli.inspection"
 
 
 class InspectGroup(LazyGroup):
-    """Group of commands that print a train in other forms, for other tools or for checks."""
+    """Group of commands that print equations, formulas, graphs and other data of a train."""
 
     verbs = Verbs(
         {name: f"{_HERE}:{name}" for name in ("equations", "formula", "graph", "bench", "schema")}

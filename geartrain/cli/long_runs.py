@@ -47,23 +47,25 @@ COMPILING = "compiling kernels for this machine: 10 to 30 s, only once"
 
 
 class ProgressBar:
-    """Progress bar of a run, displayed only on a terminal."""
+    """Progress bar of a long computation, displayed only on a terminal."""
 
     def __init__(self, shown: Progress, task: TaskID, patience: float) -> None:
         self._shown, self._task, self._from = shown, task, time.monotonic() + patience
 
     def advance(self, steps: int = 1) -> None:
-        """Add a number of completed steps."""
+        """Add `steps` to the number of completed steps."""
         self._shown.update(self._task, advance=steps, visible=time.monotonic() >= self._from)
 
     def reach(self, done: int, total: int) -> None:
-        """Set the number of completed steps and the total; the bar is hidden if the total is 1 or less."""
+        """Set the number of completed steps and the total number of steps. The bar is hidden if the total is 1
+        or less.
+        """
         self._shown.update(self._task, completed=done, total=total or None, visible=total > 1)
 
 
 @contextmanager
 def progress(what: str, total: int | None = None, patience: float = 0.0) -> Iterator[ProgressBar]:
-    """Open a progress bar on standard error, displayed after `patience` [s] if standard error is a terminal.
+    """Open a progress bar on standard error. If standard error is a terminal, the bar appears after `patience` [s].
 
     A line above the bar reports the compilation of kernels, which is slow but happens only once.
     """
@@ -82,15 +84,15 @@ def progress(what: str, total: int | None = None, patience: float = 0.0) -> Iter
 
 @dataclass(frozen=True)
 class RunOptions:
-    """Options of a run: its workers, and whether to resume an interrupted run."""
+    """Options of a long computation: number of workers, and whether to resume an interrupted computation."""
 
     workers: str | None
-    """Number of processes, or address of a dask scheduler; None for one process per core."""
+    """Number of processes or address of a dask scheduler, as text; None for one process per core."""
     resume: bool = False
 
     @contextmanager
     def executor(self, what: str) -> Iterator[Executor | None]:
-        """Open the executor of one run; report the number of tasks and workers on standard error."""
+        """Open the executor of one computation, and print its number of tasks and workers on standard error."""
         from geartrain.numerics.work import open_executor
 
         def announce(tasks: int, workers: int) -> None:
@@ -105,7 +107,9 @@ class RunOptions:
 
 
 def close_journal(journal: Journal | None, cut: bool) -> None:
-    """Remove the journal of a complete run, or report how to resume an interrupted run."""
+    """Remove the journal of a complete computation. If the computation was interrupted (`cut`), print how to
+    resume it.
+    """
     if not cut:
         if journal is not None:
             journal.finish()
@@ -117,7 +121,8 @@ def close_journal(journal: Journal | None, cut: bool) -> None:
 
 @contextmanager
 def long_run(what: str, question: Mapping[str, Any], out: Path | None, options: RunOptions) -> Iterator[Execution]:
-    """Open the execution of one run with an executor, a progress bar and, if the folder is writable, a journal.
+    """Open the execution of one computation, with an executor, a progress bar and, if the folder is writable, a
+    journal.
 
     The journal is placed next to the output file, and its name contains a hash of the options in `question`.
     """
@@ -138,7 +143,7 @@ def long_run(what: str, question: Mapping[str, Any], out: Path | None, options: 
 
 @contextmanager
 def _journal(path: Path, question: Mapping[str, Any], resume: bool) -> Iterator[Journal | None]:
-    """Open the journal at `path`; None if the folder is not writable."""
+    """Open the journal file at `path`, and yield the journal, or None if the folder is not writable."""
     from geartrain.numerics.work import Journal
 
     # a run works without a journal, but it cannot be resumed then
@@ -209,7 +214,7 @@ _WHOLE = 1_000_000  # length of a progress bar
 
 @dataclass(frozen=True)
 class TimeRequest:
-    """Options of a simulation in the time domain; options that are not given are None."""
+    """Options of a simulation in the time domain. An option that the user did not give is None."""
 
     rate: str | None = None
     turns: str | None = None
@@ -221,7 +226,7 @@ class TimeRequest:
     fast: bool | None = None
 
     def arguments(self) -> dict[str, Any]:
-        """Return the arguments of `GearTrain.dynamics`. Raises `GearTrainError` for a value that is not allowed."""
+        """Return the arguments of `GearTrain.dynamics`. Raise `GearTrainError` if a value is not allowed."""
         turns, skip = TURNS if self.turns is None else self.turns, SKIP if self.skip is None else self.skip
         return {
             "rate": None if self.rate is None else input_rate(self.rate),
@@ -236,14 +241,16 @@ class TimeRequest:
 
 
 def run_in_time(train: GearTrain, state: str | None, requested: dict[str, Any]) -> TimeRun:
-    """Run a simulation in the time domain with a progress bar; Ctrl-C ends it after the current step."""
+    """Run a simulation in the time domain with a progress bar. Ctrl-C ends the simulation after the current step."""
     with interruptible("motion in time") as on_done:
         return train.dynamics(state=state, **requested, on_done=on_done)
 
 
 @contextmanager
 def interruptible(what: str) -> Iterator[Callable[[float], bool]]:
-    """Open a progress bar; yield a function that adds a fraction of the work and returns True after Ctrl-C."""
+    """Open a progress bar and yield a function to be called with each completed fraction of the work. The function
+    returns True after Ctrl-C.
+    """
     with progress(what, _WHOLE, patience=2.0) as bar, _interrupts() as came:
 
         def on_done(share: float) -> bool:
@@ -255,7 +262,7 @@ def interruptible(what: str) -> Iterator[Callable[[float], bool]]:
 
 @contextmanager
 def _interrupts() -> Iterator[list[int]]:
-    """Record the first Ctrl-C in a list; a second Ctrl-C raises `KeyboardInterrupt` as usual."""
+    """Yield a list that is empty until the user presses Ctrl-C. A second Ctrl-C raises `KeyboardInterrupt` as usual."""
     came: list[int] = []
 
     def note(number: int, frame: Any) -> None:

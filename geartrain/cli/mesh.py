@@ -283,7 +283,7 @@ def _counts(z1: int | None, z2: int | None) -> tuple[int, int]:
 
 
 def _applicable(name: str, model: type[ToothForm]) -> set[str]:
-    """Return the names of the options that apply to a tooth form."""
+    """Return the names of the command-line options that apply to a tooth form."""
     triangular = name == "triangular"
     left_out = set() if triangular else {*_TRIANGULAR}
     left_out |= set() if model.conjugate else {"shaft_angle"}
@@ -293,7 +293,7 @@ def _applicable(name: str, model: type[ToothForm]) -> set[str]:
 
 
 def _refuse(context: typer.Context, applicable: set[str], what: str) -> None:
-    """Raise `QuestionError` if an option on the command line does not apply."""
+    """Raise `QuestionError` if the command line contains an option that is not applicable."""
     for option in context.command.params:
         source = context.get_parameter_source(option.name or "")
         # defaults of options that do not apply are not errors
@@ -316,7 +316,7 @@ def _compare(
     """Compare the loss, stress, heat, flash temperature and tooth depth of several tooth forms with the values of the
     20 degree involute, then exit.
 
-    All forms have the same pair and the same arcs of approach and recess.
+    All forms are compared at the same tooth counts and the same arcs of approach and recess.
     """
     from geartrain.report.conjugate_pair_page import describe_form_comparison
     from geartrain.teeth.form_comparison import USUAL, compare_forms
@@ -343,7 +343,7 @@ def _compare(
 
 
 def _arcs(text: str) -> tuple[float, float]:
-    """Parse the arcs of approach and recess [pitch]; a single number sets both."""
+    """Parse the arcs of approach and recess [pitch] from a text of one or two numbers; one number sets both arcs."""
     from geartrain.teeth.form_comparison import arcs_error
 
     parts = text.split(",")
@@ -364,7 +364,9 @@ VARIED = (*parameters_of(Triangular), *PAIR)
 
 
 def read_operation(inertia: str | None, rate: str | None, load: str | None) -> PairOperation:
-    """Parse the inertia and load of the driven wheel and the speed of the driving wheel."""
+    """Return the operating conditions of a pair, parsed from the inertia and load of the driven wheel and the speed of
+    the driving wheel.
+    """
     from geartrain.dynamics.motion.pair_impacts import PairOperation
     from geartrain.numerics.quantity import RADIANS_PER_TURN
 
@@ -376,7 +378,9 @@ def read_operation(inertia: str | None, rate: str | None, load: str | None) -> P
 
 
 def sweep(pair: PairRequest, vary: list[str], picture: Sink, json: bool, to: Sink) -> None:
-    """Run a parameter sweep; write its results as a table and, if a file is named, as a picture."""
+    """Run a parameter sweep, and write its results as a table. If a file is named for a picture, also write
+    a picture.
+    """
     from geartrain.numerics.files import csv_text
     from geartrain.teeth.triangular.parameter_sweep import sweep as run_sweep
     from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
@@ -410,7 +414,9 @@ def sweep(pair: PairRequest, vary: list[str], picture: Sink, json: bool, to: Sin
 
 
 def _ranges(vary: list[str]) -> tuple[dict[str, list[float]], dict[str, str]]:
-    """Parse the values of each varied parameter, and the unit in which they were given."""
+    """Return two mappings, keyed by parameter: the values of each varied parameter, and the unit in which they were
+    given.
+    """
     if len(vary) > 2:
         raise option_error("--vary", f"{len(vary)} parameters are given", "give --vary once or twice")
     ranges: dict[str, list[float]] = {}
@@ -433,7 +439,7 @@ def _ranges(vary: list[str]) -> tuple[dict[str, list[float]], dict[str, str]]:
 
 
 def _number(text: str) -> tuple[float, str]:
-    """Parse a number and the unit that follows it."""
+    """Return the number at the start of a text, and the unit that follows the number."""
     import math
     import re
 
@@ -450,7 +456,7 @@ def _number(text: str) -> tuple[float, str]:
 
 
 def _plain(row: tuple[object, ...]) -> list[object]:
-    """Replace NaN by None in a row of the results table."""
+    """Return a row of the results table with NaN values replaced by None."""
     # only NaN differs from itself
     return [None if value != value else value for value in row]
 

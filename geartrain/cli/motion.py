@@ -134,7 +134,9 @@ def _turns(text: str, motion: Motion) -> float:
 
 
 def _partial(to: Sink) -> Sink:
-    """Return the destination of partial results after an interruption; CSV tables have their own partial file."""
+    """Return the destination of partial results after an interruption. CSV tables are excluded, because they have a
+    partial file of their own.
+    """
     if to.path is None or to.suffix == ".csv":
         return STANDARD
     from geartrain.numerics.files import partial_name
@@ -152,7 +154,9 @@ def _report(
     spectrum: bool,
     every_output: bool,
 ) -> None:
-    """Compute and write the results; after an interruption, write partial results to the second destination."""
+    """Compute and write the results. After an interruption, write partial results to the second destination
+    in `into`.
+    """
     from geartrain.report.motion_report import collect_motion, describe_motion
 
     # each analysis evaluates all positions once

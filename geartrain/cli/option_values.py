@@ -32,13 +32,14 @@ MOST_COUNT = 10**9
 def quantity(place: str, text: str, dimension: str, plain: bool = False, minimum: Minimum = None) -> float:
     """Parse a quantity and return it in SI units.
 
-    `minimum` requires the value to be 0 or more, or above 0. Raises `GearTrainError` for an invalid value.
+    If `minimum` is "0", the value must be 0 or more; if it is "above 0", the value must be positive. Raises
+    `GearTrainError` for an invalid value.
     """
     return read_quantity(place, text, dimension, plain, minimum).si
 
 
 def read_quantity(place: str, text: str, dimension: str, plain: bool = False, minimum: Minimum = None) -> Quantity:
-    """Parse a quantity and return it as written; see `quantity`."""
+    """Parse a quantity and return it with the unit in which it was written. The parameters are those of `quantity`."""
     try:
         found = Quantity.parse(text, dimension, plain)
     except PydanticCustomError as error:
@@ -54,12 +55,14 @@ def read_quantity(place: str, text: str, dimension: str, plain: bool = False, mi
 
 
 def read_share(text: str, option: str) -> Fraction:
-    """Parse the value of an option as an exact fraction: a number, a percentage, ppm, or the rate of a clock (s/d)."""
+    """Parse the value of an option as an exact fraction. The value is a number, a percentage, a value in ppm, or the
+    rate of a clock in seconds per day (s/d).
+    """
     return read_quantity(option, text, "fraction or clock rate", plain=True).base
 
 
 def friction(text: str) -> float:
-    """Parse a coefficient of friction, 0 or more."""
+    """Parse a coefficient of friction, which must be 0 or more."""
     found = quantity("--friction", text, "fraction", plain=True)
     if found < 0:
         what = f"the coefficient of friction {text} is negative"
@@ -68,12 +71,12 @@ def friction(text: str) -> float:
 
 
 def restitution(text: str) -> float:
-    """Parse a coefficient of restitution, 0 to 1."""
+    """Parse a coefficient of restitution, which must be from 0 to 1."""
     return float(exact("--restitution", text, "restitution", "0.3", 0, 1))
 
 
 def input_rate(text: str) -> float:
-    """Parse an input speed and return it in rad/s; a number without a unit is in revolutions per second."""
+    """Parse an input speed and return it in rad/s. A number without a unit is in revolutions per second."""
     found = read_quantity("--rate", text, "speed", plain=True, minimum="above 0")
     # a number without a unit is in turns per second, not in rad/s
     return tau * float(found.value) if found.unit is None else found.si
@@ -109,7 +112,7 @@ def decimal(place: str, text: str, what: str, such_as: str, low: float = 0.0, hi
 
 
 def turns(place: str, text: str) -> Fraction:
-    """Parse a number of revolutions of an input, positive or negative."""
+    """Parse a number of revolutions of an input, and return it as a fraction. It may be negative."""
     from geartrain.dynamics.motion.motion_run import MOST_TURNS
 
     return exact(place, text, "number of turns", "4 or -1/2", -MOST_TURNS, MOST_TURNS)
@@ -125,11 +128,13 @@ def whole(place: str, text: str, what: str, such_as: str, low: int = 0, high: in
 
 
 def value_error(error: PydanticCustomError, place: str) -> GearTrainError:
-    """Convert an error of a number parser to an error message for users."""
+    """Convert a pydantic error raised by a number parser to an error message for users."""
     context = error.context or {}
     return GearTrainError(Problem(error.message(), str(context.get("why", "")), str(context.get("fix", "")), place))
 
 
 def at_option(error: GearTrainError, place: str) -> GearTrainError:
-    """Return the error with `place`, the option that caused it, in every problem that has no place."""
+    """Return a copy of the error in which `place`, the option that caused the error, is the location of every problem
+    without a location.
+    """
     return GearTrainError(replace(each, place=each.place or place.replace("_", "-")) for each in error.problems)

@@ -40,17 +40,18 @@ PAIR = ("friction", "z1", "z2")
 
 
 def parameters_of(model: type[ToothForm]) -> dict[str, FieldInfo]:
-    """Return the parameters of a form that describe one pair, by name.
+    """Return the fields of a tooth form that describe one pair, keyed by name.
 
-    Forms whose teeth run only at the design centre distance have no parameter `centre_distance`. Parameters for the
-    time domain, and values that only Python can give (fields without `repr`), are omitted.
+    The field `centre_distance` is omitted for forms whose teeth run only at the design centre distance. Fields for
+    simulations in the time domain, and fields whose values only Python can give (fields without `repr`), are also
+    omitted.
     """
     hidden = {"form", *model.in_time} | (set() if model.any_distance else {"centre_distance"})
     return {name: field for name, field in model.model_fields.items() if name not in hidden and field.repr}
 
 
 def describe_parameters(form: str, model: type[ToothForm]) -> Document:
-    """Return the parameters of a form as a table: key, default, meaning."""
+    """Return a document with a table of the parameters of a tooth form: key, default value and meaning."""
     from geartrain.report.document import Document, Section, Table
 
     required = model.with_defaults({})
@@ -64,21 +65,23 @@ def describe_parameters(form: str, model: type[ToothForm]) -> Document:
 
 
 def _meaning(field: FieldInfo) -> str:
-    """Return the description of a parameter, in which lists are described as two values separated by a comma."""
+    """Return the description of a parameter. A list is described as two values separated by a comma."""
     text = (field.description or "").replace("a list of two gives", "a,b gives").replace("a list of two", "two: a,b")
     words = [word for word in _words(field.annotation) if word not in text]
     return f"{text}: {', '.join(words)}" if words else text
 
 
 def _words(annotation: Any) -> list[str]:
-    """Return the words that are allowed as values of a field."""
+    """Return the words that a field with this type annotation accepts as values."""
     if get_origin(annotation) is Literal:
         return [each for each in get_args(annotation) if isinstance(each, str)]
     return [word for each in get_args(annotation) for word in _words(each)]
 
 
 def read_assignments(texts: Iterable[str], known: Sequence[str], option: str, fix: str = "") -> dict[str, str]:
-    """Parse KEY=VALUE options to a mapping. Raises `QuestionError` if a key is unknown or given twice."""
+    """Parse KEY=VALUE options into a mapping from key to value. Raises `QuestionError` if a key is unknown or given
+    twice.
+    """
     found: dict[str, str] = {}
     for text in texts:
         name, equals, value = map(str.strip, text.partition("="))
@@ -94,7 +97,8 @@ def read_assignments(texts: Iterable[str], known: Sequence[str], option: str, fi
 
 
 def read_form(model: type[ToothForm], given: Mapping[str, str]) -> ToothForm:
-    """Create the tooth form from its parameters, with defaults for parameters that a declaration must give.
+    """Create the tooth form from the given parameters, with default values for missing parameters that a declaration
+    must give.
 
     Raises `GearTrainError` with the location `-p KEY`.
     """
@@ -107,8 +111,8 @@ def read_form(model: type[ToothForm], given: Mapping[str, str]) -> ToothForm:
 
 
 def at_parameter(error: GearTrainError, place: str, fix: str = "") -> GearTrainError:
-    """Return the error with a location in each problem: `-p KEY` if the problem names a key, the option if it names an
-    option, otherwise `place`. `fix` is added to problems that have none.
+    """Return a copy of the error in which each problem has a location: `-p KEY` if the problem names a key, the option
+    if it names an option, and `place` if it names neither. The remedy `fix` is added to problems that have no remedy.
     """
 
     def located(named: str) -> str:
@@ -118,8 +122,8 @@ def at_parameter(error: GearTrainError, place: str, fix: str = "") -> GearTrainE
 
 
 def _value(field: FieldInfo, given: str) -> Any:
-    """Convert a value as in a declaration: parse a value in brackets or braces as YAML, split it into a list if it
-    contains a comma, and convert it to an integer if the field allows this integer.
+    """Convert the text of a value in the way a declaration is read. A value in brackets or braces is parsed as YAML, a
+    value with commas becomes a list, and an integer is converted to int if the field allows it.
     """
     if given[:1] in ("[", "{"):
         from geartrain.train.yaml_nodes import parse_yaml
@@ -134,7 +138,9 @@ def _value(field: FieldInfo, given: str) -> Any:
 
 
 def read_shaft_angle(internal: bool, angle: str | None) -> float | None:
-    """Parse the shaft angle [rad] of bevel wheels; None for parallel axes. Raises `GearTrainError` for a ring gear."""
+    """Parse the shaft angle [rad] of bevel wheels. None denotes parallel axes. Raises `GearTrainError` if an angle is
+    given for a ring gear.
+    """
     if internal and angle is not None:
         why, fix = "a ring and its pinion have parallel axes", "omit --internal or --shaft-angle"
         raise option_error("--shaft-angle", "a ring gear is given with a shaft angle", fix, why)
@@ -142,7 +148,7 @@ def read_shaft_angle(internal: bool, angle: str | None) -> float | None:
 
 
 def read_helix(helix: str | None, shaft_angle: float | None) -> float:
-    """Parse the helix angle [rad] of a pair on parallel axes; 0 for spur wheels.
+    """Parse the helix angle [rad] of a pair on parallel axes. Return 0, for spur wheels, if `helix` is None.
 
     Raises `GearTrainError` if the angle is not from 0 to less than 90 deg, or if it is given for bevel wheels.
     """
@@ -158,12 +164,16 @@ def read_helix(helix: str | None, shaft_angle: float | None) -> float:
 
 
 def read_module(module: str | None) -> float | None:
-    """Parse the module [m]; None if not given. Raises `GearTrainError` if it is not a positive length."""
+    """Parse the module [m]; return None if `module` is None. Raises `GearTrainError` if the value is not a positive
+    length.
+    """
     return None if module is None else quantity("--module", module, "length", minimum="above 0")
 
 
 def read_wheels(teeth: tuple[int, int], internal: bool, angle: str | None) -> WheelPair:
-    """Create a pair of wheels without dimensions, for conjugate teeth. Raises `GearTrainError` if they cannot mesh."""
+    """Create a pair of wheels without dimensions, for conjugate teeth. Raises `GearTrainError` if the wheels cannot
+    mesh.
+    """
     from geartrain.teeth.conjugate.wheel_pair import WheelPair
 
     wheels = WheelPair(*teeth, internal, read_shaft_angle(internal, angle))
@@ -176,27 +186,27 @@ def read_wheels(teeth: tuple[int, int], internal: bool, angle: str | None) -> Wh
 
 @dataclass(frozen=True)
 class PairRequest:
-    """Pair of wheels described by options, some of which can be varied."""
+    """Pair of wheels that is described by options. Some of the options can be varied."""
 
     model: type[ToothForm]
     teeth: tuple[int, int]
     own: Mapping[str, str]
-    """Parameters of the tooth form, by key."""
+    """Parameters of the tooth form as text, keyed by parameter name."""
     module: float | None = None
-    """Module of the pair [m]; None if not given."""
+    """Module of the pair [m]; None if no module is given."""
     friction: str = "0"
     driver: int = 1
     rate: str | None = None
     internal: bool = False
     shaft_angle: float | None = None
-    """Shaft angle of bevel wheels [rad]."""
+    """Shaft angle of bevel wheels [rad]; None for parallel axes."""
     helix: float = 0.0
-    """Helix angle of the first wheel [rad]."""
+    """Helix angle of the first wheel [rad]; 0 for spur wheels."""
 
     def mesh(self, **varied: str) -> GearMesh:
-        """Create the pair in mesh, with some parameters replaced by the values in `varied`.
+        """Create the gear mesh of the pair, with some parameters replaced by the values in `varied`.
 
-        Raises `GearTrainError` if the form cannot mesh in this pair.
+        Raises `GearTrainError` if the pair cannot have teeth of this form.
         """
         from geartrain.teeth.meshing_wheels import MeshDriver
 
@@ -216,7 +226,9 @@ class PairRequest:
             raise at_parameter(error, f"-p {placed[0]}" if placed and min(z1, z2) >= FEWEST else COUNTS) from None
 
     def form(self, varied: Mapping[str, str]) -> ToothForm:
-        """Create the tooth form with some parameters replaced; a varied clearance replaces all given clearances."""
+        """Create the tooth form with some parameters replaced. A varied clearance parameter replaces all given
+        clearance parameters.
+        """
         replaced = {*CLEARANCES} if {*varied} & {*CLEARANCES} else set()
         return read_form(
             self.model, {name: text for name, text in self.own.items() if name not in replaced} | dict(varied)
@@ -231,8 +243,8 @@ def two_wheels(
     shaft_angle: float | None = None,
     helix: float = 0.0,
 ) -> MeshingWheels:
-    """Create the wheels of a pair without a train; `module` is the normal module [m], `helix` is the helix angle of the
-    first wheel [rad].
+    """Create the wheels of a pair that does not belong to a train. `module` is the normal module [m], and `helix` is
+    the helix angle of the first wheel [rad].
     """
     from geartrain.teeth.meshing_wheels import MeshingWheels
     from geartrain.train import GearPair
@@ -254,9 +266,10 @@ BLANK = ("bore", "tolerance", "clearance", "fillet", "rim")
 
 
 def write_profile(mesh: GearMesh, wheel: int, blank: Mapping[str, str], to: Sink) -> list[WheelOutline]:
-    """Write the outline of a wheel and return it in a list, which is empty if no file is named.
+    """Write the outline of a wheel and return it in a list. If no file is named, nothing is written, and the list is
+    empty.
 
-    `blank` contains sizes of the wheel by name.
+    `blank` contains sizes of the wheel as text, keyed by name.
     """
     if to.path is None:
         return []
@@ -268,7 +281,7 @@ def write_profile(mesh: GearMesh, wheel: int, blank: Mapping[str, str], to: Sink
 
 
 def _blank_sizes(module: float | None, sizes: Mapping[str, str]) -> BlankSizes:
-    """Parse the sizes of a wheel [mm]; `module` is in m."""
+    """Parse the sizes of a wheel blank, which are given as text in `sizes`; `module` is in m."""
     from geartrain.teeth.outlines.wheel_outline import BlankSizes
 
     if module is None:
@@ -288,10 +301,10 @@ FINE = "0.001mm"
 
 @dataclass(frozen=True)
 class PairFrictionOption:
-    """Value of `--friction`: a coefficient, or a friction law."""
+    """Value of the option `--friction`: a coefficient of friction, or a friction law."""
 
     coefficient: float
-    """Coefficient of friction; 0 if a law is given."""
+    """Coefficient of friction; 0 if a friction law is given."""
     law: FrictionLaw | None = None
 
     def number(self, option: str) -> float:
@@ -304,8 +317,8 @@ class PairFrictionOption:
         return self.coefficient
 
     def of(self, mesh: Mesh, rate: str | None) -> Mesh:
-        """Return the mesh with this friction; raise `GearTrainError` if a friction law needs an unknown speed or
-        module.
+        """Return a copy of the mesh with this friction. Raise `GearTrainError` if a friction law needs a speed or a
+        module that is not known.
         """
         if self.law is None:
             return mesh
@@ -325,7 +338,7 @@ class PairFrictionOption:
 
 
 def read_pair_friction(text: str) -> PairFrictionOption:
-    """Parse a coefficient of friction, or a friction law with its parameters; raise `GearTrainError` if it is
+    """Parse a coefficient of friction, or a friction law with its parameters. Raise `GearTrainError` if the text is
     invalid.
     """
     name = text.split(",")[0].strip()

@@ -132,7 +132,7 @@ def run(
 
 
 def _check_listed(to: Sink, picture: Sink) -> None:
-    """Reject -o x.yaml and --plot if a list is requested, because they need a single sphere."""
+    """Raise an error for -o x.yaml and --plot if a list is requested, because these options need a single sphere."""
     if to.suffix in _YAML:
         raise option_error("-o", "a list of results cannot be written as a train", "use .md, .html or .json")
     if picture.path is not None:
@@ -181,7 +181,9 @@ def _graph(file: Path, aim: Any, minimum: int) -> GraphSet:
 
 
 def _teeth(text: str | None) -> dict[str, int] | int | None:
-    """Parse tooth counts by kind of gear, such as `5=20,3=12`, or one count for all gears."""
+    """Parse the tooth count of each kind of gear, such as `5=20,3=12`, or one tooth count for all gears. Return None if
+    `text` is None.
+    """
     if text is None:
         return None
     try:
@@ -194,7 +196,9 @@ def _teeth(text: str | None) -> dict[str, int] | int | None:
 
 
 def _sphere_radius(configuration: Configuration, text: str) -> float:
-    """Return the radius of the sphere, which is given directly or by the pitch radius of one kind of gear."""
+    """Return the radius of the sphere. The text contains either this radius, or KIND=RADIUS, the pitch radius of one
+    kind of gear.
+    """
     from geartrain.spherical.gear_sizes import size_gears
 
     kind, wheel, number = text.rpartition("=")

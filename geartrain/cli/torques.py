@@ -126,7 +126,9 @@ def run(
 
 
 def _over_turn(train: GearTrain, found: Sequence[Torques], turns: str, samples: int, link: str | None) -> TorqueCycle:
-    """Compute the torque over the requested revolutions in the requested state, or in the only state with loads."""
+    """Return the torque over the requested revolutions, computed in the requested state or in the only state with
+    loads.
+    """
     state = _loaded_state(train, found, "--turns").state
     if turns == "period":
         from geartrain.dynamics.turn.train_turn import find_torque_period
@@ -150,9 +152,9 @@ def _friction_trials(
     out: Path | None,
     options: RunOptions,
 ) -> Any:
-    """Repeat the torque run in trials with random friction.
+    """Repeat the torque analysis over the requested revolutions in trials with random friction.
 
-    run     number of samples, and link
+    run     number of samples, and the link whose torque is computed
     drawn   number of trials, and random seed
     """
     wing("workshop.monte_carlo.trial_run").check_trials(drawn[0])
@@ -166,7 +168,7 @@ def _friction_trials(
 
 
 def _loaded_state(train: GearTrain, found: Sequence[Torques], option: str) -> Torques:
-    """Return the result of the requested state, or of the only state with loads.
+    """Return the torques of the requested state, or of the only state with loads.
 
     Raises `QuestionError` if no state or more than one state has loads.
     """
@@ -183,7 +185,7 @@ def _loaded_state(train: GearTrain, found: Sequence[Torques], option: str) -> To
 
 
 def _table(found: TorqueCycle) -> str:
-    """Format torque, starting torque and losses at every position as CSV."""
+    """Return CSV text with torque, starting torque and losses at every position."""
     from geartrain.numerics.files import csv_text
 
     if found.turns is None or found.torque is None or found.standing is None or found.losses is None:

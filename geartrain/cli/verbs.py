@@ -33,7 +33,7 @@ Command = Any
 
 
 class Verbs(Mapping[str, Command]):
-    """Commands of a group by name, each created when it is requested.
+    """Commands of a group, keyed by name. A command is created when it is requested.
 
     A command is a function (`module:function`), or a module with a function `run` and optional `context_settings`. A
     group is a module with a `typer.Typer` named `app`.
@@ -41,14 +41,14 @@ class Verbs(Mapping[str, Command]):
     Parameters
     ----------
     modules
-        Name of each command -> its function or module, in the order in which `--help` lists them. Commands of an
-        optional part that is not installed are omitted.
+        Function or module of each command, keyed by the command's name, in the order in which `--help` lists the
+        commands. Commands of an optional part that is not installed are omitted.
     entry_points
-        Group of entry points (`importlib.metadata`) through which other distributions add commands. It is read only
-        when a name is unknown or when all names are listed, because a scan of the installed distributions takes
+        Group of entry points (`importlib.metadata`) through which other distributions add commands. The group is read
+        only when a name is unknown or when all names are listed, because a scan of the installed distributions takes
         longer than most commands.
     panels
-        Heading in `--help` -> names of the commands below it.
+        Names of the commands below each heading in `--help`, keyed by heading.
     """
 
     def __init__(
@@ -78,7 +78,7 @@ class Verbs(Mapping[str, Command]):
 
     @cached_property
     def _added(self) -> dict[str, EntryPoint]:
-        """Commands of other distributions, by name."""
+        """Commands added by other distributions, keyed by name."""
         if self._group is None:
             return {}
         from importlib.metadata import entry_points
@@ -109,7 +109,7 @@ class Verbs(Mapping[str, Command]):
     def _load(self, name: str) -> Any:
         """Import the function or module of a command.
 
-        Raises `KeyError` for an unknown name and for an optional part that is not installed.
+        Raises `KeyError` if the name is unknown, or if the optional part with this command is not installed.
         """
         if name in self._modules:
             module, _, function = self._modules[name].partition(":")
@@ -124,7 +124,7 @@ class Verbs(Mapping[str, Command]):
 
 
 class LazyGroup(TyperGroup):
-    """Group of commands that are imported when they are requested."""
+    """Group of commands. A command is imported when it is requested."""
 
     verbs: ClassVar[Verbs]
 
@@ -133,7 +133,9 @@ class LazyGroup(TyperGroup):
         self.commands = self.verbs  # type: ignore[assignment]
 
     def resolve_command(self, ctx: Any, args: list[str]) -> tuple[str | None, Any, list[str]]:
-        """Return the named command. Raises `QuestionError` if the name is unknown."""
+        """Return the command that is named in `args`, as click requires. Raises `QuestionError` if the name
+        is unknown.
+        """
         name = args[0]
         # shell completion parses incomplete lines (resilient), which must not raise errors
         if name not in self.verbs and not name.startswith("-") and not ctx.resilient_parsing:
@@ -154,26 +156,28 @@ _DISK = {errno.ENOSPC, errno.EIO, errno.EFBIG, errno.EBADF, getattr(errno, "EDQU
 
 
 class _ReaderGoneError(Exception):
-    """Error raised if standard output was closed by its reader."""
+    """Error that is raised if the reader of standard output has closed it."""
 
 
 class EndingGroup(TyperGroup):
-    """Group of commands that handles closed pipes and Ctrl-C, because typer would exit with the code of a verdict."""
+    """Group of commands that handles closed pipes and Ctrl-C itself, because typer would exit with the exit code of a
+    verdict.
+    """
 
     def make_context(self, *given: Any, **more: Any) -> Any:
-        """Parse the command line; `--help` and `--version` exit here."""
+        """Parse the command line and return the context. The options `--help` and `--version` exit here."""
         with _translated_exits():
             return super().make_context(*given, **more)
 
     def invoke(self, ctx: Any) -> Any:
-        """Run the requested command."""
+        """Run the command that was requested on the command line."""
         with _translated_exits():
             return super().invoke(ctx)
 
 
 @contextmanager
 def _translated_exits() -> Iterator[None]:
-    """Convert exceptions that typer would report in another form."""
+    """Convert exceptions to the error classes of this package before typer reports them in another form."""
     try:
         yield
     except BrokenPipeError:
@@ -258,10 +262,10 @@ def guarded(run: Callable[[], Any]) -> int:
 
 
 def _interrupted() -> int:
-    """Return the exit code of Ctrl-C, after clearing CPython's record of the interrupt.
+    """Return the exit code for Ctrl-C, after clearing CPython's record of the interrupt.
 
     CPython records an interrupt during the evaluation of a string, as in dataclasses and numba, even if it is caught,
-    and `python -m` is then killed by the signal at exit. The next evaluation of a string clears the record.
+    and `python -m` is then killed by the signal at exit. The next evaluation of a string clears this record.
     """
     eval("0")
     return INTERRUPTED
@@ -294,7 +298,9 @@ def _report_internal_error(error: Exception) -> None:
 
 
 def _write_traceback(text: str) -> str:
-    """Write a traceback and the command line to a new file; return its name, or "" if it cannot be created."""
+    """Write a traceback and the command line to a new file. Return the name of the file, or an empty string if it
+    cannot be created.
+    """
     import platform
     from importlib.metadata import version
 

@@ -124,7 +124,7 @@ def _write_page(scenes: Sequence[Scene], to: Sink, shown: Shown, compare: bool, 
 def _layout(embed: bool, kiosk: bool, other: str | None) -> Shown:
     """Return the layout of a page: `embed`, `kiosk`, or `page` by default.
 
-    Raises `QuestionError` if both layouts are given, or two trains with a layout that shows one.
+    Raises `QuestionError` if both layouts are given, or if two trains are given for a layout that shows only one.
     """
     if embed and kiosk:
         what, why = "--embed and --kiosk are given together", "a page can have only one layout"
@@ -137,7 +137,9 @@ def _layout(embed: bool, kiosk: bool, other: str | None) -> Shown:
 
 
 def _check_request(request: TimeRequest, dynamics: bool, other: str | None) -> None:
-    """Raise `QuestionError` if options of --dynamics are given without it, or --dynamics with two trains."""
+    """Raise `QuestionError` if options of --dynamics are given without --dynamics, or if --dynamics is given for two
+    trains.
+    """
     if not dynamics and request != TimeRequest():
         what = "options of --dynamics are given without --dynamics"
         why = "without --dynamics the page shows the kinematics only"
@@ -148,14 +150,14 @@ def _check_request(request: TimeRequest, dynamics: bool, other: str | None) -> N
 
 
 def _simulated(train: GearTrain, state: str | None, request: TimeRequest) -> TimeRun:
-    """Run the simulation in the time domain that the page shows, with as many samples as a page can hold."""
+    """Run the simulation in the time domain that a page shows, with as many samples as a page can contain."""
     samples = _MOST_ANGLES // len(train.declaration.links)
     return run_in_time(train, state, request.arguments() | {"samples": samples})
 
 
 def _states(train: GearTrain, state: str | None, first: bool) -> Sequence[str | None]:
-    """Return the states to be shown: the named state if one is named, otherwise all states, or only the first if
-    `first` is True.
+    """Return the states to be shown: the state `state` if it is not None, or the first state if `first` is True, or all
+    states.
     """
     if state is not None:
         return (state,)
@@ -164,7 +166,9 @@ def _states(train: GearTrain, state: str | None, first: bool) -> Sequence[str | 
 
 
 def _page_sink(path: Path, force: bool) -> Sink:
-    """Return the destination of a page. Raises `QuestionError` for a suffix that browsers do not open as a page."""
+    """Return the destination of a page. Raises `QuestionError` if browsers do not open files with this suffix as a
+    page.
+    """
     if is_standard(path) or path.suffix.lower() in (".html", ".htm") or path.is_dir():
         return sink(path, force)
     why = f"'{path.suffix}' is not a suffix of an HTML page" if path.suffix else "its name has no suffix"
@@ -219,7 +223,7 @@ def _pages(path: Path) -> LivePages:
 
 
 def _files(path: Path) -> tuple[Path, ...]:
-    """Return the file and all files that it extends; only the file if it cannot be read."""
+    """Return the file and all files that it extends. If the file cannot be read, return only its own path."""
     from geartrain.train.declaration_files import files_of
 
     try:

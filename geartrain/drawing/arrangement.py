@@ -53,7 +53,7 @@ def arrange(items: Sequence[str], pairs: Pairs) -> list[str]:
 
 
 def breadth_first(items: Sequence[str], pairs: Pairs) -> list[str]:
-    """Return the items in breadth-first order, starting at the first item of each connected component."""
+    """Return the items in breadth-first order. The search starts at the first item of each connected component."""
     mates = neighbours(items, pairs)
     seen: dict[str, None] = {}
     for item in items:
@@ -67,7 +67,7 @@ def breadth_first(items: Sequence[str], pairs: Pairs) -> list[str]:
 
 
 def neighbours(items: Sequence[str], pairs: Pairs) -> dict[str, list[str]]:
-    """Return a dictionary from each item to the items with which it is paired, in the order of the pairs."""
+    """Return a dictionary that maps each item to the items with which it is paired, in the order of the pairs."""
     mates: dict[str, list[str]] = {item: [] for item in items}
     for one, other in pairs:
         if one in mates and other in mates and one != other:
@@ -90,7 +90,7 @@ def spread(wanted: Sequence[float], needs: Sequence[float], bounds: tuple[float,
     The sum of the squared distances from the wanted centres is minimised.
 
     needs    width of each box
-    bounds   interval that contains the boxes as far as there is space
+    bounds   interval that contains the boxes if there is enough space
     """
     if not len(wanted):
         return []
@@ -136,7 +136,9 @@ def settle(items: Sequence[str], pairs: Pairs, lengths: Mapping[tuple[str, str],
 
 
 def _distances(items: Sequence[str], pairs: Pairs, lengths: Mapping[tuple[str, str], float]) -> Floats:
-    """Return the lengths (n, n) of the shortest paths between items (Floyd-Warshall); 0 for unconnected items."""
+    """Return the lengths (n, n) of the shortest paths between items (Floyd-Warshall algorithm); 0 for unconnected
+    items.
+    """
     at = {item: position for position, item in enumerate(items)}
     far = np.full((len(items), len(items)), np.inf)
     np.fill_diagonal(far, 0.0)
@@ -176,12 +178,14 @@ def text_box(lines: Sequence[str], size: float, x: float, y: float, weight: str 
 
 @dataclass(slots=True)
 class LabelSpace:
-    """Page [in] with occupied boxes (n, 4), on which labels are placed without overlap."""
+    """Page on which labels are placed without overlap. The occupied boxes are an array (n, 4) of centres, widths and
+    heights [in].
+    """
 
     taken: Floats = field(default_factory=lambda: np.zeros((0, 4)))
 
     def free(self, box: Box) -> bool:
-        """Return True if a box does not overlap the occupied boxes."""
+        """Return True if a box does not overlap any occupied box."""
         near = np.abs(self.taken[:, :2] - box[:2]) < (self.taken[:, 2:] + box[2:]) / 2
         return not near.all(axis=1).any()
 
@@ -211,26 +215,28 @@ _THIN: dict[str, Any] = {"color": GREY, "linewidth": 0.6, "zorder": 7}
 
 @dataclass(frozen=True, slots=True)
 class Callout:
-    """One or more lines of text next to a picture, with the point of the picture that they name [in]."""
+    """One or more lines of text next to a picture, and the point of the picture [in] that the text names."""
 
     words: Sequence[tuple[str, str]]
-    """Lines of text, each as (identifier of the text in a vector file, string)."""
+    """Lines of text. Each line is a pair: identifier of the text in a vector file, and the text itself."""
     anchor: Spot
 
     @property
     def height(self) -> float:
-        """Height of the callout within its column [in]."""
+        """Height of the callout in its column [in]."""
         return PITCH * len(self.words) + (_APART if len(self.words) > 1 else 0.0)
 
     @property
     def width(self) -> float:
-        """Width of the longest line [in]."""
+        """Width of the longest line of text [in]."""
         return max(text_width(words) for _, words in self.words)
 
 
 @dataclass(frozen=True, slots=True)
 class CalloutMargin:
-    """Callouts in columns left and right of a picture, each with its ordinate, and the inner edges of columns [in]."""
+    """Callouts in columns left and right of a picture: the ordinate of each callout and the inner edges of the columns
+    [in].
+    """
 
     left: Sequence[tuple[Callout, float]]
     right: Sequence[tuple[Callout, float]]
@@ -238,7 +244,7 @@ class CalloutMargin:
 
     @property
     def widths(self) -> tuple[float, float]:
-        """Widths of the left and right columns beyond their edges [in]."""
+        """Widths [in] of the left and right columns, measured outwards from their inner edges."""
         sides = [[each.width + 2 * _AWAY for each, _ in side] for side in (self.left, self.right)]
         return max(sides[0], default=0.0), max(sides[1], default=0.0)
 
@@ -250,13 +256,13 @@ class CalloutMargin:
 
     @property
     def lines(self) -> list[Floats]:
-        """Both ends (2, 2) of the leader line of every callout [in]."""
+        """End points (2, 2) of the leader line of every callout [in]."""
         sides = zip((self.left, self.right), self.edges, strict=True)
         return [np.array([(edge, y), each.anchor]) for side, edge in sides for each, y in side]
 
     @property
     def has_lists(self) -> bool:
-        """True if a callout has several lines of text."""
+        """True if any callout has several lines of text."""
         return any(len(each.words) > 1 for side in (self.left, self.right) for each, _ in side)
 
     def moved(self, x: float, y: float) -> CalloutMargin:
@@ -268,7 +274,9 @@ class CalloutMargin:
         return CalloutMargin(left, right, (self.edges[0] + x, self.edges[1] + x))
 
     def draw(self, axes: Axes) -> None:
-        """Draw the text, the lines with a dot at the named point, and a bar next to each list."""
+        """Draw the text of the callouts, the leader lines, each with a dot at the named point, and a bar next to each
+        list.
+        """
         for side, edge, ha, step in ((self.left, self.edges[0], "right", -1), (self.right, self.edges[1], "left", 1)):
             for each, y in side:
                 axes.plot([edge, each.anchor[0]], [y, each.anchor[1]], **_THIN)
@@ -284,7 +292,7 @@ def find_margin(callouts: Sequence[Callout], edges: tuple[float, float], bounds:
     """Return the callouts in two columns, close to the points that they name.
 
     edges    inner edges of the columns; all anchors lie between them
-    bounds   interval of y that contains the callouts as far as there is space
+    bounds   interval of y that contains the callouts if there is enough space
     """
     ordered = sorted(callouts, key=lambda each: (each.anchor, each.words))
     lines = np.cumsum([0, *(len(each.words) for each in ordered)])
@@ -300,7 +308,9 @@ def find_margin(callouts: Sequence[Callout], edges: tuple[float, float], bounds:
 
 
 def _column(callouts: Sequence[Callout], edge: float, bounds: tuple[float, float]) -> list[tuple[Callout, float]]:
-    """Return callouts with their ordinates [in] close to their points, in an order with few crossing lines."""
+    """Return the callouts of one column with their ordinates [in], which are close to the named points, in an order
+    with few crossing leader lines.
+    """
     order = _shortest_lines(callouts, edge, bounds)
     best, minimum = _level_positions(order, bounds), inf
     for _ in range(len(order) + 1):
@@ -316,7 +326,9 @@ def _column(callouts: Sequence[Callout], edge: float, bounds: tuple[float, float
 
 
 def _shortest_lines(callouts: Sequence[Callout], edge: float, bounds: tuple[float, float]) -> list[Callout]:
-    """Return callouts from bottom to top in the order of minimum total line length (linear assignment)."""
+    """Return callouts from bottom to top in the order that minimises the total length of their leader lines (linear
+    assignment).
+    """
     if not callouts:
         return []
     heights = np.array(spread([each.anchor[1] for each in callouts], [each.height for each in callouts], bounds))
@@ -326,18 +338,20 @@ def _shortest_lines(callouts: Sequence[Callout], edge: float, bounds: tuple[floa
 
 
 def _level_positions(order: Sequence[Callout], bounds: tuple[float, float]) -> list[tuple[Callout, float]]:
-    """Return the callouts with ordinates [in] as close to their anchors as the order permits (isotonic regression)."""
+    """Return the callouts with ordinates [in] that are as close to their anchors as the order permits (isotonic
+    regression).
+    """
     wanted = isotonic_regression([each.anchor[1] for each in order]).x.tolist() if order else []
     return list(zip(order, spread(wanted, [each.height for each in order], bounds), strict=True))
 
 
 def _crossings(placed: Sequence[tuple[Callout, float]], edge: float) -> Ints:
-    """Return the index pairs (n, 2) of callouts whose lines cross."""
+    """Return the index pairs (n, 2) of callouts whose leader lines cross."""
     starts = np.array([(edge, y) for _, y in placed]).reshape(-1, 1, 2)
     ends = np.array([each.anchor for each, _ in placed]).reshape(-1, 1, 2)
 
     def parts(points: Floats) -> Floats:
-        """Return the side (n, n) of each line on which each point (1, n) lies, as a sign."""
+        """Return the signs (n, n), -1, 0 or 1, of the side of each leader line on which each point lies."""
         along, apart = ends - starts, points - starts
         return np.asarray(np.sign(along[..., 0] * apart[..., 1] - along[..., 1] * apart[..., 0]))
 

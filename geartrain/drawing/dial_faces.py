@@ -46,23 +46,27 @@ _SAMPLE, _DASHED = 0.45, 0.75  # inches: sample of a plain hand for the key, and
 
 @dataclass(frozen=True, slots=True)
 class PointerReading:
-    """Reading of a pointer after a number of turns of the driving link, with the shape of its hand."""
+    """Reading of a pointer after a number of turns of the driving link, and the shape of its hand."""
 
     output: str
     turned: Fraction | None
-    """Exact mean rotation since the zero pose [turns], positive clockwise as read; None if it is not determined."""
+    """Exact mean rotation since the zero pose [turns], positive clockwise as seen by the reader; None if the rotation
+    is not determined.
+    """
     error: float
-    """Contribution of the starting angle, teeth and pins to the reading [turns], positive clockwise as read."""
+    """Contribution of the starting angle, teeth and pins to the reading [turns], positive clockwise as seen by the
+    reader.
+    """
     reach: float = 1.0
     """Length of the hand divided by the radius of its scale. The points of `outline` are (x, half the width), both
-    divided by this length.
+    divided by the length of the hand.
     """
     outline: Sequence[tuple[float, float]] = ()
 
     @property
     def at(self) -> Fraction:
-        """Position of the pointer, clockwise as read from the zero mark [turns]; its mean rotation counts as 0 if it is
-        not determined.
+        """Position of the pointer [turns], measured clockwise from the zero mark as seen by the reader. A mean rotation
+        that is not determined counts as 0.
 
         The value is exact except for the error, which is rounded. A hand on a line is read in the cell after the line,
         and an error of -1e-17 turns would move it to the cell before the line.
@@ -72,15 +76,17 @@ class PointerReading:
 
 @dataclass(frozen=True, slots=True)
 class DialPicture:
-    """Dial face to be drawn, with the indices of the pointers that are read on it; `name` is empty for a plain face."""
+    """Dial face to be drawn, with the indices of the pointers that are read on the face. `name` is empty for a plain
+    face.
+    """
 
     name: str
     scale: DialScale
     pointers: tuple[int, ...]
     title: str = ""
-    """Text above the face; empty to use the name."""
+    """Text above the face. If it is empty, the name is written."""
     ball: bool = False
-    """True for a half-black ball that shows the Moon's phase."""
+    """True if the face shows a half-black ball for the Moon's phase instead of a scale."""
 
 
 def pointer_readings(scene: Scene, turns: Fraction) -> list[PointerReading]:
@@ -104,7 +110,7 @@ def dials_figure(
 ) -> Figure:
     """Return a figure with the dials of a scene after `turns` of its driving link.
 
-    Outputs without a dial get a plain face if they are named or if no output has a dial.
+    Outputs without a dial are drawn on a plain face if they are named or if no output has a dial.
 
     outputs   names of the outputs to draw, by default all outputs that are read on a dial
 
@@ -140,7 +146,7 @@ def dials_figure(
 
 
 def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
-    """Return the dial faces to draw; raise `QuestionError` if an output is unknown, or if none or more than 60 faces
+    """Return the dial faces to draw. Raise `QuestionError` if an output is unknown, or if no face or more than 60 faces
     would be drawn.
     """
     known = {pointer.output: at for at, pointer in enumerate(scene.pointers) if scene.asks}
@@ -176,13 +182,15 @@ def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
 
 
 def place(centre: tuple[float, float], radius: float, turn: float | Fraction) -> tuple[float, float]:
-    """Return the point at `radius` about a centre, at a number of turns clockwise from the zero mark at the top."""
+    """Return the point at the distance `radius` from a centre and at the angle `turn` [turns], measured clockwise from
+    the zero mark at the top.
+    """
     x, y = clock_point(radius, turn)
     return centre[0] + x, centre[1] + y
 
 
 def _draw_face(axes: Axes, face: DialPicture, readings: Sequence[PointerReading], centre: tuple[float, float]) -> None:
-    """Draw the scale, the hands and the name of a face."""
+    """Draw the scale, the hands and the name of a dial face."""
     outer = _OUTER
     if face.ball:
         _draw_moon(axes, readings[face.pointers[0]], centre)
@@ -202,7 +210,8 @@ def _draw_face(axes: Axes, face: DialPicture, readings: Sequence[PointerReading]
 def _draw_moon(axes: Axes, reading: PointerReading, centre: tuple[float, float]) -> None:
     """Draw the ball that shows the phase of the Moon, with its axis upright and its white half as seen from the front.
 
-    The black half faces the reader at angle 0. The terminator is half an ellipse, as the projection of a great circle.
+    The black half faces the reader at angle 0. The terminator is half an ellipse, because it is the projection of a
+    great circle.
     """
     axes.add_patch(Circle(centre, _MOON, facecolor=BLACK, edgecolor=BLACK, zorder=3, gid="moon"))
     turn = 2 * pi * float(reading.at % 1)
@@ -215,7 +224,7 @@ def _draw_moon(axes: Axes, reading: PointerReading, centre: tuple[float, float])
 
 
 def _usual_sense(pointers: Sequence[Pointer]) -> str:
-    """Return the sense in which most of the hands turn as read; empty if none turns."""
+    """Return the sense of rotation of most hands as seen by the reader; an empty string if no hand turns."""
     senses = Counter(pointer.text.removesuffix(" as read") for pointer in pointers if pointer.speed)
     return senses.most_common(1)[0][0] if senses else ""
 
@@ -228,7 +237,7 @@ def _draw_key(
     centre: tuple[float, float],
     usual: str,
 ) -> None:
-    """Draw a key below a face: one line for each hand, with its style and its reading."""
+    """Draw a key below a dial face. Each line of the key shows the style of one hand and its reading."""
     reading_text = [_reading_text(scene.pointers[at], readings[at], face, usual) for at in face.pointers]
     sample = _sample_length(face)
     left = centre[0] - (max(map(text_width, reading_text)) + sample) / 2
@@ -239,7 +248,7 @@ def _draw_key(
 
 
 def _sample_length(face: DialPicture) -> float:
-    """Return the length [in] of a hand's sample in the key of a face."""
+    """Return the length [in] of the sample in the key of a dial face that shows the style of one pointer."""
     return _SAMPLE if len(face.pointers) == 1 else _DASHED
 
 
@@ -261,8 +270,8 @@ def _draw_scale(axes: Axes, face: DialPicture, centre: tuple[float, float], oute
 def _draw_pointer(
     axes: Axes, face: DialPicture, reading: PointerReading, centre: tuple[float, float], reach: float, order: int
 ) -> None:
-    """Draw a hand from the centre if its reading is determined; on a spiral, the hand ends at the current turn of the
-    spiral.
+    """Draw a hand from the centre if its reading is determined. On a spiral dial, the hand ends at the current turn of
+    the spiral.
     """
     if reading.turned is None:
         return
@@ -282,7 +291,7 @@ def _draw_pointer(
 def _fill_hand(
     axes: Axes, reading: PointerReading, centre: tuple[float, float], tip: tuple[float, float], colour: str
 ) -> None:
-    """Draw the outline of a hand that is wider than a needle."""
+    """Draw the outline of a hand that is wider than a line."""
     along = np.subtract(tip, centre)
     across = np.array([along[1], -along[0]])
     right, left = ([centre + x * along + way * w * across for x, w in reading.outline] for way in (1, -1))
@@ -290,8 +299,8 @@ def _fill_hand(
 
 
 def _reading_text(pointer: Pointer, reading: PointerReading, face: DialPicture, usual: str) -> str:
-    """Return a string with the name of an output, the position and the reading of its pointer, and its sense of
-    rotation if it is unusual.
+    """Return a string with the name of an output, the position and the reading of its pointer, and, if it is unusual,
+    the sense of rotation.
     """
     if reading.turned is None:
         return f"{pointer.output}: undetermined"

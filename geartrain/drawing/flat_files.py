@@ -27,7 +27,9 @@ _STRAIGHT = 1e-9  # bulge below which an arc is drawn as a line
 
 
 def to_svg(drawing: FlatDrawing) -> str:
-    """Return a drawing as an SVG string, with one path to cut and a group for each layer that is not cut."""
+    """Return a drawing as an SVG string that contains one path to be cut, and a group for each layer that is
+    not cut.
+    """
     (left, low), (right, high) = (corner.tolist() for corner in drawing.box)
     width, height = right - left, high - low
     cut = " ".join(map(path_data, drawing.cut))
@@ -50,7 +52,7 @@ def to_svg(drawing: FlatDrawing) -> str:
 
 
 def path_data(contour: Contour) -> str:
-    """Return a contour as the data of an SVG path, with arcs, and y downwards."""
+    """Return a contour as the data of an SVG path. Arcs are retained, and y points downwards."""
     points = [*contour.points, contour.points[0]]
     parts = [f"M {points[0][0]:.6f} {-points[0][1]:.6f}"]
     for start, end, bulge in zip(points, points[1:], contour.bulges.tolist(), strict=False):
@@ -83,7 +85,9 @@ _COLOURS = dict(zip(LAYERS, (7, 5, 1), strict=True))  # black or white, blue, re
 
 
 def to_dxf(drawing: FlatDrawing) -> str:
-    """Return a drawing as a DXF R2010 string, with its title as a property; raise `MissingExtraError` without ezdxf."""
+    """Return a drawing as a DXF R2010 string. The title of the drawing is stored as a property. Raise
+    `MissingExtraError` if ezdxf is not installed.
+    """
     try:
         from ezdxf import options, units  # type: ignore[attr-defined]
         from ezdxf.enums import TextEntityAlignment
@@ -184,7 +188,9 @@ def outline_text(wheel: WheelOutline, suffix: str) -> str:
 
 
 def _csv(wheel: WheelOutline) -> str:
-    """Return the points of closed contours as CSV rows, with arcs as chords within the wheel's tolerance."""
+    """Return closed contours as CSV rows, one for each point. Arcs are replaced by chords within the
+    wheel's tolerance.
+    """
     rows: list[tuple[object, ...]] = []
     for at, contour in enumerate(wheel.contours):
         points = contour.flattened(wheel.tolerance)

@@ -58,7 +58,7 @@ _EDGE_STYLES: dict[str, tuple[float, Dash, str]] = {
     "gear": (3.2, "-", BLUE),
     "coupling": (2.2, (0, (4, 2)), PURPLE),
 }
-"""Width [pt], dashes and colour of an edge by its kind."""
+"""Line width [pt], dash pattern and colour of an edge, keyed by the kind of the edge."""
 _JOINTS = ("revolute", "prismatic")
 _LABEL_OFFSETS = (
     (0.0, 0.12),
@@ -76,8 +76,8 @@ _RIM, _HEAD, _FOOT = 0.75, 0.75, 0.55
 
 @dataclass(frozen=True, slots=True)
 class GraphEdge:
-    """Edge between two links, of kind revolute, prismatic, gear or coupling; `label` is the axis of a joint, or the
-    pair's name.
+    """Edge between two links, of the kind revolute, prismatic, gear or coupling. `label` is the axis of a joint or the
+    name of a pair.
     """
 
     ends: tuple[str, str]
@@ -87,7 +87,9 @@ class GraphEdge:
 
 
 def edges_of(train: GearTrain, broken: Sequence[str] = ()) -> list[GraphEdge]:
-    """Return the edges of turning pairs, gear pairs and couplings, marked if their name is in `broken`."""
+    """Return the edges of turning pairs, gear pairs and couplings. An edge is marked as broken if its name is in
+    `broken`.
+    """
     declared = train.declaration
     wheels = declared.wheels
     found = [GraphEdge(joint.pair, "revolute", joint.axis) for joint in declared.revolutes]
@@ -102,7 +104,9 @@ def edges_of(train: GearTrain, broken: Sequence[str] = ()) -> list[GraphEdge]:
 
 
 def graph_figure(train: GearTrain, state: str | None = None, labels: bool = True) -> Figure:
-    """Return the kinematic graph of a train, with faulty loops in red; raise `QuestionError` for too many links."""
+    """Return a figure of the kinematic graph of a train, in which faulty loops are red. Raise `QuestionError` if there
+    are too many links.
+    """
     declared = train.declaration
     links = list(declared.links)
     too_many(train, len(links), _MOST, "links")
@@ -146,14 +150,16 @@ def graph_figure(train: GearTrain, state: str | None = None, labels: bool = True
 
 
 def graph_layout(train: GearTrain) -> tuple[dict[str, tuple[float, float]], list[tuple[GraphEdge, Floats]]]:
-    """Return the positions of links [in], and the edges, each with its curve (3, 2) of start, control point and end."""
+    """Return the positions of links [in], and a list of the edges with their curves (3, 2): start, control point and
+    end.
+    """
     links, edges = list(train.declaration.links), edges_of(train)
     at = {link: (float(x), float(y)) for link, (x, y) in zip(links, _places(links, edges), strict=True)}
     return at, list(zip(edges, _curves(edges, at), strict=True))
 
 
 def _places(links: Sequence[str], edges: Sequence[GraphEdge]) -> Floats:
-    """Return the positions (n, 2) of the links [in], rotated so that the longer side is horizontal."""
+    """Return the positions (n, 2) of the links [in], rotated so that the longer side of the graph is horizontal."""
     degree = dict.fromkeys(links, 0)
     for edge in edges:
         for end in edge.ends:
@@ -176,7 +182,9 @@ def _places(links: Sequence[str], edges: Sequence[GraphEdge]) -> Floats:
 
 
 def _curves(edges: Sequence[GraphEdge], at: Mapping[str, tuple[float, float]]) -> list[Floats]:
-    """Return the curve of every edge; later edges between the same links bend more."""
+    """Return the curve of every edge. If several edges connect the same two links, each is bent more than the previous
+    one.
+    """
     turns: dict[frozenset[str], int] = {}
     found = []
     for edge in edges:
@@ -186,7 +194,9 @@ def _curves(edges: Sequence[GraphEdge], at: Mapping[str, tuple[float, float]]) -
 
 
 def _curve(edge: GraphEdge, at: Mapping[str, tuple[float, float]], turn: int) -> Floats:
-    """Return the start, control point and end (3, 2) of an edge, bent only as far as needed to avoid other vertices."""
+    """Return the curve (3, 2) of an edge: start, control point and end. The curve is bent only as far as needed to
+    avoid other vertices.
+    """
     start, end = (np.array(at[link]) for link in edge.ends)
     along = end - start
     normal = np.array([-along[1], along[0]]) / max(float(hypot(*along)), 1e-9)  # coincident ends: no bend
@@ -232,7 +242,9 @@ def _draw_edge(axes: Axes, edge: GraphEdge, curve: Floats) -> None:
 
 @dataclass(frozen=True, slots=True)
 class _Traces:
-    """Sampled points (edge, point, 2) of all edges, and the inked area per point: length [in] times line width [pt]."""
+    """Sampled points (edge, point, 2) of all edges, and the inked area that each point represents: length [in] times
+    line width [pt].
+    """
 
     points: Floats
     ink: Floats
@@ -244,7 +256,9 @@ class _Traces:
         return cls(points, steps * [_EDGE_STYLES[edge.kind][0] for edge in edges])
 
     def hidden(self, box: Box, own: int | None = None) -> float:
-        """Return the inked area of edges that a box with a margin would hide; the edge `own` is not counted."""
+        """Return the inked area of edges that a box with a margin would hide. The edge with the index `own` is not
+        counted.
+        """
         inside = (np.abs(self.points - box[:2]) < np.array(box[2:]) / 2 + _EDGE_MARGIN).all(2).sum(1)
         ink = inside * self.ink
         return float(ink.sum() - (0.0 if own is None else ink[own]))
@@ -270,8 +284,8 @@ def _draw_labels(
 
 
 def _spots(edge: GraphEdge, curve: Floats, at: int, traces: _Traces) -> list[tuple[float, Box]]:
-    """Return the positions of a label along its edge, from the middle outwards, each with the inked area of other edges
-    that it would hide.
+    """Return the positions of a label along its edge, from the middle outwards. Each position is given with the inked
+    area of other edges that the label would hide there.
     """
     found = []
     for share in sorted(_SHARES, key=lambda share: abs(share - 0.5)):
@@ -283,7 +297,7 @@ def _spots(edge: GraphEdge, curve: Floats, at: int, traces: _Traces) -> list[tup
 
 
 def _draw_vertex(axes: Axes, link: str, at: Mapping[str, tuple[float, float]], frame: bool, size: float) -> None:
-    """Draw a vertex of half width `size`: a circle, or a hatched square for the frame."""
+    """Draw a vertex with the half-width `size`: a circle for a link, or a hatched square for the frame."""
     x, y = at[link]
     style: dict[str, Any] = {
         "facecolor": "white",
@@ -306,7 +320,7 @@ def _name_vertex(
     traces: _Traces,
     room: LabelSpace,
 ) -> None:
-    """Draw a link's name at the position that covers the smallest inked area; ties are broken in favour of the side
+    """Draw a link's name at the position that covers the smallest inked area. Ties are broken in favour of the side
     with the fewest edges.
     """
     boxes = []
@@ -324,7 +338,9 @@ def _name_vertex(
 def _free_sides(
     link: str, at: Mapping[str, tuple[float, float]], edges: Sequence[GraphEdge]
 ) -> list[tuple[float, float]]:
-    """Return sixteen unit directions from a vertex, in descending order of distance from its edges."""
+    """Return sixteen unit directions from a vertex, in descending order of their angular distance from the edges of the
+    vertex.
+    """
     here = np.array(at[link])
     mates = [other for edge in edges if link in edge.ends for other in edge.ends if other != link]
     if not mates:

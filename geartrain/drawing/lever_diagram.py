@@ -36,8 +36,8 @@ from geartrain.numerics.exact import decimal, fraction_text, is_short
 
 
 class Point(NamedTuple):
-    """Point of a lever with its abscissa, its members, their closed brakes and clutches, and its speed (None if
-    unknown).
+    """Point of a lever: its abscissa, its members, their closed brakes and clutches, and its speed (None
+    if unknown).
     """
 
     x: Fraction
@@ -47,7 +47,7 @@ class Point(NamedTuple):
 
     @property
     def names(self) -> list[str]:
-        """Names of the members, each with its closed brakes and clutches in brackets."""
+        """Names of the members. The closed brakes and clutches of each member follow in brackets."""
         return [link + mark for link, mark in zip(self.links, self.marks, strict=True)]
 
 
@@ -61,7 +61,7 @@ _LONG = 11  # letters of the longest fraction that is not written as a decimal
 
 
 def lever_figure(train: GearTrain, state: str | None = None, labels: bool = True) -> Figure:
-    """Return a figure with a panel for each epicyclic set in each state; the panels of one state form rows.
+    """Return a figure with a panel for each epicyclic set in each state. The panels of one state form one or more rows.
 
     state   state to be drawn; by default all states
 
@@ -104,7 +104,9 @@ def lever_figure(train: GearTrain, state: str | None = None, labels: bool = True
 
 
 def _limits(train: GearTrain, levers: Sequence[Lever], answers: Sequence[Answer]) -> tuple[float, float]:
-    """Return the range of all speeds with a margin, so that all panels have the same scale."""
+    """Return the limits of the speed axis, which contain all speeds with a margin, so that all panels have the same
+    scale.
+    """
     points = (point for lever in levers for answer in answers for point in _points(train, lever, answer))
     speeds = [0.0, *(float(point.speed) for point in points if point.speed is not None)]
     more = 0.08 * (max(speeds) - min(speeds)) or 0.5
@@ -112,13 +114,17 @@ def _limits(train: GearTrain, levers: Sequence[Lever], answers: Sequence[Answer]
 
 
 def _even_rows(wide: Sequence[float]) -> list[list[int]]:
-    """Return the panels in as few rows as their total width permits, with nearly equal numbers of panels."""
+    """Return the indices of the panels in each row: as few rows as their total width permits, with nearly equal numbers
+    of panels.
+    """
     rows = ceil((sum(wide) + _GAP * len(wide)) / _PAGE)
     return [band.tolist() for band in np.array_split(np.arange(len(wide)), min(rows, len(wide)))]
 
 
 def _widened(wide: Sequence[float], bands: Sequence[Sequence[int]]) -> list[float]:
-    """Return the widths of the panels [in], widened if they do not fill a page of the minimum width."""
+    """Return the widths of the panels [in]. The panels are widened if the widest row is narrower than the minimum page
+    width.
+    """
     most = max(bands, key=lambda band: sum(wide[at] + _GAP for at in band))
     room = _NARROW - _EDGE - _GAP * len(most)
     return [each * max(room / sum(wide[at] for at in most), 1.0) for each in wide]
@@ -136,7 +142,7 @@ def _label_width(text: str) -> float:
 
 
 def _heading(train: GearTrain, answer: Answer, first: bool) -> str:
-    """Return the heading of a state with its name, its closed brakes and clutches, the verdict if speeds are not
+    """Return the heading of a state: its name, its closed brakes and clutches, the verdict if speeds are not
     determined, and, for the first state, the unit of speeds.
     """
     said = [] if answer.state is None else [f"state {answer.state}"]
@@ -148,7 +154,9 @@ def _heading(train: GearTrain, answer: Answer, first: bool) -> str:
 
 
 def _panel(axes: Axes, train: GearTrain, lever: Lever, answer: Answer, labels: bool) -> None:
-    """Draw one set in one state: a vertical line for each member, and the line through their speeds."""
+    """Draw one epicyclic set in one state: a vertical line for each member, and the line through the speeds of the
+    members.
+    """
     points = _points(train, lever, answer)
     xs = [float(point.x) for point in points]
     known = [(float(point.x), float(point.speed)) for point in points if point.speed is not None]
@@ -169,7 +177,9 @@ def _panel(axes: Axes, train: GearTrain, lever: Lever, answer: Answer, labels: b
 
 
 def _marks(train: GearTrain, state: str | None) -> dict[str, str]:
-    """Return a dictionary from each link to the names, in brackets, of closed brakes and clutches that act on it."""
+    """Return a dictionary that maps each link to a text in brackets with the names of closed brakes and clutches that
+    act on the link.
+    """
     found: dict[str, list[str]] = {}
     for name in train.kinematics.cases[state].engaged:
         clutch = train.declaration.clutches[name]
@@ -179,7 +189,8 @@ def _marks(train: GearTrain, state: str | None) -> dict[str, str]:
 
 
 def _points(train: GearTrain, lever: Lever, answer: Answer) -> list[Point]:
-    """Return the points of a lever in ascending order of abscissa, with speeds about the carrier's reference direction.
+    """Return the points of a lever in ascending order of abscissa. Speeds are about the reference direction of the
+    carrier.
 
     The carrier has its own point, even if other members have the same abscissa.
     """
@@ -209,7 +220,9 @@ def _frame(axes: Axes, xs: Sequence[float]) -> None:
 
 
 def _names(axes: Axes, points: Sequence[Point], xs: Sequence[float]) -> None:
-    """Write names and speeds above a panel and abscissae below it, moved apart where lines are close."""
+    """Write names and speeds above a panel and abscissae below it. Texts of neighbouring vertical lines are moved apart
+    where they would overlap.
+    """
     low, high = axes.get_xlim()
     figure = axes.get_figure(root=True)
     assert figure is not None
@@ -239,7 +252,9 @@ def _names(axes: Axes, points: Sequence[Point], xs: Sequence[float]) -> None:
 
 
 def _speed_text(value: Fraction | None) -> str:
-    """Format a short fraction as a fraction, a long fraction as a decimal number, and None as a question mark."""
+    """Return a text for a speed: a fraction if it is short, a decimal number if the fraction is long, and a question
+    mark for None.
+    """
     if value is None:
         return "?"
     return fraction_text(value) if is_short(value, _LONG) else f"≈ {decimal(value, 6)}"

@@ -53,8 +53,8 @@ _MAX_TURNS = 15  # turns of a pointer beyond which its angle would fill the pane
 class _Trace(NamedTuple):
     """Motion of one output against the turns of the input.
 
-    The angle and its mean are in turns and the error in rad, or all in mm for a link that slides. The speed is divided
-    by the mean speed of the output, or by the input speed if the mean is 0.
+    The angle and the mean angle are in turns, and the error is in rad; for a link that slides, all are in mm. The speed
+    is divided by the mean speed of the output, or by the input speed if the mean is 0.
     """
 
     name: str
@@ -64,14 +64,16 @@ class _Trace(NamedTuple):
     error: Floats
     speed: Floats
     kind: str
-    """Name of the error on the axis: transmission error if the train has tooth forms, otherwise anomaly."""
+    """Name of the error on the axis of the plot: transmission error if the train has tooth forms, or anomaly if it has
+    none.
+    """
     slides: bool
     first: tuple[Floats, Floats, Floats]
-    """Turns, error and relative speed at each of the first positions of the run."""
+    """Input turns, output error and relative output speed at the first positions of the run."""
 
 
 def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: None, title: str = "") -> Figure:
-    """Return a chart of the errors of outputs over a run, or curves of the motion if there is only one output.
+    """Return a chart of the output errors over a run, or, if there is only one output, curves of its motion.
 
     The chart has a row for each requested output, by default for each output with a dial (for each output with a
     target, or for all outputs, if there is none). It shows the transmission error of the teeth less its mean, without
@@ -87,8 +89,8 @@ def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: Non
 
 
 def _error_chart(run: MotionRun, title: str) -> Figure:
-    """Return a chart of the errors of a run, which has been computed. Outputs that move uniformly have no row, unless
-    all outputs move uniformly.
+    """Return a chart of the output errors of a run that has been computed. Outputs that move uniformly have no row,
+    unless all outputs move uniformly.
     """
     uneven = [tally for tally in run.statistics if tally.peak_to_peak > _ROUNDING]
     ranked = sorted(uneven or run.statistics, key=lambda tally: -tally.peak_to_peak)
@@ -125,7 +127,7 @@ def _kind(motion: Motion) -> str:
 
 
 def _curves(motion: Motion, run: MotionRun, on_done: Callable[[int], None]) -> Figure:
-    """Return the curves of the only output of a motion, below each other."""
+    """Return a figure with the curves of the only output of a motion, one below the other."""
     trace = _trace(motion, run, on_done)
     drawers = _drawers(trace)
     figure, panels = curve_panels([2.1] * len(drawers), 0.5, share=False)
@@ -136,8 +138,8 @@ def _curves(motion: Motion, run: MotionRun, on_done: Callable[[int], None]) -> F
 
 
 def _drawers(trace: _Trace) -> list[Callable[[Axes, _Trace], None]]:
-    """Return the functions that draw an output's panels; for many turns, only backward motion is shown, not the
-    angle.
+    """Return the functions that draw the panels of an output. For many turns, the angle is not drawn, only backward
+    motion.
     """
     errors: list[Callable[[Axes, _Trace], None]] = (
         [_error, _speed] if np.ptp(trace.error) > _ROUNDING or np.ptp(trace.speed) > _ROUNDING else []
@@ -148,7 +150,9 @@ def _drawers(trace: _Trace) -> list[Callable[[Axes, _Trace], None]]:
 
 
 def _trace(motion: Motion, run: MotionRun, on_done: Callable[[int], None]) -> _Trace:
-    """Return the trace of the only output of a motion, reduced to the resolution of the picture."""
+    """Return the trace of the only output of a motion, reduced to the resolution of the picture. `on_done` is called
+    with numbers of computed positions.
+    """
     (tally,), (start,), toothed = motion._statistics(), motion._start_angles, motion.without_anomaly()
     parts: list[tuple[Floats, Floats, Floats, Floats]] = []
     first: tuple[Floats, Floats, Floats] | None = None
@@ -169,8 +173,8 @@ def _trace(motion: Motion, run: MotionRun, on_done: Callable[[int], None]) -> _T
 
 
 def _thinned(error: Floats, speed: Floats, bins: int) -> NDArray[np.intp]:
-    """Return the positions to draw: the first position of each bin, the extremes of deviation and speed in it, and all
-    reversals.
+    """Return the indices of the positions to draw: the first position of each bin, the positions of extreme error and
+    speed in each bin, and all reversals.
     """
     turning = np.flatnonzero(np.diff(np.signbit(speed)))[:_POINTS]
     extremes = (kept_extremes(values, 3 * bins) for values in (error, speed))
@@ -212,7 +216,9 @@ def _set_degrees(panel: Axes, label: str) -> None:
 
 
 def _dial_line(x: Floats, turns: Floats) -> tuple[Floats, Floats]:
-    """Return the line of a pointer in degrees modulo 360, interrupted by NaN where the pointer passes 0."""
+    """Return the abscissae and the angles [deg], modulo 360, of a pointer's line. NaN interrupts the line where the
+    pointer passes 0.
+    """
     degrees = 360 * np.mod(turns, 1)
     cuts = np.flatnonzero(np.abs(np.diff(degrees)) > 180) + 1
     return np.insert(x, cuts, np.nan), np.insert(degrees, cuts, np.nan)
@@ -259,10 +265,10 @@ _PREFIXES = ((1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"))
 
 
 def torque_cycle_figure(found: TorqueCycle, title: str = "") -> Figure:
-    """Return a figure of the requested torque over a run, with its mean and extremes.
+    """Return a figure of the torque over the positions in `found`, with its mean and its extremes.
 
     A chart below the torque shows the mean and the range of the losses of gear pairs, couplings and bearings, if there
-    are any, the largest at the top.
+    are any, with the largest loss at the top.
     """
     if found.turns is None or found.torque is None or not np.isfinite(found.torque).any():
         what, fix = "the torque over a turn is not known", "declare loads that the input can drive"
@@ -285,7 +291,7 @@ def torque_cycle_figure(found: TorqueCycle, title: str = "") -> Figure:
 
 
 def _prefixed(maximum: float, unit: str) -> tuple[float, str]:
-    """Return the factor that converts values to a unit with a decimal prefix, and this unit in parentheses; the factor
+    """Return the factor that converts values to a unit with a decimal prefix, and this unit in parentheses. The factor
     is 1 if `unit` is empty.
     """
     if not unit:
@@ -328,7 +334,9 @@ def _torque(panel: Axes, found: TorqueCycle) -> None:
 
 
 def _mean_speed(found: TorqueCycle) -> float:
-    """Return the mean turns of a link per turn of the input: 0 if the link only swings, 1 if its speed is not known."""
+    """Return the mean turns of a link per turn of the input: 0 if the link only oscillates, 1 if its mean speed is not
+    known.
+    """
     assert found.turns is not None
     if found.speeds is None or found.link not in found.speeds.labels[0]:
         return 1.0
@@ -339,7 +347,7 @@ def _mean_speed(found: TorqueCycle) -> float:
 
 
 def _loss_rows(found: TorqueCycle) -> tuple[list[Row], str]:
-    """Return rows with the losses of parts in descending order, and the label of their axis.
+    """Return chart rows with the losses of parts in descending order, and the label of the loss axis.
 
     Losses beyond the maximum number of rows are combined in one row.
     """
@@ -370,6 +378,6 @@ def _loss_rows(found: TorqueCycle) -> tuple[list[Row], str]:
 
 
 def _bounds(values: Floats) -> tuple[float, float]:
-    """Return the axis limits of unbounded values, from their 2 % and 98 % quantiles; they include 0."""
+    """Return axis limits for values that may diverge: their 2 % and 98 % quantiles, extended to include 0."""
     low, high = np.nanquantile(values, (0.02, 0.98))
     return _CUT * min(low, 0.0), _CUT * max(high, 0.0)

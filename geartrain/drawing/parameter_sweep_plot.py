@@ -138,13 +138,15 @@ def sweep_figure(
 
 
 def parameter_label(name: str, unit: str = "") -> str:
-    """Return the axis label of a parameter with its unit, by default the unit of triangular teeth."""
+    """Return the axis label of a parameter with its unit. The default is the unit that the parameter has in triangular
+    teeth.
+    """
     unit = unit or _NAMES.get(name, ("", ""))[1]
     return f"{parameter_name(name)} ({unit})" if unit else parameter_name(name)
 
 
 def parameter_name(name: str) -> str:
-    """Return the name of a parameter of triangular teeth in words."""
+    """Return the name, in words, of a parameter of triangular teeth."""
     return _NAMES[name][0] if name in _NAMES else name.replace("_", " ")
 
 
@@ -173,7 +175,7 @@ def _lines(parameters: dict[str, Floats], columns: dict[str, Floats], verdicts: 
 
 
 def _panels(columns: dict[str, Floats]) -> dict[str, dict[str, Floats]]:
-    """Return the columns of each panel, with both extremes of a quantity in one panel.
+    """Return the columns of each panel, keyed by panel. The minimum and maximum of a quantity are in the same panel.
 
     Columns without a default panel are included only if no other columns are given.
     """
@@ -200,7 +202,9 @@ def _curves(axes: Axes, x: Floats, curves: dict[str, Floats], verdicts: Texts) -
 
 
 def _band_styles(verdicts: Texts) -> dict[str, dict[str, Any]]:
-    """Return the style of each verdict's band: coloured where the pair runs, grey and hatched where it does not."""
+    """Return the style of each verdict's band, keyed by verdict: coloured if the pair runs with this verdict, grey and
+    hatched if it does not.
+    """
     others = count(1 + max(series for series, _ in _PHASE_STYLES.values()))
     styles: dict[str, dict[str, Any]] = {}
     for kind in dict.fromkeys(verdicts.tolist()):
@@ -213,7 +217,9 @@ def _band_styles(verdicts: Texts) -> dict[str, dict[str, Any]]:
 
 
 def _bands(x: Floats, verdicts: Texts) -> Iterator[tuple[float, float, str]]:
-    """Yield start, end and verdict of each interval with a single verdict, bounded halfway between samples."""
+    """Yield the start, end and verdict of each interval of x with a single verdict. Intervals meet halfway between
+    samples.
+    """
     edges = np.concatenate((x[:1], (x[1:] + x[:-1]) / 2, x[-1:]))
     changes = (np.flatnonzero(verdicts[1:] != verdicts[:-1]) + 1).tolist()
     for start, end in zip([0, *changes], [*changes, len(x)], strict=True):
@@ -244,7 +250,7 @@ def _map(parameters: dict[str, Floats], columns: dict[str, Floats], verdicts: Te
 
 
 def _sorted(x: Floats, y: Floats, values: Floats, verdicts: Texts) -> tuple[Floats, Floats, Floats, Texts]:
-    """Return the grids sorted so that each parameter increases along its axis."""
+    """Return x, y, values and verdicts sorted so that each parameter increases along its axis of the grid."""
     rows = np.argsort(x[:, 0] if x[0, 0] != x[-1, 0] else y[:, 0], kind="stable")
     cells = np.argsort(x[0] if x[0, 0] != x[0, -1] else y[0], kind="stable")
     at = np.ix_(rows, cells)
@@ -252,7 +258,9 @@ def _sorted(x: Floats, y: Floats, values: Floats, verdicts: Texts) -> tuple[Floa
 
 
 def _regions(axes: Axes, x: Floats, y: Floats, verdicts: Texts) -> None:
-    """Draw hatching in the regions of faults; bound and name the regions where the pair runs, if there are several."""
+    """Draw hatching in the regions of faults. If there are several regions in which the pair runs, also draw their
+    borders and names.
+    """
     for kind, hatch in _FAULTS.items():
         if hatch and (verdicts == kind).any():
             here = (verdicts == kind).astype(float)

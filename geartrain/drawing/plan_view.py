@@ -69,14 +69,14 @@ _CHORD, _COARSE = 0.002, 0.02  # maximum deviation of a simplified outline, in i
 
 
 def from_below(projected: ProjectedScene) -> list[SceneWheel]:
-    """Return the wheels in drawing order: the lowest first, and at equal heights the largest first."""
+    """Return the wheels in drawing order: lowest wheels first, and among wheels at equal heights the largest first."""
     return sorted(
         projected.scene.wheels, key=lambda wheel: (float(projected.seen(projected.centre(wheel))[2]), -wheel.radius)
     )
 
 
 def draw_flat(page: ScaledPage, projected: ProjectedScene) -> None:
-    """Draw all wheels, arms, wave generators, couplings and hubs of a scene in plan."""
+    """Draw all wheels, arms, wave generators, couplings and hubs of a scene in the plan."""
     scene, wheels = projected.scene, from_below(projected)
     heights = sorted({round(float(projected.seen(projected.centre(wheel))[2]), 6) for wheel in wheels})
     red = broken_wheels(scene)
@@ -147,7 +147,7 @@ def _draw_arms(page: ScaledPage, projected: ProjectedScene) -> None:
 
 
 def _draw_waves(page: ScaledPage, projected: ProjectedScene) -> None:
-    """Draw each wave generator from its axis to the points where it deflects its flexible wheel outwards."""
+    """Draw each wave generator from its axis to the points at which it deflects its flexible wheel outwards."""
     for wave in projected.scene.waves:
         name = f"wave {projected.scene.bodies[wave.by].id}"
         page.axes.add_artist(
@@ -160,7 +160,7 @@ def _draw_waves(page: ScaledPage, projected: ProjectedScene) -> None:
 
 
 def _draw_coupling(page: ScaledPage, projected: ProjectedScene, coupling: SceneCoupling) -> None:
-    """Draw the pin and the part of the slot that it can reach, or pins in their holes."""
+    """Draw the pin and the part of the slot that the pin can reach, or, for pins in holes, the pins in their holes."""
     if coupling.hole:
         _draw_holes(page, projected, coupling)
         return
@@ -195,23 +195,25 @@ _HUB, _LINE = 0.12, 0.04  # inches kept free around a hub or a point of an arm, 
 
 @dataclass(frozen=True, slots=True)
 class PlanNames:
-    """Names of the wheels that face the reader, the nearest wheel first, with their candidate positions [in]."""
+    """Names of the wheels that face the reader, starting with the nearest wheel, and candidate positions of the names
+    [in].
+    """
 
     wheels: Sequence[SceneWheel]
     centres: Floats
-    """Centres of the wheels (n, 2) [in]."""
+    """Centres of the wheels, shape (n, 2) [in]."""
     reach: Floats
-    """Radius of the disc that each wheel hides (n,) [in]; 0 for a ring, which is open."""
+    """Radii of the discs that the wheels hide, shape (n,) [in]; 0 for a ring gear, which is open."""
     arms: Floats
-    """Points (m, 2) on arms, slots and pins in holes, which names must not cover [in]."""
+    """Points on arms, slots and pins in holes, shape (m, 2) [in]. Names must not cover these points."""
     scale: float
-    """Inches per millimetre."""
+    """Scale of the plan: inches on paper per millimetre of the train."""
 
     @classmethod
     def of(
         cls, projected: ProjectedScene, wheels: Sequence[SceneWheel], at: Callable[[Floats], Floats], scale: float
     ) -> PlanNames:
-        """Return the names of the given wheels; `at` converts view coordinates to inches."""
+        """Return the names of the given wheels. The function `at` converts view coordinates to inches."""
         centres = np.array([at(projected.seen(projected.centre(wheel))) for wheel in wheels]).reshape(-1, 2)
         reach = np.array([0.0 if wheel.kind == "ring" else wheel.tip * scale for wheel in wheels])
         ends = [at(projected.seen(np.array([start, end]))) for _, start, end in arms_of(projected)]
@@ -235,7 +237,7 @@ class PlanNames:
     def place_beside(
         self, written: Sequence[tuple[SceneWheel, Box]], lines: Sequence[Floats]
     ) -> list[tuple[SceneWheel, Box]]:
-        """Return the names on wheels, moved away from callout lines (2, 2) where there is space."""
+        """Return the names on wheels, moved away from the leader lines of callouts (2, 2) where there is space."""
         room, order = self._room(lines), {wheel.id: at for at, wheel in enumerate(self.wheels)}
         found = []
         for wheel, box in written:
@@ -246,7 +248,7 @@ class PlanNames:
         return found
 
     def _room(self, lines: Sequence[Floats]) -> LabelSpace:
-        """Return a label space in which hubs, arms and lines are occupied."""
+        """Return a label space in which hubs, arms and leader lines are marked as occupied."""
         room = LabelSpace()
         for x, y in (*self.centres, *self.arms):
             room.take((float(x), float(y), _HUB, _HUB))
@@ -255,7 +257,7 @@ class PlanNames:
         return room
 
     def _on_face(self, order: int) -> Iterator[Box]:
-        """Yield boxes for a name within the visible part of its wheel's face; yield nothing for a ring."""
+        """Yield boxes for the name of a wheel within the visible part of its face. A ring gear has no such box."""
         wheel, centre = self.wheels[order], self.centres[order]
         if wheel.kind == "ring":
             return
@@ -272,7 +274,7 @@ class PlanNames:
         yield from ((x, y, wide, high) for x, y in spots[within & ~hidden].tolist())
 
     def _callouts(self, rest: Sequence[int]) -> list[Callout]:
-        """Return one callout for each axis with wheels whose names do not fit on their faces."""
+        """Return one callout for each axis that carries wheels whose names do not fit on their faces."""
         middle = float(self.centres[:, 0].mean()) if len(self.centres) else 0.0
         axes: dict[tuple[float, ...], list[int]] = {}
         for order in rest:
@@ -286,7 +288,7 @@ class PlanNames:
         return callouts
 
     def _anchor(self, order: int, middle: float) -> tuple[float, float]:
-        """Return the outermost visible point of a wheel [in]; if the wheel is hidden, a point of its rim."""
+        """Return the outermost visible point of a wheel [in], or a point of its rim if the wheel is hidden."""
         wheel = self.wheels[order]
         shares = (1.05,) if wheel.kind == "ring" else _POINTS
         angles = 2 * pi / _ROUND * (np.arange(_ROUND) + 0.5)
@@ -326,10 +328,11 @@ _NOTE_SIZE = 8.5  # points: text above the plan
 
 
 def plan_figure(scene: Scene, turns: Fraction = Fraction(0), labels: bool = True) -> Figure:
-    """Return a figure of the scene to scale after `turns` of its driving link; a train that is not planar is drawn
+    """Return a figure of the scene to scale after `turns` of its driving link. A train that is not planar is drawn
     obliquely.
 
-    Pairs in a loop that does not close are red. The verdict on a train that does not turn is written above the plan.
+    Pairs in a loop that does not close are drawn in red. The verdict on a train that does not turn is written above the
+    plan.
     """
     projected = project_scene(scene, turns)
     plan = _PlanSize.of(projected)
@@ -377,7 +380,7 @@ class _PlanSize:
     """Dimensions of a plan on paper [in]; `bottom` and `depth` are in mm, before scaling."""
 
     scale: float
-    """Inches per millimetre."""
+    """Scale of the plan: inches on paper per millimetre of the train."""
     low: Floats
     """Lower left corner (2,) of the plan, relative to the origin of the train [in]."""
     size: Floats
@@ -391,7 +394,7 @@ class _PlanSize:
 
     @classmethod
     def of(cls, projected: ProjectedScene) -> _PlanSize:
-        """Return the dimensions of a scene in its pose."""
+        """Return the dimensions of the plan of a scene in its pose."""
         wheels, bodies = projected.scene.wheels, projected.scene.bodies
         hubs = [[projected.pose.point(at, body.point)] for at, body in enumerate(bodies)]  # without wheels: the size
         shapes = [projected.pose.point(part.body, part_points(part)) for part in projected.scene.shapes]
@@ -405,19 +408,23 @@ class _PlanSize:
         return cls(scale, scale * low[:2], scale * size[:2], float(low[2]), float(size[2]), deep)
 
     def at(self, seen: Floats) -> Floats:
-        """Return inches (..., 2) from the origin of the train for view coordinates (..., 3)."""
+        """Convert view coordinates (..., 3) [mm] to distances (..., 2) from the origin of the train on the
+        page [in].
+        """
         return np.asarray(self.scale * seen[..., :2])
 
     @property
     def deep_room(self) -> float:
-        """Width of the side view with its margins [in]."""
+        """Width of the side view including its margins [in]."""
         return self.deep + 2 * _RIM if self.deep else 0.0
 
 
 def _names(
     projected: ProjectedScene, plan: _PlanSize, labels: bool
 ) -> tuple[list[tuple[SceneWheel, Box]], CalloutMargin]:
-    """Return the names on wheels, and the names next to the plan, in inches relative to the origin of the train."""
+    """Return the names on wheels and the names next to the plan. Positions are in inches relative to the origin of the
+    train.
+    """
     written: list[tuple[SceneWheel, Box]] = []
     callouts: list[Callout] = []
     facing = [wheel for wheel in from_below(projected)[::-1] if projected.faces(wheel)] if projected.flat else []
@@ -434,7 +441,7 @@ def _names(
 
 
 def _write_above(axes: Axes, shifted: Sequence[tuple[str, str]], said: str) -> None:
-    """Write the lines on brakes and clutches, then the verdict, below the title."""
+    """Write the lines on brakes and clutches, followed by the verdict, below the title."""
     height = axes.get_ylim()[1]
     for row, (words, color) in enumerate(shifted):
         write(axes, 0.15, height - 0.64 - 0.17 * row, words, color, ha="left", fontsize=_NOTE_SIZE, gid="elements")
@@ -445,7 +452,9 @@ def _write_above(axes: Axes, shifted: Sequence[tuple[str, str]], said: str) -> N
 
 
 def _verdict(scene: Scene, width: float) -> str:
-    """Return the verdict, wrapped to a width [in] and at most four lines; empty for a determined train."""
+    """Return the verdict on the train, wrapped to a width [in] and at most four lines; an empty string for a determined
+    train.
+    """
     if scene.verdict["kind"] == "determined":
         return ""
     room = int((width - 0.3) / (_NOTE_SIZE * LETTER))
@@ -454,7 +463,7 @@ def _verdict(scene: Scene, width: float) -> str:
 
 
 def _elements(scene: Scene, width: float) -> list[tuple[str, str]]:
-    """Return lines that list the closed, then the open brakes and clutches, each with its colour."""
+    """Return lines of text that list the closed brakes and clutches, then the open ones, each line with its colour."""
     room = int((width - 0.3) / (_NOTE_SIZE * LETTER))
     lines = []
     for word, closed, color in (("closed", True, PURPLE), ("open", False, GREY)):
@@ -464,14 +473,14 @@ def _elements(scene: Scene, width: float) -> list[tuple[str, str]]:
 
 
 def _extent(projected: ProjectedScene, wheel: SceneWheel) -> Floats:
-    """Return points around a wheel that determine its bounding box."""
+    """Return points on the circumference of a wheel that determine its bounding box."""
     most = max(wheel.tip, wheel.root) * (1.12 if wheel.kind == "ring" else 1.0)
     half = wheel.thickness / 2
     return np.concatenate([projected.circle(wheel, most, half), projected.circle(wheel, most, -half)])
 
 
 def _remark(page: ScaledPage, scene: Scene, width: float) -> None:
-    """Write the first notice of the scene and the number of further notices in one line at the bottom."""
+    """Write the first notice of the scene, and the number of further notices, in one line at the bottom of the page."""
     found = [notice["what"] for notice in scene.notices[:1]]
     if len(scene.notices) > 1:
         found.insert(1, f"and {len(scene.notices) - 1} more")
@@ -480,7 +489,7 @@ def _remark(page: ScaledPage, scene: Scene, width: float) -> None:
 
 
 def _scale_bar(axes: Axes, scale: float) -> None:
-    """Draw a scale bar of a round number of millimetres, at most 1.1 inches long."""
+    """Draw a scale bar with the length of a round number of millimetres, at most 1.1 inches on paper."""
     raw = 1.1 / scale
     power = 10.0 ** floor(log10(raw))
     length = max(step * power for step in (1, 2, 5) if step * power <= raw * 1.0001)

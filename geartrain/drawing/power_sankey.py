@@ -1,4 +1,6 @@
-"""Sankey diagram of power flow: input at the left, shafts and pairs, output at the right, losses leaving downwards."""
+"""Sankey diagram of power flow: input at the left, shafts and pairs, output at the right, and losses that leave
+downwards.
+"""
 
 from __future__ import annotations
 
@@ -42,7 +44,7 @@ _ROUND = 0.5523  # control point of a cubic Bezier curve that approximates a qua
 
 
 def power_figure(flow: PowerFlow | Torques, title: str, watts: float | None = None) -> Figure:
-    """Return a Sankey diagram of the power flow, in which bands of recirculating power return above the other bands."""
+    """Return a Sankey diagram of the power flow. Bands of recirculating power return above the other bands."""
     if isinstance(flow, Torques):
         flow = find_power_flow(flow)
     if not flow.streams or not flow.power_in:
@@ -76,13 +78,13 @@ def power_figure(flow: PowerFlow | Torques, title: str, watts: float | None = No
 
 
 class _NodeLabels:
-    """Labels of the nodes of a diagram, with powers as fractions of the power input."""
+    """Labels of the nodes of a diagram, in which powers are fractions of the power input."""
 
     def __init__(self, flow: PowerFlow, watts: float | None) -> None:
         self.whole, self.watts = flow.power_in, watts
 
     def lines(self, node: PowerNode, power: Fraction) -> tuple[str, str]:
-        """Return the name and the power of a node."""
+        """Return the two lines of a node's label: its name and its power."""
         amount = percent_text(power / self.whole, 3)
         if node.kind == "bearing":
             return f"bearing {node.name}", amount
@@ -92,15 +94,15 @@ class _NodeLabels:
         return node.name, amount
 
     def width(self, node: PowerNode, power: Fraction) -> float:
-        """Return the width of the longer line of a node's label [in]."""
+        """Return the width of the longer of the two lines of a node's label [in]."""
         return max(map(len, self.lines(node, power))) * SMALL * LETTER
 
     def loss(self, node: PowerNode, power: Fraction) -> str:
-        """Return the label of the loss at a node."""
+        """Return the label of the power lost at a node."""
         return percent_text(power / self.whole, 3)
 
     def loss_width(self, node: PowerNode, power: Fraction) -> float:
-        """Return the width of the label of a node's loss [in]."""
+        """Return the width of the label of the power lost at a node [in]."""
         return len(self.loss(node, power)) * SMALL * LETTER
 
 
@@ -108,7 +110,7 @@ class _NodeLabels:
 
 
 def _draw_forward_band(axes: Axes, placed: SankeyLayout, band: Sequence[BandSegment]) -> None:
-    """Draw a forward band with its circulating power above and its transmitted power below."""
+    """Draw a forward band, with the circulating power as its upper part and the transmitted power as its lower part."""
     circling = float(band[0].stream.circling) * placed.scale
     for top, width, color in ((0.0, circling, PURPLE), (circling, band[0].width - circling, SKY)):
         if width > 0:
@@ -118,7 +120,7 @@ def _draw_forward_band(axes: Axes, placed: SankeyLayout, band: Sequence[BandSegm
 def _ribbon(
     axes: Axes, placed: SankeyLayout, band: Sequence[BandSegment], shift: float, width: float, color: str
 ) -> None:
-    """Draw a strip of a band over all columns, with a notch where power enters and a tip where it leaves."""
+    """Draw a strip of a band across all columns, with a notch where power enters and a tip where power leaves."""
     upper: list[tuple[float, float]] = []
     codes: list[int] = []
     for piece in band:
@@ -137,13 +139,15 @@ def _ribbon(
 
 
 def _fill(axes: Axes, points: list[tuple[float, float]], codes: list[int], color: str, zorder: float = 2.0) -> None:
-    alpha = 1.0 if color == RED else 0.6  # losses differ from circulating power in grey, too
+    alpha = 0.8 if color == RED else 0.6  # losses differ from circulating power in grey, too
     look: dict[str, Any] = {"facecolor": color, "edgecolor": color, "linewidth": _FINEST}
     axes.add_patch(PathPatch(Path(points, codes), alpha=alpha, zorder=zorder, **look))
 
 
 def _draw_return_band(axes: Axes, placed: SankeyLayout, turn: ReturnBand) -> None:
-    """Draw a return band: out to the right, up, leftwards above all other bands, down and in."""
+    """Draw a return band: from its source to the right, up, leftwards above all other bands, down, and into
+    its target.
+    """
     piece, w = turn.piece, turn.piece.width
     right = placed.x[piece.source.column] + piece.source.width / 2
     left = placed.x[piece.target.column] - piece.target.width / 2
@@ -159,7 +163,7 @@ def _draw_return_band(axes: Axes, placed: SankeyLayout, turn: ReturnBand) -> Non
 def _band_edge(
     right: float, far: float, left: float, near: float, start: float, end: float, lane: float, r: float
 ) -> list[tuple[float, float]]:
-    """Return one edge of a return band, with rounded corners of radius r."""
+    """Return the points of one edge of a return band [in], with corners rounded to the radius `r`."""
     k = r * (1 - _ROUND)
     return [
         (right, start),
@@ -200,7 +204,7 @@ def _draw_node(axes: Axes, placed: SankeyLayout, spot: SankeySpot, node: PowerNo
 
 
 def _draw_loss(axes: Axes, spot: SankeySpot, x: float, text: str) -> None:
-    """Draw the loss of a node as a band that leaves at the lower right corner and turns downwards."""
+    """Draw the power lost at a node as a band that leaves at the lower right corner and turns downwards."""
     w, r, k = spot.shed, BEND, _ROUND
     y = spot.top + spot.height
     far, neck = x + r + w, y + DROP
@@ -240,4 +244,4 @@ def _legend(placed: SankeyLayout) -> Iterator[Patch | Line2D]:
     if placed.turns:
         yield Patch(facecolor=PURPLE, alpha=0.6, label="recirculating power")
     if placed.sheds:
-        yield Patch(facecolor=RED, label="lost in teeth or bearings")
+        yield Patch(facecolor=RED, alpha=0.8, label="lost in teeth or bearings")

@@ -53,7 +53,9 @@ _FINE = 5000  # teeth beyond which a wheel is drawn as a circle, as its teeth ar
 
 @dataclass(frozen=True, slots=True)
 class ProjectedScene:
-    """Scene in a pose as a reader sees it; the rows of `screen` (3, 3) point right, up and towards the reader."""
+    """Scene in a pose as seen by a reader. The rows of the matrix `screen` (3, 3) point right, up and towards the
+    reader.
+    """
 
     scene: Scene
     pose: ScenePose
@@ -74,18 +76,20 @@ class ProjectedScene:
         return np.asarray(np.asarray(points, dtype=float) @ self.screen.T)
 
     def axis(self, wheel: SceneWheel) -> Floats:
-        """Return the unit vector along the axis of a wheel, in the direction of its body's axis."""
+        """Return the unit vector along the axis of a wheel, in the direction of the axis of the body that carries the
+        wheel.
+        """
         return self.pose.way(wheel.body, wheel.direction)
 
     def centre(self, wheel: SceneWheel) -> Floats:
-        """Return the centre of the pitch circle of a wheel in the pose [mm]."""
+        """Return the centre [mm] of the pitch circle of a wheel in the current pose."""
         return self.pose.point(wheel.body, wheel.centre)
 
     def outline(self, wheel: SceneWheel, scale: float = 1.0, height: float = 0.0, chord: float = 0.0) -> Floats:
         """Return the tooth outline of a wheel (points, 3), multiplied by `scale` and moved by `height` [mm] along its
-        axis, with the rotation of its helix.
+        axis, rotated with its helix.
 
-        For a lantern pinion, or a wheel with too many teeth to be visible, the result is the tip circle.
+        For a lantern pinion, and for a wheel whose teeth are too small to be visible, the result is the tip circle.
 
         chord   maximum distance [mm] of omitted points from the outline
         """
@@ -109,13 +113,13 @@ class ProjectedScene:
         return next((each for each in self.scene.waves if self.scene.wheels[each.wheel] is wheel), None)
 
     def bore(self, wave: SceneWave) -> Floats:
-        """Return the line of a flexible wheel's bore (points, 3) [mm], which its wave generator touches."""
+        """Return points (n, 3) [mm] along the bore of a flexible wheel, which is in contact with the wave generator."""
         angle = np.linspace(0, 2 * np.pi, _ROUND)
         return self._bent(wave, np.full(_ROUND, wave.middle - wave.wall / 2), angle)
 
     def _bent(self, wave: SceneWave, radius: Floats, angle: Floats) -> Floats:
-        """Return points (n, 3) in the deflected middle plane of a flexible wheel for the radius and angle (n,) in the
-        undeformed wheel.
+        """Return the points (n, 3) in the deflected middle plane of a flexible wheel that have the given radius and
+        angle, each of shape (n,), in the undeformed wheel.
         """
         wheel = self.scene.wheels[wave.wheel]
         first, along = np.array(wheel.reference), np.array(wheel.direction)
@@ -126,7 +130,7 @@ class ProjectedScene:
         return self._around(wheel, np.hypot(*found.T), np.arctan2(found[:, 1], found[:, 0]), 0.0)
 
     def lobes(self, wave: SceneWave) -> Floats:
-        """Return the points (lobes, 3) [mm] of the bore of a flexible wheel with the maximum outward deflection."""
+        """Return the points (lobes, 3) [mm] at which the outward deflection of a flexible wheel's bore is a maximum."""
         wheel = self.scene.wheels[wave.wheel]
         bore = wave.middle + wave.rise - wave.wall / 2
         turn = 2 * np.pi * np.arange(wave.lobes) / wave.lobes
@@ -136,12 +140,12 @@ class ProjectedScene:
         return self.pose.point(wave.by, np.array(wheel.centre) + bore * ring)
 
     def circle(self, wheel: SceneWheel, radius: float, height: float = 0.0) -> Floats:
-        """Return points (points, 3) [mm] on a circle about the axis of a wheel."""
+        """Return points (n, 3) [mm] on a circle about the axis of a wheel."""
         angle = np.linspace(0, 2 * np.pi, _ROUND)
         return self._around(wheel, np.full(_ROUND, radius), angle, height)
 
     def pins(self, wheel: SceneWheel) -> Iterator[Floats]:
-        """Yield the outline (points, 3) of each pin of a lantern pinion; yield nothing for other wheels."""
+        """Yield the outline (n, 3) [mm] of each pin of a lantern pinion; yield nothing for other wheels."""
         profile = self.scene.profiles[wheel.profile]
         if profile.hole and wheel.teeth <= _FINE:
             tooth = np.array(profile.points)
@@ -156,8 +160,8 @@ class ProjectedScene:
         return self.pose.point(wheel.body, np.array(wheel.centre) + radius[:, None] * ring + height * along)
 
     def ends(self, wheel: SceneWheel) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Return the height along the axis [mm] and the scale of each end of a wheel, the large end of a bevel wheel
-        first.
+        """Return two pairs, one for each end of a wheel: the height along the axis [mm] and the scale. The large end of
+        a bevel wheel is first.
         """
         half = wheel.thickness / 2
         if wheel.cone <= 0 or wheel.cone > CROWN:  # a crown wheel has no narrow end
@@ -167,8 +171,8 @@ class ProjectedScene:
 
 
 def project_scene(scene: Scene, turns: Fraction) -> ProjectedScene:
-    """Return a scene after `turns` of its driving link, seen from the front if most wheels face it, otherwise
-    obliquely.
+    """Return a scene after `turns` of its driving link. The view is from the front if most wheels face the front, or
+    oblique if they do not.
     """
     posed = scene_pose(scene, turns)
     front = ProjectedScene(scene, posed, np.diag([float(scene.front), 1.0, float(scene.front)]))
@@ -176,7 +180,7 @@ def project_scene(scene: Scene, turns: Fraction) -> ProjectedScene:
 
 
 def screen_of(view: Floats) -> Floats:
-    """Return the matrix (3, 3) with rows right, up and `view`, the direction towards the reader."""
+    """Return the matrix (3, 3) whose rows point right, up and towards the reader (`view`)."""
     towards = view / np.linalg.norm(view)
     right = np.cross([0.0, 0.0, 1.0], towards)
     if np.linalg.norm(right) < 1e-9:  # seen from a pole, where up is undefined
@@ -186,19 +190,21 @@ def screen_of(view: Floats) -> Floats:
 
 
 class ScaledPage:
-    """Page in inches, on which millimetres are drawn to scale; `foot` is the height of text below a side view."""
+    """Page in inches, on which millimetres are drawn to scale. `foot` is the height of the text below a side
+    view [in].
+    """
 
     def __init__(self, axes: Axes, scale: float, shift: Floats, foot: float = 0.0) -> None:
         self.axes, self.scale, self.shift, self.foot = axes, scale, shift, foot
 
     def at(self, seen: Floats) -> Floats:
-        """Return positions on the page (..., 2) [in] of view coordinates (..., 3) [mm]."""
+        """Return the positions on the page (..., 2) [in] that correspond to view coordinates (..., 3) [mm]."""
         return np.asarray(seen[..., :2] * self.scale + self.shift)
 
 
 def arms_of(projected: ProjectedScene) -> Iterator[tuple[int, Floats, Floats]]:
-    """Yield each arm of a carrier as the index of the carrier's body, a point of its axis, and a point of the carried
-    axis.
+    """Yield a tuple for each arm of a carrier: the index of the carrier's body, a point of its axis, and a point of the
+    carried axis.
     """
     scene = projected.scene
     seen = set()
@@ -215,7 +221,7 @@ def arms_of(projected: ProjectedScene) -> Iterator[tuple[int, Floats, Floats]]:
 def coupling_spans(
     projected: ProjectedScene, coupling: SceneCoupling, at: Callable[[Floats], Floats], scale: float
 ) -> list[Floats]:
-    """Return lines (2, 2) [in] across the area of a coupling: one along its slot, or two diameters of each of its
+    """Return lines (2, 2) [in] across the area of a coupling: one line along its slot, or two diameters of each of its
     holes.
 
     at      conversion of view coordinates (..., 3) to inches (..., 2)
@@ -235,8 +241,8 @@ def coupling_spans(
 
 
 def part_points(part: ScenePart, outline: int = 0) -> Floats:
-    """Return points (n, 3) of a part in the zero pose [mm], either of an outline of a flat part or of the section of a
-    turned part.
+    """Return points (n, 3) of a part in the zero pose [mm]: on an outline of a flat part, or on the section of a turned
+    part.
     """
     x, z = np.array(part.across), np.array(part.direction)
     if part.outlines:
@@ -249,7 +255,8 @@ def part_points(part: ScenePart, outline: int = 0) -> Floats:
 
 
 def draw_shapes(axes: Axes, projected: ProjectedScene, place: Place) -> None:
-    """Draw the shapes of couplings: flat parts by their outlines, turned parts by their section or their circle.
+    """Draw the shapes of couplings. Flat parts are drawn by their outlines, and turned parts by their section or their
+    circle.
 
     place   conversion of view coordinates (..., 3) to inches (..., 2)
     """
@@ -275,7 +282,9 @@ def draw_shapes(axes: Axes, projected: ProjectedScene, place: Place) -> None:
 
 
 def broken_wheels(scene: Scene) -> set[str]:
-    """Return the names of the wheels of broken pairs, whose loop does not close or whose teeth cannot run."""
+    """Return the names of the wheels of broken pairs. A pair is broken if its loop does not close or its teeth cannot
+    run.
+    """
     return {scene.wheels[wheel].id for pair in scene.pairs if pair.broken for wheel in pair.wheels}
 
 
@@ -297,8 +306,8 @@ class _Face:
 
 
 def draw_obliquely(axes: Axes, projected: ProjectedScene, place: Place) -> None:
-    """Draw every wheel by its two ends and the surface between its ends, with a colour for each body, and arms above
-    all.
+    """Draw every wheel by its two ends and the surface between its ends, with a colour for each body, then draw the
+    arms over the wheels.
 
     place   conversion of view coordinates (..., 3) to inches (..., 2)
     """
@@ -310,7 +319,9 @@ def draw_obliquely(axes: Axes, projected: ProjectedScene, place: Place) -> None:
 
 
 def oblique_callouts(projected: ProjectedScene, place: Place, wheels: Sequence[SceneWheel]) -> list[Callout]:
-    """Return a callout for each wheel, anchored where possible at a point of its faces that no nearer wheel hides."""
+    """Return a callout for each wheel. If possible, its anchor is a point of the wheel's faces that no nearer wheel
+    hides.
+    """
     ends = {wheel.id: _ends(projected, wheel) for wheel in projected.scene.wheels if wheels}
     seen = {name: place(np.concatenate([face.points for face in both])) for name, both in ends.items()}
     outlines = {name: Path(points[ConvexHull(points).vertices]) for name, points in seen.items()}
@@ -329,7 +340,7 @@ def oblique_callouts(projected: ProjectedScene, place: Place, wheels: Sequence[S
 
 
 def _inner_points(rim: Floats, place: Place) -> Floats:
-    """Return points (n, 2) within a face, from its rim inwards [in]."""
+    """Return points (n, 2) [in] within a face, ordered from its rim inwards."""
     middle = rim.mean(0)
     return place(np.concatenate([middle + share * (rim[::4] - middle) for share in (0.85, 0.6, 0.35, 0.1)]))
 
@@ -337,7 +348,7 @@ def _inner_points(rim: Floats, place: Place) -> Floats:
 def draw_across(
     axes: Axes, projected: ProjectedScene, wheel: SceneWheel, place: Place, red: set[str], order: float
 ) -> None:
-    """Draw a wheel that faces sideways in the plan, as seen from its side."""
+    """Draw a wheel that faces sideways in the plan as it appears from its side."""
     faces = sorted(_faces(projected, wheel), key=lambda face: face.depth)
     _draw_faces(axes, [(wheel, face) for face in faces], place, red, order)
 
@@ -345,7 +356,7 @@ def draw_across(
 def _draw_faces(
     axes: Axes, faces: Sequence[tuple[SceneWheel, _Face]], place: Place, red: set[str], order: float
 ) -> None:
-    """Draw faces in order, the last face on top; wheels whose name is in `red` have red edges."""
+    """Draw faces in the given order, so that the last face is on top. Wheels whose name is in `red` have red edges."""
     tints = [_DARK + (_LIGHT - _DARK) * face.light for _, face in faces]
     edges = [
         (RED if wheel.id in red else BLACK)
@@ -367,7 +378,9 @@ def _draw_faces(
 
 
 def _faces(projected: ProjectedScene, wheel: SceneWheel) -> Iterator[_Face]:
-    """Yield strips between a wheel's ends, or a worm's thread as tiles, then its far end and its near end."""
+    """Yield the faces of a wheel: strips between its ends (tiles of the thread for a worm), then its far end and its
+    near end.
+    """
     far, near = _ends(projected, wheel)
     if wheel.kind == "worm":
         yield from _thread(projected, wheel)
@@ -388,7 +401,7 @@ def _faces(projected: ProjectedScene, wheel: SceneWheel) -> Iterator[_Face]:
 
 
 def _thread(projected: ProjectedScene, wheel: SceneWheel) -> Iterator[_Face]:
-    """Yield the visible surface of a worm as tiles between sections along its axis."""
+    """Yield the visible surface of a worm's thread as tiles between sections along its axis."""
     heights = np.linspace(-0.5, 0.5, _SECTIONS + 1) * wheel.thickness
     rows = np.array([projected.seen(projected.outline(wheel, height=height)) for height in heights])
     after = np.roll(rows, -1, axis=1)
@@ -413,7 +426,9 @@ def _ends(projected: ProjectedScene, wheel: SceneWheel) -> tuple[_Face, _Face]:
 
 
 def _draw_arbors(axes: Axes, projected: ProjectedScene, place: Place) -> None:
-    """Draw the axes of wheels through their centres, and an arm from each carrier to each axis that it carries."""
+    """Draw the axes of wheels as lines through the wheel centres, and an arm from each carrier to each axis that it
+    carries.
+    """
     for wheel in projected.scene.wheels:
         centre, along = projected.centre(wheel), projected.axis(wheel)
         reach = max(2.5 * wheel.thickness, 0.25 * wheel.radius)
@@ -428,19 +443,21 @@ _FACE = (_DARK + _LIGHT) / 2  # colour of a bar
 
 
 class SideScale:
-    """Conversion of heights towards the reader of the plan [mm] to abscissae of the side view [in]."""
+    """Conversion of heights [mm], measured towards the reader of the plan, to abscissae of the side view [in]."""
 
     def __init__(self, left: float, width: float, low: float, size: float) -> None:
         self.left, self.scale, self.low = left, width / size, low
 
     def at(self, height: Any) -> Any:
-        """Return the abscissa on the page [in] of a height towards the reader [mm], or of an array of heights."""
+        """Return the abscissa on the page [in] of a height [mm] measured towards the reader, or of an array
+        of heights.
+        """
         return self.left + (height - self.low) * self.scale
 
 
 def draw_side(page: ScaledPage, projected: ProjectedScene, depth: SideScale) -> None:
-    """Draw a train as seen from its left side, at the height of the plan, with its layers side by side and the reader
-    of the plan on the right.
+    """Draw a train as seen from its left side: its layers are side by side, and the reader of the plan is on
+    the right.
     """
     red = broken_wheels(projected.scene)
     stacks: dict[tuple[float, float], list[float]] = {}
@@ -468,10 +485,11 @@ def draw_side(page: ScaledPage, projected: ProjectedScene, depth: SideScale) -> 
 def _draw_slants(
     axes: Axes, wheel: SceneWheel, ends: tuple[float, float], height: tuple[float, float], color: str
 ) -> None:
-    """Draw three lines on the bar of a helical wheel or worm, along its teeth on the side towards the reader.
+    """Draw three lines on the bar of a helical wheel or worm. The lines follow the teeth on the side towards the
+    reader.
 
-    ends     left and right end of the bar [in]
-    height   middle and half the height of the bar [in]
+    ends     abscissae of the left and right end of the bar [in]
+    height   ordinate of the middle, and half the height, of the bar [in]
     """
     # right-hand teeth fall towards the right, because the axis is level
     rise = -float(np.tan(wheel.helix)) * (ends[1] - ends[0])
@@ -485,7 +503,9 @@ def _draw_slants(
 def _draw_across_side(
     page: ScaledPage, projected: ProjectedScene, wheel: SceneWheel, depth: SideScale, style: dict[str, Any]
 ) -> None:
-    """Draw a wheel that does not face the reader: its teeth if it faces right, otherwise its silhouette."""
+    """Draw a wheel that does not face the reader: with its teeth if it faces right, or as a silhouette if it
+    does not.
+    """
     ends = [face.points for face in _ends(projected, wheel)]
     places = [np.column_stack([depth.at(points[:, 2]), page.at(points)[:, 1]]) for points in ends]
     if abs(float(projected.seen(projected.axis(wheel))[0])) > _FACES_RIGHT:

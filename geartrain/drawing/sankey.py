@@ -26,48 +26,49 @@ _WIDTHS = {"in": 0.0, "out": 0.0, "shaft": 0.08, "pair": 0.2, "bearing": 0.2}
 
 @dataclass(eq=False)
 class SankeySpot:
-    """Node in its column, or the position where a band passes a column if `node` is None."""
+    """Node in its column of the diagram; if `node` is None, the position at which a band passes a column."""
 
     node: PowerNode | None
     column: int
     height: float
     power: Fraction = Fraction(0)
-    """Power that passes through the node; `shed` is the width of the node's loss [in]."""
+    """Power that passes through the node. `shed` is the width of the band of the node's loss [in]."""
     shed: float = 0.0
     left: float = 0.0
     """Space for text to the left of the node's centre [in]."""
     right: float = 0.0
     """Space for text to the right of the node's centre [in]."""
     lost: float = 0.0
-    """Space for the label of the loss, below the box, to the right of the node's centre [in]."""
+    """Space for the label of the loss, below the node's box and to the right of the node's centre [in]."""
     top: float = 0.0
     before: list[BandSegment] = field(default_factory=list)
     after: list[BandSegment] = field(default_factory=list)
 
     @property
     def above(self) -> float:
-        """Space above the box: for the name of a node, or between passing bands [in]."""
+        """Space above the box [in], which contains the name of a node or separates passing bands."""
         return NAME if self.node else _BETWEEN
 
     @property
     def below(self) -> float:
-        """Space below the box: for the loss of a node, or to the next spot [in]."""
+        """Space below the box [in], which contains the loss of a node or separates the box from the next spot."""
         return DROP + self.head + 0.24 if self.shed else _BETWEEN
 
     @property
     def head(self) -> float:
-        """Length of the arrow head of the node's loss [in]."""
+        """Length of the arrow head at the end of the node's loss band [in]."""
         return min(max(0.3 * self.shed, 0.08), 0.2)
 
     @property
     def width(self) -> float:
-        """Width of the node's box [in]; 0 for inputs, outputs and passing bands."""
+        """Width of the node's box [in]; 0 for inputs, outputs, and positions of passing bands."""
         return _WIDTHS[self.node.kind] if self.node else 0.0
 
 
 @dataclass(eq=False)
 class BandSegment:
-    """Segment of a band between two spots; `start` and `end` are the positions of its upper edge at these spots [in].
+    """Segment of a band between two spots. `start` and `end` are the positions of the upper edge of the segment at
+    these spots [in].
 
     Only return bands skip columns.
     """
@@ -88,7 +89,9 @@ class BandSegment:
 
 @dataclass(frozen=True)
 class ReturnBand:
-    """Band that leads power back, with its turning distances from source and target, and the top of its lane [in]."""
+    """Band that leads power back, with its horizontal distances from the source and target to its turns, and the top of
+    its lane [in].
+    """
 
     piece: BandSegment
     right: float
@@ -98,18 +101,18 @@ class ReturnBand:
 
 @dataclass(frozen=True)
 class SankeyLayout:
-    """Positions and sizes of all parts of a Sankey diagram [in]."""
+    """Positions and sizes of all parts of a Sankey diagram, in inches unless noted."""
 
     spots: Sequence[SankeySpot]
     bands: Sequence[Sequence[BandSegment]]
-    """Forward bands, each as a sequence of segments from column to column; `turns` are the return bands."""
+    """Forward bands. Each band is a sequence of segments from column to column. `turns` contains the return bands."""
     turns: Sequence[ReturnBand]
     x: Sequence[float]
     """Abscissa of the centre of each column [in]."""
     scale: float
-    """Inches per unit of power."""
+    """Scale of the widths of bands [inches per unit of power]."""
     sheds: Mapping[PowerNode, Fraction]
-    """Power lost at each node with a loss."""
+    """Power lost at each node that has a loss, keyed by node."""
     low: float
     width: float
     height: float
@@ -122,10 +125,10 @@ _CLEAR = 0.06  # between text and a return band next to it
 def turns(
     table: Sequence[Sequence[SankeySpot]], back: Sequence[BandSegment]
 ) -> tuple[list[ReturnBand], dict[tuple[int, bool], float]]:
-    """Return the return bands, the shortest innermost, and the space [in] that they require on either side of each
-    column.
+    """Return the return bands, with the shortest band innermost, and the space [in] that they require on either side of
+    each column.
 
-    The keys of the space are (column, True) for the right side and (column, False) for the left side.
+    The space is keyed by (column, True) for the right side and (column, False) for the left side.
     """
     taken: dict[tuple[int, bool], float] = {}
     turns: list[ReturnBand] = []
@@ -148,8 +151,8 @@ def turns(
 def abscissae(
     table: Sequence[Sequence[SankeySpot]], room: Mapping[tuple[int, bool], float], minimum: float
 ) -> list[float]:
-    """Return the abscissae of the column centres [in], with space for names and return bands; the width is at least
-    `minimum` [in].
+    """Return the abscissae of the column centres [in], with space for names and return bands. The total width is not
+    less than `minimum` [in].
     """
     left = [max(spot.left for spot in column) for column in table]
     right = [max(spot.right for spot in column) for column in table]
@@ -173,7 +176,9 @@ _BACK = 1.1  # maximum height of all return bands together
 
 
 def collapsed(flow: PowerFlow) -> tuple[dict[PowerNode, Fraction], list[PowerStream]]:
-    """Return the losses by node, and the streams. A bearing that only one shaft feeds becomes a loss of that shaft."""
+    """Return the losses, keyed by node, and the streams. A bearing fed by only one shaft is replaced by a loss of this
+    shaft.
+    """
     gives = {stream.source for stream in flow.streams}
     takers: dict[PowerNode, list[PowerNode]] = {}
     for stream in flow.streams:
@@ -189,7 +194,9 @@ def collapsed(flow: PowerFlow) -> tuple[dict[PowerNode, Fraction], list[PowerStr
 
 
 def direct(streams: Sequence[PowerStream]) -> tuple[list[PowerStream], list[PowerStream]]:
-    """Return forward streams without loops, and one purely circulating stream of each loop as a return stream."""
+    """Return two lists: forward streams without loops, and, as return streams, one purely circulating stream of each
+    loop.
+    """
     import networkx as nx
 
     # depth-first search from the inputs, the largest stream of a node first: the last stream closes its loop
@@ -213,8 +220,8 @@ def _graph(streams: Sequence[PowerStream]) -> Any:
 
 
 def find_columns(ahead: Sequence[PowerStream]) -> dict[PowerNode, int]:
-    """Return the column of each node, to the right of all nodes that feed it (longest path); outputs are in the last
-    column.
+    """Return the index of the column of each node. A node is to the right of all nodes that feed it (longest path), and
+    outputs are in the last column.
     """
     import networkx as nx
 
@@ -227,7 +234,7 @@ def find_columns(ahead: Sequence[PowerStream]) -> dict[PowerNode, int]:
 def find_scale(
     columns: Mapping[PowerNode, int], through: Mapping[PowerNode, Fraction], back: Sequence[PowerStream]
 ) -> float:
-    """Return the scale [inches per unit of power], limited by the fullest column and by the return bands."""
+    """Return the scale [inches per unit of power], which is limited by the fullest column and by the return bands."""
     sums = [Fraction(0)] * (max(columns.values()) + 1)
     for node, at in columns.items():
         sums[at] += through[node]
@@ -239,7 +246,7 @@ def find_scale(
 def make_bands(
     spots: Mapping[PowerNode, SankeySpot], ahead: Sequence[PowerStream], back: Sequence[PowerStream], scale: float
 ) -> tuple[list[list[BandSegment]], list[SankeySpot]]:
-    """Return streams as bands of segments, and the spots at which bands pass columns."""
+    """Return streams as bands of segments, and a list of the spots at which bands pass columns."""
     bands: list[list[BandSegment]] = []
     passing: list[SankeySpot] = []
     for stream in (*ahead, *back):
@@ -262,9 +269,10 @@ _CROSSING = 1e-3  # cost of each crossing, so that crossings of the thinnest ban
 
 
 def order_columns(table: Sequence[list[SankeySpot]]) -> None:
-    """Sort columns in place so that few bands cross, by barycentre sweeps in both directions, then by swaps.
+    """Sort the nodes of each column in place to reduce crossings of bands: first by barycentre sweeps in both
+    directions, then by pairwise swaps.
 
-    The sweeps start with the spots in descending order of the circulating power that leaves them.
+    The nodes are first sorted in descending order of the recirculating power that leaves them.
     """
     for column in table:
         column.sort(key=lambda spot: -sum(piece.stream.circling for piece in spot.after))
@@ -286,7 +294,7 @@ def order_columns(table: Sequence[list[SankeySpot]]) -> None:
 
 
 def _swap(table: Sequence[list[SankeySpot]], at: int) -> bool:
-    """Swap spots of one column in place where that reduces crossings; return True if spots were swapped."""
+    """Swap spots of one column in place where a swap reduces crossings. Return True if spots were swapped."""
     column, swapped = table[at], False
     near = range(max(0, at - 1), min(len(table), at + 2))
     tangle = _crossing_cost(table, near)
@@ -307,8 +315,8 @@ def _ranks(table: Sequence[Sequence[SankeySpot]]) -> dict[SankeySpot, float]:
 
 
 def _barycentre(spot: SankeySpot, forth: bool, places: Mapping[SankeySpot, float]) -> float:
-    """Return the mean position of a spot's neighbours on one side, weighted by band width, or its own if it has
-    none.
+    """Return the mean position of a spot's neighbours in the next or previous column, weighted by band width. If the
+    spot has no neighbours there, return its own position.
     """
     pieces = [piece for piece in (spot.before if forth else spot.after) if not piece.back]
     if not pieces:
@@ -318,8 +326,8 @@ def _barycentre(spot: SankeySpot, forth: bool, places: Mapping[SankeySpot, float
 
 
 def _crossing_cost(table: Sequence[Sequence[SankeySpot]], columns: range) -> float:
-    """Return the cost of crossings within a range of columns; a crossing costs the product of the widths of both bands
-    plus a constant.
+    """Return the cost of crossings within a range of columns. The cost of a crossing is the product of the widths of
+    both bands, plus a constant.
     """
     total = 0.0
     for at in columns:
@@ -345,7 +353,7 @@ _HEIGHT_SWEEPS = 24
 
 
 def settle_heights(table: Sequence[list[SankeySpot]]) -> None:
-    """Set the tops of all spots and of their bands in place, so that bands are level where possible."""
+    """Set the tops of all spots and bands in place, so that bands are level where possible."""
     for column in table:
         y = 0.0
         for spot in column:
@@ -367,7 +375,9 @@ def settle_heights(table: Sequence[list[SankeySpot]]) -> None:
 
 
 def _level_top(spot: SankeySpot, before: bool, after: bool) -> tuple[float, float]:
-    """Return the top [in] at which a spot's bands are level, and its weight, largest for bands that pass a column."""
+    """Return the top [in] of a spot at which its bands are level, and the weight of this position, which is largest for
+    bands that pass a column.
+    """
     shift = weight = 1e-9
     for sense, pieces in ((1, spot.before if before else ()), (-1, spot.after if after else ())):
         for piece in pieces:
@@ -380,7 +390,9 @@ def _level_top(spot: SankeySpot, before: bool, after: bool) -> tuple[float, floa
 
 
 def _separated_tops(column: Sequence[SankeySpot], wanted: Sequence[tuple[float, float]]) -> list[float]:
-    """Return a column's separated tops nearest to the wanted tops by weighted least squares (isotonic regression)."""
+    """Return separated tops [in] of the spots of a column, as close to the wanted tops as possible in the sense of
+    weighted least squares (isotonic regression).
+    """
     import numpy as np
     from scipy.optimize import isotonic_regression
 
@@ -391,7 +403,9 @@ def _separated_tops(column: Sequence[SankeySpot], wanted: Sequence[tuple[float, 
 
 
 def _set_band_tops(table: Sequence[Sequence[SankeySpot]]) -> None:
-    """Set both ends of bands in place, in the order of the spots at their other ends, with return bands uppermost."""
+    """Set the tops of both ends of all bands in place, in the order of the spots at their opposite ends. Return bands
+    are uppermost.
+    """
     for column in table:
         for spot in column:
             spot.before.sort(key=lambda piece: (not piece.back, piece.span, piece.source.top + piece.source.height / 2))

@@ -81,12 +81,14 @@ def sphere_figure(
 
 
 def _face(kind: int) -> tuple[float, float, float, float]:
-    """Return the face colour of a kind of gear, translucent so that overlapping teeth of mating gears are visible."""
+    """Return the face colour (RGBA) of a kind of gear. It is translucent so that overlapping teeth of mating gears are
+    visible.
+    """
     return (*to_rgb(series_colour(kind)), _STRONG)
 
 
 def _outline(configuration: Configuration, i: int, cone: float, phase: float) -> Floats:
-    """Return the outline of a gear with its teeth as points (n, 3) of the unit sphere."""
+    """Return the outline of a gear, including its teeth, as points (n, 3) on the unit sphere."""
     count = configuration.teeth[configuration.kinds[i]]
     module = 2 * np.sin(cone) / count
     polar = cone + module * np.tile([_FOOT, _TIP, _TIP, _FOOT], count)

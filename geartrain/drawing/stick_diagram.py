@@ -80,7 +80,7 @@ _FAR = 24  # steps that a name may be moved beyond its vertical line
 
 @dataclass(frozen=True, slots=True)
 class _Label:
-    """Text to be written, with its candidate positions from the best to the worst."""
+    """Text to be written on the diagram, with its candidate positions from best to worst."""
 
     text: str
     color: str
@@ -90,7 +90,7 @@ class _Label:
 
 @dataclass(slots=True)
 class StickLabels:
-    """All labels of a diagram, which are placed in the order of links, wheels and axes."""
+    """All labels of a diagram. Labels of links are placed first, then labels of wheels, then labels of axes."""
 
     room: LabelSpace = field(default_factory=LabelSpace)
     links: list[_Label] = field(default_factory=list)
@@ -98,14 +98,14 @@ class StickLabels:
     axes: list[_Label] = field(default_factory=list)
 
     def keep_off(self, xs: tuple[float, float], ys: tuple[float, float]) -> None:
-        """Mark the box between two abscissae and two heights [in] as occupied, so that labels avoid it."""
+        """Mark the box between two abscissae and two ordinates [in] as occupied, so that labels avoid it."""
         (left, right), (low, high) = sorted(xs), sorted(ys)
         wide, tall = max(right - left, 0.03), max(high - low, 0.03)
         self.room.take(((left + right) / 2, (low + high) / 2, wide, tall))
 
     def name_link(self, link: str, left: float, right: float, y: float) -> None:
-        """Add the name of a link to the left of its shaft, or above, to the right of or below it; the shaft extends
-        from `left` to `right` at height y [in].
+        """Add the name of a link to the left of its shaft, or above, below or to the right of the shaft. The shaft
+        extends from `left` to `right` at the height `y` [in].
         """
         wide = text_width(link, _LINK_NAME, "bold") + 2 * _APART
         along = np.arange(left + wide / 2, max(right - wide / 2, left + wide / 2) + _STEP, _STEP)
@@ -121,12 +121,14 @@ class StickLabels:
         self.links.append(_Label(link, BLACK, places, {"fontsize": _LINK_NAME, "fontweight": "bold"}))
 
     def name_upright(self, text: str, x: float, ends: tuple[float, float], color: str) -> None:
-        """Add a label along a vertical line, on the right or left of the line, from the middle outwards."""
+        """Add a label along a vertical line, to the right or left of the line, as close to its middle as possible."""
         places = tuple(_along(text, x, ends))
         self.wheels.append(_Label(text, color, places, {"fontsize": FINE, "rotation": 90}))
 
     def name_axis(self, axis: str, right: float, y: float) -> None:
-        """Add the name of an axis to the right of its right end, or above or below its line near that end."""
+        """Add the name of an axis to the right of its right end, or near this end above or below the line of
+        the axis.
+        """
         wide = text_width(axis)
         spots = [
             (right + 0.05 + wide / 2 + step * _STEP, y + lift) for lift in (0.0, 0.12, -0.12, 0.24) for step in range(9)
@@ -136,7 +138,7 @@ class StickLabels:
         self.axes.append(_Label(axis, GREY, places, {"fontsize": FINE, "fontstyle": "italic"}))
 
     def name_element(self, name: str, closed: bool, x: float, y: float) -> None:
-        """Add the name of a brake or clutch above the middle (x, y) of its plates, or higher, or on either side."""
+        """Add the name of a brake or clutch above or beside its plates, whose middle is (x, y) [in]."""
         weight = "bold" if closed else "normal"
         beside = 0.22 + text_width(name, NAME, weight) / 2
         spots = [(x + aside, y + 0.2 + step * _STEP) for step in range(4) for aside in (0.0, 0.1, -0.1)]
@@ -146,7 +148,7 @@ class StickLabels:
         self.wheels.append(_Label(name, PURPLE if closed else GREY, places, how))
 
     def write(self, axes: Axes) -> None:
-        """Place and write all labels, those with the fewest positions first.
+        """Place and write all labels. Labels with the fewest candidate positions are placed first.
 
         A label without a free position is written at its best position.
         """
@@ -177,44 +179,44 @@ REACH = 0.34  # inches from a planet's axis to where its ring touches it
 
 @dataclass(frozen=True, slots=True)
 class StickMesh:
-    """Gear pair or coupling in its column between two rows; `ring` is the name of its ring wheel, or empty if it has
-    none.
+    """Gear pair or coupling in its column between two rows; `ring` is the name of its ring wheel, or an empty string if
+    the mesh has none.
     """
 
     name: str
     kind: str
     ends: tuple[str, str]
-    """Links of the mesh, with the link on the lower row first; `wheels` are their wheels, or these links for a
-    coupling.
+    """Links of the mesh; the link on the lower row is first. `wheels` contains the wheels of these links, or the links
+    themselves for a coupling.
     """
     wheels: tuple[str, str]
     ring: str
     x: float
-    """Abscissa of the column [in]. The vertical line of a ring is one column further to the right."""
+    """Abscissa of the column [in]. The vertical line of a ring wheel is one column further to the right."""
     low: float
-    """Lower end of the lines of the mesh in its column [in]."""
+    """Lower end of the vertical lines of the mesh [in]."""
     high: float
-    """Upper end of the lines of the mesh in its column [in]."""
+    """Upper end of the vertical lines of the mesh [in]."""
     meet: float
     """Height at which the wheels touch [in]."""
 
 
 @dataclass(frozen=True, slots=True)
 class StickSkeleton:
-    """Positions of all parts of a diagram [in], from the lower left corner."""
+    """Positions of all parts of a diagram [in], measured from its lower left corner."""
 
     rows: dict[str, tuple[float, float]]
-    """Axis -> heights of its lowest and highest shaft [in]."""
+    """Heights of the lowest and highest shaft of each axis [in], keyed by axis."""
     shafts: dict[str, StickShaft]
     meshes: list[StickMesh]
     columns: StickColumns
     elements: dict[str, tuple[float, float]]
-    """Brake or clutch -> middle of its plates [in]."""
+    """Position of the middle of the plates [in], keyed by brake or clutch."""
     height: float
 
 
 def find_skeleton(train: GearTrain) -> StickSkeleton:
-    """Return the positions of axes, shafts, meshes and cranks, with related parts close together."""
+    """Return the positions of axes, shafts, meshes and cranks. Related parts are placed close together."""
     axis_of = {link: train.kinematics.tree.axis(link) or "" for link in train.declaration.links}
     order, planes = _row_order(train, axis_of), find_planes(train)
     row = {axis: at for at, axis in enumerate(order)}
@@ -244,13 +246,13 @@ def find_skeleton(train: GearTrain) -> StickSkeleton:
 
 
 def _element_axes(train: GearTrain, name: str) -> list[str]:
-    """Return the axes of the links that a brake or clutch joins, each once."""
+    """Return the axes of the links that a brake or clutch joins, without duplicates."""
     axes = (train.kinematics.tree.axis(link) for link in train.declaration.clutches[name].links)
     return list(dict.fromkeys(axis for axis in axes if axis))
 
 
 def _element_height(axes: Sequence[str], rows: dict[str, tuple[float, float]]) -> float:
-    """Return the height of the plates of a brake or clutch: above the shafts of its axis, or between two axes [in]."""
+    """Return the height of the plates of a brake or clutch [in]: above the shafts of its axis, or between two axes."""
     if len({rows[axis] for axis in axes}) == 1:
         return rows[axes[0]][1] + _RISE
     low, high = sorted(rows[axis] for axis in axes)
@@ -268,7 +270,9 @@ def _overlaps(spans: Sequence[tuple[str, str, float]], row: dict[str, int]) -> i
 
 
 def _reach_cranks(shafts: dict[str, StickShaft], cranks: Sequence[StickCrank]) -> None:
-    """Extend the shaft of each carrier to its cranks, and one shaft on each carried axis to its crank, in place."""
+    """Extend shafts in place: the shaft of each carrier to its cranks, and one shaft on each carried axis to the crank
+    that carries it.
+    """
     for crank in cranks:
         shafts[crank.carrier].xs.append(crank.x)
         borne = [shaft for shaft in shafts.values() if shaft.axis == crank.axis]
@@ -296,8 +300,8 @@ def _row_order(train: GearTrain, axis_of: dict[str, str]) -> list[str]:
 def _set_heights(
     levels: Sequence[Sequence[str]], shafts: dict[str, StickShaft]
 ) -> tuple[dict[str, tuple[float, float]], float]:
-    """Set the height of every shaft in `shafts`, and return the lowest and highest row of each axis and the total
-    height [in].
+    """Set the height of every shaft in `shafts`. Return the heights of the lowest and highest shaft of each axis, keyed
+    by axis, and the total height [in].
 
     Shafts of one axis that overlap are drawn above each other, with the longest shaft lowest.
     """
@@ -324,7 +328,7 @@ def _set_heights(
 
 
 def _fit_side_by_side(one: StickShaft, other: StickShaft) -> bool:
-    """Return True if two shafts, each with a name before it, do not overlap."""
+    """Return True if two shafts on the same row do not overlap, including the name before each shaft."""
     room = 0.35 + 0.07 * max(len(one.link), len(other.link))
     return max(one.xs) + room < min(other.xs) or max(other.xs) + room < min(one.xs)
 
@@ -355,8 +359,8 @@ def _mesh(
 
 
 def _share(wheels: tuple[str, str], counts: tuple[int, int], height: float) -> float:
-    """Return the lower wheel's share of the height between two axes, proportional to its tooth count, limited so that
-    both labels fit.
+    """Return the fraction of the height between two axes that belongs to the lower wheel: proportional to its tooth
+    count, but limited so that both labels fit.
     """
     rooms = [(text_width(f"{wheel} {count}") + _ROOM) / height for wheel, count in zip(wheels, counts, strict=True)]
     minimum, most = max(_SHORTEST, rooms[0]), 1 - max(_SHORTEST, rooms[1])
@@ -415,7 +419,7 @@ def stick_figure(train: GearTrain, labels: bool = True, state: str | None = None
 
 
 class _Drawing:
-    """Drawing of a diagram in progress; wheels that appear in several columns are named once."""
+    """Drawing of a diagram in progress. A wheel that appears in several columns is named only once."""
 
     def __init__(self, axes: Axes, train: GearTrain, skeleton: StickSkeleton, state: str | None) -> None:
         self.axes, self.train, self.skeleton, self.case = axes, train, skeleton, train.declaration.case(state)
@@ -448,7 +452,7 @@ class _Drawing:
             self.words.name_axis(axis, ends[1], low)
 
     def draw_shaft(self, shaft: StickShaft) -> None:
-        """Draw a link's shaft with its name, in a bearing if it turns in the frame."""
+        """Draw the shaft of a link with the link's name, and a bearing if the link turns in the frame."""
         left, right = min(shaft.xs) - 0.14, max(shaft.xs) + 0.14
         draw_line(self.axes, [left, right], [shaft.y, shaft.y], "white", LINK + 3.0, zorder=5)
         draw_line(self.axes, [left, right], [shaft.y, shaft.y], BLACK, LINK, zorder=6, gid=f"link {shaft.link}")
@@ -463,7 +467,9 @@ class _Drawing:
         self.words.name_link(shaft.link, left, right, shaft.y)
 
     def _is_held(self, link: str) -> bool:
-        """Return True if a link is fixed by the declaration or by an input of 0, not by a brake."""
+        """Return True if a link is fixed by the declaration or by an input of 0. A link that is fixed by a brake does
+        not count.
+        """
         braked = {self.train.declaration.clutches[name].fixes for name in self.case.engaged}
         return (link in self.case.fixed and link not in braked) or self.case.inputs.get(link) == 0
 
@@ -474,15 +480,15 @@ class _Drawing:
         self.words.name_element(name, closed, *place)
 
     def _ends(self, name: str) -> list[float | None]:
-        """Return the heights of the shafts that a brake or clutch joins [in]; None for the frame, the first member of a
-        brake.
+        """Return the heights of the shafts that a brake or clutch joins [in]; None for the frame, which is the first
+        member of a brake.
         """
         clutch = self.train.declaration.clutches[name]
         links = clutch.locks or (self.train.declaration.frame, *clutch.links)
         return [self.skeleton.shafts[link].y if link in self.skeleton.shafts else None for link in links]
 
     def draw_mesh(self, mesh: StickMesh) -> None:
-        """Draw two wheels up to the point where they touch, or the coupling of two links."""
+        """Draw two wheels up to the point where they touch, or draw the coupling of two links."""
         low, high = (self._foot(link, mesh) for link in mesh.ends)
         if mesh.kind == "ring":
             self._draw_ring(mesh, low, high)
@@ -502,7 +508,9 @@ class _Drawing:
         return self.skeleton.rows[self.skeleton.shafts[carrier].axis][0] - 0.22
 
     def _draw_ring(self, mesh: StickMesh, low: float, high: float) -> None:
-        """Draw the planet beyond its axis, and the ring across the planet's end and next to the planet."""
+        """Draw the line of a planet, extended beyond its axis, and the ring wheel as lines across the planet's end and
+        next to the planet.
+        """
         ring = mesh.wheels.index(mesh.ring)
         planet, side = 1 - ring, 1 if ring == 0 else -1
         foot = (low, high)
@@ -514,7 +522,7 @@ class _Drawing:
         self._draw_wheel_line(beside, foot[ring], over, mesh.ring, mesh.ends[ring])
 
     def _draw_coupling(self, mesh: StickMesh, low: float, high: float) -> None:
-        """Draw a coupling by the symbol of its kind, with its name and the names of its pulleys."""
+        """Draw a coupling by the symbol of its kind, with the name of the coupling and the names of its pulleys."""
         coupling, axes, x = self.couplings[mesh.name], self.axes, mesh.x
         circuit = next(circuit for circuit in self.train.circuits if circuit.id == mesh.name)
         # the driving link of a coupling is j
@@ -543,13 +551,13 @@ class _Drawing:
             self.words.name_upright(mesh.name, x, (low, high), PURPLE)
 
     def _name_wheel(self, wheel: str, x: float, ends: tuple[float, float], color: str) -> None:
-        """Add the name and tooth count of a wheel along its line, unless it is named at another line."""
+        """Add the name and tooth count of a wheel along its line, unless another line of the wheel has this label."""
         if wheel not in self.feet:
             self.feet[wheel] = (x, ends[0])
             self.words.name_upright(f"{wheel} {self.train.declaration.wheels[wheel][1].count}", x, ends, color)
 
     def _draw_wheel_line(self, x: float, foot: float, end: float, wheel: str, link: str) -> None:
-        """Draw a wheel as a line from its shaft to its mate, connected to an earlier line of the same wheel, if any."""
+        """Draw a wheel as a line from its shaft to its mate, connected to any earlier line of the same wheel."""
         draw_line(self.axes, [x, x], [foot, end], BLUE, WHEEL, zorder=3, gid=f"wheel {wheel}")
         if link == self.train.declaration.frame:
             self._ground(x, foot)
@@ -579,8 +587,8 @@ class _Drawing:
         draw_bearing(self.axes, crank.x, far, ORANGE, slides)
 
     def _tick(self, x: float, y: float, kind: str) -> None:
-        """Draw a tooth mark at a wheel's end, which is level for spur wheels, slanted for bevel and contrate wheels,
-        and long and dashed for worms.
+        """Draw a tooth mark at the end of a wheel: level for spur wheels, slanted for bevel and contrate wheels, long
+        and dashed for worms.
         """
         lean = {"bevel": 0.06, "contrate": 0.06}.get(kind, 0.0)
         reach = TICK * (1.6 if kind == "worm" else 1.0)

@@ -20,7 +20,9 @@ _NEAREST = 9  # levels tried for an axis
 
 @dataclass(slots=True)
 class StickShaft:
-    """Shaft of a link on its axis, with its height and the abscissae of its parts [in]; the frame has no shaft."""
+    """Shaft of a link on its axis, with the height of the shaft and the abscissae of its parts [in]. The frame has no
+    shaft.
+    """
 
     link: str
     axis: str
@@ -31,7 +33,7 @@ class StickShaft:
 def find_levels(
     order: Sequence[str], shafts: dict[str, StickShaft], spans: Sequence[tuple[str, str, float]]
 ) -> list[list[str]]:
-    """Return the axes of each level, from the lowest level. Axes that do not overlap may share a level.
+    """Return the axes on each level, starting with the lowest level. Axes that do not overlap may share a level.
 
     The axes are placed one after another (greedy search), each on a level near the axes with which it is paired, with
     the minimum cost of line lengths and crossings.
@@ -56,7 +58,7 @@ def find_levels(
 
 
 def _ends(axis: str, shafts: dict[str, StickShaft]) -> tuple[float, float]:
-    """Return the interval that an axis occupies on its level [in], including the names before and after it."""
+    """Return the interval [in] that an axis occupies on its level, including the names before and after the axis."""
     own = [shaft for shaft in shafts.values() if shaft.axis == axis]
     left = min(min(shaft.xs) - 0.25 - 0.085 * len(shaft.link) for shaft in own)
     return left, max(max(shaft.xs) for shaft in own) + 0.35 + 0.065 * len(axis)
@@ -74,7 +76,9 @@ def _cost(
     ends: dict[str, tuple[float, float]],
     spans: Sequence[tuple[str, str, float]],
 ) -> float:
-    """Return the cost of a level: the lengths of the axis' vertical lines, and penalties for crossings and overlaps."""
+    """Return the cost of placing an axis on the level `here`: the lengths of its vertical lines, and penalties for
+    crossings and overlaps.
+    """
     cost = 0.3 * abs(here)
     placed = {**level, axis: here}
     known = [(*sorted((placed[one], placed[other])), x, axis in (one, other)) for one, other, x in spans
@@ -96,7 +100,7 @@ _SIDE = 0.1  # inches between the columns of a group and of a brake or clutch
 
 @dataclass(frozen=True, slots=True)
 class StickCrank:
-    """Carrier's arm at the abscissa `x` [in], from the carrier's shaft to the axis that it carries."""
+    """Arm of a carrier at the abscissa `x` [in], from the carrier's shaft to the axis that the carrier carries."""
 
     carrier: str
     axis: str
@@ -105,7 +109,7 @@ class StickCrank:
 
 @dataclass(slots=True)
 class StickColumns:
-    """Columns of a diagram, each with its abscissa [in], and the total width [in]."""
+    """Columns of a diagram, each with its abscissa [in], and the total width of the diagram [in]."""
 
     meshes: list[tuple[Circuit, float]] = field(default_factory=list)
     cranks: list[StickCrank] = field(default_factory=list)
@@ -117,13 +121,15 @@ class StickColumns:
 
 
 def axis_in(train: GearTrain, axis_of: dict[str, str], link: str, carrier: str) -> str:
-    """Return the axis on which a link is drawn in a mesh; the frame is drawn on the axis of the mesh's carrier."""
+    """Return the axis on which a link is drawn in a mesh. The frame is drawn on the axis of `carrier`, the carrier of
+    the mesh.
+    """
     return axis_of[link] or axis_of[carrier]
 
 
 def find_planes(train: GearTrain) -> list[list[Circuit] | str]:
-    """Return groups of meshes that share wheels, and names of brakes and clutches, ordered so that the groups and
-    clutches of each link are close together.
+    """Return groups of meshes that share wheels, and the names of brakes and clutches. They are ordered so that the
+    groups, brakes and clutches of each link are close together.
     """
     circuits = {circuit.id: circuit for circuit in train.circuits}
     by_wheel: dict[str, list[str]] = {}
@@ -154,7 +160,7 @@ def find_columns(
     axis_of: dict[str, str],
     shafts: dict[str, StickShaft],
 ) -> StickColumns:
-    """Return the columns of all meshes, brakes, clutches, cranks, and wheels without a mesh.
+    """Return the columns of all meshes, brakes, clutches and cranks, and of all wheels without a mesh.
 
     A crank is placed before the first group in which its carried axis meshes. Abscissae are appended to `shafts` in
     place.
@@ -202,7 +208,7 @@ def find_columns(
 
 
 def _bearer(train: GearTrain, axis: str, axis_of: dict[str, str]) -> str | None:
-    """Return the moving link that carries an axis; None for an axis of the frame."""
+    """Return the moving link that carries an axis; None if the frame carries the axis."""
     tops = (
         train.kinematics.tree.top[link]
         for link, own in axis_of.items()
@@ -212,7 +218,9 @@ def _bearer(train: GearTrain, axis: str, axis_of: dict[str, str]) -> str | None:
 
 
 def ring_of(train: GearTrain, circuit: Circuit) -> str:
-    """Return the name of the ring wheel of a gear pair; empty for a pair without a ring and for a coupling."""
+    """Return the name of the ring wheel of a gear pair; an empty string for a pair without a ring wheel and for a
+    coupling.
+    """
     if circuit.kind != "gear":
         return ""
     return next((wheel for wheel in circuit.wheels if train.declaration.wheels[wheel][1].internal), "")
@@ -225,7 +233,9 @@ def _free_column(
     axis_of: dict[str, str],
     row: dict[str, int],
 ) -> int:
-    """Return the first column in which a mesh hides no other mesh, and add it to `taken`; a ring takes two columns."""
+    """Return the index of the first column in which a mesh hides no other mesh, and add the mesh to `taken`. A ring
+    wheel occupies two columns.
+    """
     one, other = (row[axis_in(train, axis_of, link, circuit.carrier)] for link in (circuit.i, circuit.j))
     low, high = float(min(one, other)), float(max(one, other))
     ring = ring_of(train, circuit)

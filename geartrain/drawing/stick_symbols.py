@@ -20,11 +20,11 @@ LINK, WHEEL, CARRIER, COUPLING = 1.1, 2.8, 4.0, 1.8
 PLATE, STEM = 2.6, 1.6
 """Line widths of a plate of a brake or clutch and of its stem [pt]."""
 TICK = 0.085
-"""Half the length of a tooth mark [in]."""
+"""Half-length of a tooth mark [in]."""
 TOUCH = 0.032
 """Distance from the point where two wheels touch to the middle of each wheel's tooth mark [in]."""
 BEARING, BAR = 0.07, 0.05
-"""Half the length of the bars of a bearing, and their distance from the shaft [in]."""
+"""Half-length of the two bars of a bearing, and the distance of the bars from the shaft [in]."""
 NAME = 8.0
 """Font size of the name of a brake or clutch [pt]."""
 _HALF = 0.11  # half the height of a plate
@@ -34,7 +34,7 @@ _STRAND = 0.025  # from the middle of a belt to one of its strands
 
 
 def draw_line(axes: Axes, xs: list[float], ys: list[float], color: str, width: float, **how: Any) -> None:
-    """Draw a line of a width [pt], by default with butt caps."""
+    """Draw a line with a width in points. By default, the line has butt caps."""
     axes.plot(xs, ys, color=color, linewidth=width, **{"solid_capstyle": "butt", **how})
 
 
@@ -45,7 +45,7 @@ def _box(axes: Axes, x: float, y: float, half: tuple[float, float], color: str, 
 
 
 def draw_ground(axes: Axes, x: float, y: float, upright: bool = False) -> None:
-    """Draw the hatching of the frame around a point, on a level or an upright surface."""
+    """Draw the hatching of the frame around a point, on a horizontal or (`upright`) vertical surface."""
     wide, high = (0.045, 0.09) if upright else (0.09, 0.045)
     box = Rectangle((x - wide, y - high), 2 * wide, 2 * high, hatch="//////", zorder=4, gid="ground")
     box.set(facecolor="white", edgecolor=GREY, linewidth=0.7)
@@ -53,7 +53,7 @@ def draw_ground(axes: Axes, x: float, y: float, upright: bool = False) -> None:
 
 
 def draw_bearing(axes: Axes, x: float, y: float, color: str = BLACK, slides: bool = False) -> None:
-    """Draw a bearing as two bars along a shaft; for a link that slides, the bars are the sides of a guide box."""
+    """Draw a bearing as two bars along a shaft. For a link that slides, draw the bars as the sides of a guide box."""
     if slides:
         _box(axes, x, y, (BEARING, BAR), color, gid="guide")
     for side in (-1, 1) if not slides else ():
@@ -66,7 +66,7 @@ def draw_bearing(axes: Axes, x: float, y: float, color: str = BLACK, slides: boo
 
 
 def element_width(name: str) -> float:
-    """Return the width of the column of a brake or clutch with its name [in]."""
+    """Return the width [in] of a column that contains a brake or clutch and its name."""
     return max(0.46, text_width(name, NAME, "bold") + 0.12)
 
 
@@ -79,7 +79,7 @@ def draw_element(
     other plate.
 
     place   middle of the plates
-    ends    height of the shafts of both links, or None for the frame
+    ends    height of the shaft of each link, or None for the frame
     """
     x, middle = place
     color = PURPLE if closed else GREY
@@ -103,7 +103,9 @@ def draw_element(
 
 
 def draw_belt(axes: Axes, x: float, ends: tuple[float, float], crossed: bool, name: str) -> None:
-    """Draw two pulleys on their shafts and both strands between them, which cross if the pulleys turn oppositely."""
+    """Draw two pulleys on their shafts and both strands of the belt between them. Crossed strands make the pulleys turn
+    in opposite senses.
+    """
     for y in ends:
         _box(axes, x, y, _PULLEY, PURPLE, gid=f"pulley {name}")
     low, high = min(ends) + _PULLEY[1], max(ends) - _PULLEY[1]
@@ -121,7 +123,9 @@ def draw_screw(axes: Axes, x: float, screw: float, nut: float, name: str) -> Non
 
 
 def draw_rack(axes: Axes, x: float, meet: float, ends: tuple[float, float], name: str) -> None:
-    """Draw a pinion from the first end, which touches a long toothed bar on the stem of the second end."""
+    """Draw a pinion on a stem from the first end, and a long toothed bar, which the pinion touches, on a stem from the
+    second end.
+    """
     side = 1 if ends[1] > meet else -1
     for foot, level, half, color in (
         (ends[0], meet - 0.032 * side, TICK, BLUE),
@@ -132,7 +136,7 @@ def draw_rack(axes: Axes, x: float, meet: float, ends: tuple[float, float], name
 
 
 def draw_drum(axes: Axes, x: float, drum: float, link: float, name: str) -> None:
-    """Draw a drum on its shaft, and its line to the link that slides."""
+    """Draw a drum on its shaft, and a line from the drum to the link that slides."""
     _box(axes, x, drum, _PULLEY, PURPLE, gid=f"pulley {name}")
     _stem(axes, x, link, drum + (0.12 if link > drum else -0.12), name, width=0.9)
 
@@ -150,9 +154,9 @@ def draw_joint(axes: Axes, x: float, meet: float, ends: tuple[float, float], kin
 
 
 def draw_pin(axes: Axes, x: float, meet: float, ends: tuple[float, float], pins: Sequence[bool], name: str) -> None:
-    """Draw a pin in its slot, or two bars side by side for links that are kept parallel.
+    """Draw a pin in its slot. For links that are kept parallel, draw two bars side by side.
 
-    pins   True for the end that carries the pin
+    pins   True for each end that carries a pin
     """
     parallel = not any(pins)
     for foot, pin, side in zip(ends, pins, (-1, 1), strict=True):

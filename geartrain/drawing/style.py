@@ -76,7 +76,7 @@ _ONE_AT_A_TIME = Lock()  # the salt of SVG ids is a global setting of matplotlib
 
 
 class ShownFigure(_Figure):
-    """Figure that a notebook displays inline, without a window and without state shared with other figures."""
+    """Figure that a notebook displays inline. The figure needs no window and shares no state with other figures."""
 
     def _repr_svg_(self) -> str:
         return render(self, ".svg").decode("utf-8")
@@ -134,7 +134,9 @@ def render(figure: _Figure, suffix: str, dots: float = 100.0, theme: ThemeName =
 
 
 def _texts(artist: Artist) -> Iterator[Text]:
-    """Yield the texts of an artist, without hidden axes, whose ticks would be created only for this purpose."""
+    """Yield the text objects of an artist. Hidden axes are skipped, because their ticks would be created only for this
+    purpose.
+    """
     for child in artist.get_children():
         if isinstance(child, Text):
             yield child
@@ -149,7 +151,7 @@ _LIGHT = THEMES["light"]
 BLACK, GREY, PALE, WHITE, RED = _LIGHT.ink, _LIGHT.quiet, _LIGHT.line, _LIGHT.paper, _LIGHT.fault
 FILL, SHADE, SKY = _LIGHT.fill, _LIGHT.shade, _LIGHT.band
 BLUE, ORANGE, PURPLE, GREEN = _LIGHT.series[:4]
-"""Colours of wheels, of carriers, of couplings, and of other parts next to them."""
+"""Colours of wheels, of carriers, of couplings, and of other parts next to couplings."""
 SCALE = SCALES["light"]
 """Colour scale of values on a map in the light theme."""
 HALO = (withStroke(linewidth=3.0, foreground=WHITE),)  # keeps text readable over lines
@@ -161,12 +163,14 @@ LETTER = 0.62 / 72  # mean width of a letter [in] per point of font size
 
 
 def series_look(at: int) -> dict[str, Any]:
-    """Return the colour and dashes of the series with an index from 0, as keyword arguments for matplotlib lines."""
+    """Return the colour and dash pattern of a series, whose index starts at 0, as keyword arguments for matplotlib
+    lines.
+    """
     return {"color": series_colour(at), "linestyle": series_dash(at)}
 
 
 def plain(axes: Axes) -> None:
-    """Set the style of a panel: text of uniform size, a light grid, and no frame at the top and right."""
+    """Set the style of a panel: uniform text size, a light grid, and no frame at the top and at the right."""
     axes.tick_params(labelsize=SMALL)
     axes.grid(True, color=PALE, linewidth=0.5, alpha=0.6)
     axes.set_axisbelow(True)
@@ -175,7 +179,7 @@ def plain(axes: Axes) -> None:
 
 
 def name_axes(axes: Axes, x: str = "", y: str = "", title: str = "", size: float = TEXT, **how: Any) -> None:
-    """Write the labels of the axes and the title of a panel; `how` contains further text properties."""
+    """Write the labels of the axes and the title of a panel. Further text properties are given in `how`."""
     if x:
         axes.set_xlabel(x, fontsize=size, **how)
     if y:
@@ -185,7 +189,8 @@ def name_axes(axes: Axes, x: str = "", y: str = "", title: str = "", size: float
 
 
 def curve_panels(heights: Sequence[float], margin: float = 0.0, share: bool = True) -> tuple[Figure, list[Axes]]:
-    """Return a figure and its panels for curves, below each other, with a common abscissa unless `share` is False.
+    """Return a figure and its panels for curves, which are placed one below the other. The panels have a common
+    abscissa unless `share` is False.
 
     heights   heights of the panels [in]
     margin    additional height of the figure [in]
@@ -198,19 +203,21 @@ def curve_panels(heights: Sequence[float], margin: float = 0.0, share: bool = Tr
 
 
 class Row(NamedTuple):
-    """Row of a chart of intervals."""
+    """One row of a chart of marks and intervals."""
 
     name: str
     marks: Mapping[str, float]
-    """Value of each mark, by series."""
+    """Value of each mark in the row, keyed by series."""
     spans: Sequence[tuple[float, float]] = ()
-    """Ends of intervals, the widest first; each is drawn as a thicker line than the interval before it."""
+    """Ends of the intervals in the row, the widest first. Each interval is drawn as a thicker line than the one before
+    it.
+    """
     beside: Sequence[str] = ()
-    """Cells to the right of the row."""
+    """Texts of the cells to the right of the row."""
 
 
 DOT: Mapping[str, Any] = {"marker": "o", "markersize": 6, "color": BLACK, "markeredgecolor": WHITE}
-"""Mark of a chart with one series."""
+"""Properties of the marks in a chart that has only one series."""
 
 
 def interval_chart(
@@ -220,9 +227,10 @@ def interval_chart(
     title: str = "",
     log: bool = False,
 ) -> Figure:
-    """Return a chart of marks and intervals with a panel for each axis label, the first row of each at the top.
+    """Return a chart of marks and intervals with one panel for each key of `panels`, which labels its axis. The first
+    row of a panel is at the top.
 
-    looks   matplotlib properties of the marks, by series
+    looks   matplotlib properties of the marks, keyed by series
     heads   heads of the cells next to the rows
     log     True for logarithmic axes
     """
@@ -244,7 +252,7 @@ def interval_chart(
 def draw_rows(
     axes: Axes, rows: Sequence[Row], looks: Mapping[str, Mapping[str, Any]], heads: Sequence[str] = ()
 ) -> None:
-    """Draw marks and intervals in rows of a panel, with cells to the right of the panel."""
+    """Draw the marks and intervals of the rows of a panel, and text cells to the right of the panel."""
     axes.grid(False, axis="y")
     axes.set_yticks(range(len(rows)), [short(row.name, 30) for row in rows], parse_math=False)
     axes.set_ylim(len(rows) - 0.4, -0.6)
@@ -271,7 +279,7 @@ def figures(value: float) -> str:
 
 
 def colour_bar(figure: Figure, axes: Axes, mesh: Any, name: str, **how: Any) -> None:
-    """Draw the colour scale next to a map; tick labels of the map and the scale have the same size."""
+    """Draw the colour scale next to a map. Tick labels of the map and of the colour scale have the same size."""
     bar = figure.colorbar(mesh, ax=axes, pad=0.02, **how)
     bar.set_label(name, fontsize=TEXT)
     for each in (axes, bar.ax):
@@ -285,7 +293,7 @@ def legend_below(
     side: Literal["center", "left"] = "center",
     **how: Any,
 ) -> None:
-    """Draw a legend of the given handles, or by default of all labelled artists, below all panels."""
+    """Draw a legend below all panels. It contains the given handles or, if `handles` is None, all labelled artists."""
     how = {"fontsize": SMALL, "frameon": False, "ncols": columns, **how}
     if handles is not None:
         how["handles"] = handles
@@ -293,7 +301,7 @@ def legend_below(
 
 
 def legend_above(axes: Axes, columns: int) -> None:
-    """Draw a legend of a panel above it, at the right."""
+    """Draw the legend of a panel above the panel, at the right."""
     axes.legend(
         loc="lower right",
         bbox_to_anchor=(1, 1),
@@ -306,12 +314,12 @@ def legend_above(axes: Axes, columns: int) -> None:
 
 
 def short(name: str, letters: int = 20) -> str:
-    """Return a name shortened to a number of letters."""
+    """Return a name shortened to at most `letters` characters."""
     return shorten(name, letters, placeholder="...")
 
 
 def kept_extremes(values: Floats, most: int) -> Ints:
-    """Return the indices of the kept positions of a curve that is thinned without losing extremes.
+    """Return the indices of the positions to keep if a curve is thinned without losing its extremes.
 
     Each of about `most` / 3 intervals keeps its first position, its minimum and its maximum. All positions are kept if
     there are at most `most`.
@@ -326,8 +334,8 @@ def kept_extremes(values: Floats, most: int) -> Ints:
 
 
 def write(axes: Axes, x: float, y: float, text: str, color: str = BLACK, halo: float = 3.0, **how: Any) -> None:
-    """Write text literally, and its halo as a separate text, because a single text with a halo would become outlines in
-    a vector file.
+    """Write a text without interpreting markup, and its halo as a separate text, because a single text with a halo
+    would become outlines in a vector file.
     """
     how = {"ha": "center", "va": "center", "fontsize": SMALL, "color": color, "zorder": 8, "parse_math": False, **how}
     behind = {key: value for key, value in how.items() if key != "gid"}
@@ -338,15 +346,15 @@ def write(axes: Axes, x: float, y: float, text: str, color: str = BLACK, halo: f
 def note(axes: Axes, text: str, at: tuple[float, float], offset: tuple[float, float], **how: Any) -> None:
     """Write text with a halo at an offset [pt] from a point of a panel.
 
-    The text is to the right of the point if the horizontal offset is positive, otherwise to the left.
+    The text is to the right of the point if the horizontal offset is positive, or to the left if it is not.
     """
     how = {"ha": "left" if offset[0] > 0 else "right", "fontsize": SMALL, "path_effects": HALO, **how}
     axes.annotate(text, at, xytext=offset, textcoords="offset points", **how)
 
 
 def sheet(width: float, height: float, title: str) -> tuple[Figure, Axes]:
-    """Return a figure with one panel, whose coordinates are inches from the lower left corner, and a title of at most
-    two lines.
+    """Return a figure with one panel and a title of at most two lines. The coordinates of the panel are inches from its
+    lower left corner.
     """
     figure = Figure(figsize=(width, height), dpi=100)
     axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
@@ -361,7 +369,9 @@ def sheet(width: float, height: float, title: str) -> tuple[Figure, Axes]:
 
 
 def headed(figure: Figure, title: str) -> Figure:
-    """Return the figure with a title above all its panels, in as many lines as its width requires."""
+    """Return the figure with a title above all its panels. The title is broken into as many lines as the figure's width
+    requires.
+    """
     letters = int(figure.get_size_inches()[0] / (TEXT * LETTER))
     title = "\n".join(line for part in title.splitlines() for line in wrap(part, letters))
     figure.suptitle(title, fontsize=TEXT, x=0.01, ha="left", color=BLACK, parse_math=False)
@@ -369,12 +379,14 @@ def headed(figure: Figure, title: str) -> Figure:
 
 
 def title_of(name: str, title: str) -> str:
-    """Return the title above a picture of a train: its name, and its title if it has one."""
+    """Return the title above a picture of a train: the name of the train, followed by its title if there is one."""
     return f"{name}: {title}" if title else name
 
 
 def after_turns(scene: Scene, turns: Fraction) -> str:
-    """Return the end of a picture's title, which gives the `turns` of the driving link; empty for 0 turns."""
+    """Return the end of a picture's title, which states the number of `turns` of the driving link; an empty string for
+    0 turns.
+    """
     driver = "nothing" if scene.driving_link is None else scene.bodies[scene.driving_link].id
     return f", after {turns} turns of {driver}" if turns else ""
 

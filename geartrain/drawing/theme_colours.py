@@ -27,14 +27,14 @@ _SHADES = 256  # colours of a scale
 _ROUNDED = 0.5 / 255  # rounding error of a colour written with two hexadecimal digits per channel
 _AREA = 0.5  # opacity above which a series colour fills an area that needs its own hatch, not a background band
 SCALES = {name: LinearSegmentedColormap.from_list(name, theme.scale, _SHADES) for name, theme in THEMES.items()}
-"""Colour scales of values on maps, by theme."""
+"""Colour scales of values on maps, keyed by theme."""
 _COLOURS = ("color", "facecolor", "edgecolor", "markerfacecolor", "markeredgecolor")
 _LUMA = np.array([0.2126, 0.7152, 0.0722])  # weights of red, green and blue in lightness (ITU-R BT.709)
 
 
 @contextmanager
 def themed(figure: Figure, name: ThemeName) -> Iterator[None]:
-    """Give the figure the theme's colours within a `with` block, and restore its light colours afterwards."""
+    """Convert the figure to the colours of a theme within a `with` block, and restore the light colours afterwards."""
     if name == "light":
         yield
         return
@@ -62,7 +62,7 @@ def _all(artist: Artist) -> Iterator[Artist]:
 
 
 class _Painter:
-    """Recolouring of artists to a theme, with a list of the changes to be undone."""
+    """Recolouring of artists for a theme, with a list of changes to be undone."""
 
     def __init__(self, name: ThemeName) -> None:
         self.name = name
@@ -71,7 +71,9 @@ class _Painter:
         self._scales: list[Colormap] = []  # converted scales, as a colour bar shares the scale of its map
 
     def paint(self, artist: Artist) -> None:
-        """Convert the colours of one artist; an artist with values on a colour scale gets the theme's scale."""
+        """Convert the colours of one artist. An artist whose values are shown on a colour scale gets the theme's colour
+        scale.
+        """
         if isinstance(artist, Collection) and artist.get_array() is not None:
             self._scale(artist)
         elif not isinstance(artist, (Figure, Axes)):  # their colours are those of their patches
@@ -80,7 +82,9 @@ class _Painter:
             self._halo(effect)
 
     def paint_grid(self, axes: Axes) -> None:
-        """Convert the grid colour of ticks that are created later; a file of another resolution may have more ticks."""
+        """Convert the grid colour of ticks that will be created later, because a file of another resolution may have
+        more ticks.
+        """
         for axis in (axes.xaxis, axes.yaxis):
             old = axis.get_tick_params().get("grid_color")
             if old is not None:
@@ -115,7 +119,7 @@ class _Painter:
             self._fill(artist, *area)
 
     def _fill(self, artist: Any, colour: Rgba, hatch: str) -> None:
-        """Fill an area with the theme's colour and hatch, with outline and hatch in ink."""
+        """Fill an area with the theme's colour and hatch. Outline and hatch are drawn in the theme's ink colour."""
         self._put(artist.set_facecolor, artist.get_facecolor(), colour)
         self._put(artist.set_edgecolor, artist.get_edgecolor(), THEMES[self.name].ink)
         if hasattr(artist, "set_hatchcolor"):  # from matplotlib 3.11 on, hatch and edge have separate colours
@@ -135,7 +139,9 @@ def _set_grid(axis: Axis, colour: Any) -> None:
 
 
 def _area_of(artist: Artist, name: ThemeName) -> tuple[Rgba, str] | None:
-    """Return the fill colour and hatch of an area in a series colour, in a theme that defines areas; otherwise None."""
+    """Return the fill colour and hatch of an area in a series colour; None if the area has no such colour or the theme
+    defines no areas.
+    """
     areas = THEMES[name].areas
     if not areas or isinstance(artist, (Circle, FancyArrowPatch)) or not isinstance(artist, (Patch, PolyCollection)):
         return None
@@ -151,7 +157,7 @@ def _area_of(artist: Artist, name: ThemeName) -> tuple[Rgba, str] | None:
 
 
 def _themed_all(colours: Any, name: ThemeName) -> Any:
-    """Return the theme's equivalents of one colour, or of each row of a collection's colours."""
+    """Return the theme's equivalents of `colours`, which is one colour or an array with one colour per row."""
     if isinstance(colours, np.ndarray) and colours.ndim == 2:
         return [themed_colour(tuple(map(float, row)), name) for row in colours]  # type: ignore[arg-type]
     unset = isinstance(colours, str) and colours in ("none", "auto")
@@ -162,7 +168,7 @@ def themed_colour(colour: Rgba, name: ThemeName) -> Rgba:
     """Return the theme's equivalent of a colour of the light theme.
 
     A colour of the palette becomes the palette colour of the theme, and a mixture of the two face colours becomes the
-    same mixture. Any other colour gets the same relative lightness between paper and ink.
+    same mixture. Any other colour is converted to the same relative lightness between paper and ink.
     """
     light, theme = THEMES["light"], THEMES[name]
     known = dict(zip(_named(light), _named(theme), strict=True))
@@ -177,7 +183,9 @@ def themed_colour(colour: Rgba, name: ThemeName) -> Rgba:
 
 
 def _mixed_faces(rgb: Floats, light: Theme, theme: Theme) -> Floats | None:
-    """Return the theme's mixture of shade and fill for a colour; None if it is not such a mixture."""
+    """Return the theme's mixture of shade and fill colour that corresponds to a light colour; None if the light colour
+    is not such a mixture.
+    """
     shade, fill = _rgb_of(light.shade), _rgb_of(light.fill)
     along = fill - shade
     share = float((rgb - shade) @ along / (along @ along))
@@ -196,7 +204,9 @@ def _named(theme: Theme) -> Sequence[str]:
 
 
 def _same_lightness(rgb: Floats, theme: Theme) -> Floats:
-    """Return a colour of the same relative lightness between the theme's paper and ink, and without hue in print."""
+    """Return a colour with the same relative lightness between the theme's paper and ink colours; in the print theme,
+    the colour is grey.
+    """
     paper, ink, lightness = _rgb_of(theme.paper), _rgb_of(theme.ink), float(_LUMA @ rgb)
     hue = 0.0 if theme is THEMES["print"] else rgb - lightness
     return np.asarray(np.clip(ink + lightness * (paper - ink) + hue, 0.0, 1.0))

@@ -48,7 +48,7 @@ PHASES = {APPROACH: BLUE, RECESS: ORANGE, DWELL: BLACK}
 
 
 def pair_text(transmission: TriangularTransmission, friction: float | None = None) -> str:
-    """Return a pair's tooth counts, half angle, clearance factor and friction coefficient as a string.
+    """Return a text with the tooth counts, half angles, clearance factor and friction coefficient of a pair.
 
     friction   coefficient to print; by default the coefficient of the pair
     """
@@ -64,7 +64,7 @@ def pair_text(transmission: TriangularTransmission, friction: float | None = Non
 
 
 def require_contact(transmission: TriangularTransmission) -> None:
-    """Raise `GearTrainError` if the pair has no teeth, or no teeth in contact."""
+    """Raise `GearTrainError` if the pair has no teeth, or if no teeth are in contact."""
     if not transmission.sizes.has_valleys or not transmission.intervals:
         what, fix = "the teeth of this pair never touch", "change `half_angle` or `clearance_factor`"
         raise GearTrainError(Problem(what, transmission.verdict.text, fix))
@@ -76,7 +76,7 @@ DRIVER, DRIVEN = 1, 2
 
 @dataclass(frozen=True, slots=True)
 class ToothPairPose:
-    """Pose of two wheels. Their teeth in contact are at alpha_1 and alpha_2 [rad] from the line of centres."""
+    """Pose of two wheels. The teeth in contact are at the angles alpha_1 and alpha_2 [rad] from the line of centres."""
 
     sizes: TriangularSizes
     phase: str
@@ -87,7 +87,9 @@ class ToothPairPose:
     direction: int
 
     def wheel(self, which: int) -> tuple[int, float, float, float]:
-        """Return a wheel's tooth count, tip and root radius, and the angle of its tooth in the driving pair [rad]."""
+        """Return the tooth count, tip radius and root radius of a wheel, and the angle [rad] of its tooth
+        in contact.
+        """
         sizes = self.sizes
         if which == DRIVER:
             return sizes.z1, sizes.R1, sizes.R1 - sizes.signs[0] * sizes.depths[0], self.alpha1
@@ -95,14 +97,14 @@ class ToothPairPose:
 
     @property
     def axis2(self) -> float:
-        """Coordinate of the driven wheel's axis on the line of centres, from the driver's axis, in the unit of the
-        sizes.
+        """Signed distance of the driven wheel's axis from the driver's axis along the line of centres, in the unit of
+        `sizes`.
         """
         return self.sizes.signs[1] * self.sizes.D
 
     def place(self, which: int, radius: float | Floats, angle: float | Floats) -> Floats:
-        """Return points (..., 2) at a radius and an angle [rad] from the line of centres, positive at the entry
-        side.
+        """Return the points (..., 2) of a wheel at a radius and an angle [rad] from the line of centres. The angle is
+        positive on the entry side.
         """
         along: Floats = radius * np.cos(angle)
         across: Floats = radius * np.sin(angle)
@@ -110,11 +112,11 @@ class ToothPairPose:
         return np.stack([x, self.direction * across], axis=-1)
 
     def outline(self, which: int, within: float = pi) -> Floats:
-        """Return vertices (n, 2) of all teeth of a wheel, or of the teeth within an angle [rad] from the line of
-        centres.
+        """Return vertices (n, 2) of the teeth of a wheel that are within an angle [rad] from the line of centres; by
+        default of all teeth.
 
-        In the second case the centre of an external wheel is a vertex too. The body of a ring ends at a circle beyond
-        its roots.
+        If `within` is less than pi, the centre of an external wheel is also a vertex. The body of a ring ends at a
+        circle beyond its roots.
         """
         z, tip, root, alpha = self.wheel(which)
         half = pi / z
@@ -132,14 +134,14 @@ class ToothPairPose:
 
     @property
     def lean(self) -> float:
-        """Angle [rad] from the line of centres to the flank in contact, towards the entry side."""
+        """Angle [rad] from the line of centres to the flank in contact, positive towards the entry side."""
         if self.phase == APPROACH:
             return self.alpha1 + self.sizes.signs[0] * self.sizes.beta1
         return self.sizes.signs[0] * self.sizes.beta2 - self.sizes.side * self.alpha2
 
     @property
     def contact(self) -> Point:
-        """Contact point of the tooth pair: the tip of the driven tooth in approach, and of the driver's tooth in
+        """Contact point of the tooth pair: the tip of the driven tooth in approach, or the tip of the driver's tooth in
         recess.
         """
         which = DRIVEN if self.phase == APPROACH else DRIVER
@@ -149,19 +151,19 @@ class ToothPairPose:
 
     @property
     def normal(self) -> Point:
-        """Unit vector normal to the flank in contact, in the direction in which the driver pushes the driven tooth."""
+        """Unit normal of the flank in contact, in the direction in which the driver pushes the driven tooth."""
         return sin(self.lean), -self.direction * cos(self.lean)
 
     @property
     def centre(self) -> Point:
-        """Instant centre, at which the contact normal meets the line of centres."""
+        """Instant centre: the point at which the contact normal intersects the line of centres."""
         x, y = self.contact
         return x + self.direction * y * tan(self.lean), 0.0
 
 
 def tooth_pair_pose(transmission: TriangularTransmission, alpha1: float | None = None) -> ToothPairPose:
-    """Return the pose in which a tooth of the driver is at `alpha1` [rad], by default the middle of the first interval
-    of contact.
+    """Return the pose in which a tooth of the driver is at the angle `alpha1` [rad]. The default is the middle of the
+    first interval of contact.
     """
     interval, x = _pose_at(transmission, alpha1)
     tooth_pair, standing = transmission.contact.path.tooth_pair, interval.held
@@ -189,7 +191,9 @@ _NAMES = {DRIVER: "driver", DRIVEN: "driven"}
 def teeth_figure(
     transmission: TriangularTransmission, alpha1: float | None = None, whole: bool | None = None
 ) -> Figure:
-    """Draw two triangular teeth in contact, to scale, with their contact point and the line of centres."""
+    """Return a figure of two triangular teeth in contact, to scale, with their contact point and the line
+    of centres.
+    """
     require_contact(transmission)
     here = tooth_pair_pose(transmission, alpha1)
     whole = transmission.sizes.z1 + transmission.sizes.z2 <= _FEW if whole is None else whole
@@ -216,7 +220,7 @@ def teeth_figure(
 
 @dataclass(frozen=True, slots=True)
 class ToothViewport:
-    """Rectangular part of the plane that is drawn; `whole` is True if it contains whole wheels."""
+    """Rectangular part of the plane that is drawn. `whole` is True if the rectangle contains whole wheels."""
 
     left: float
     right: float
@@ -230,7 +234,9 @@ class ToothViewport:
         return (self.top - self.bottom) / (self.right - self.left)
 
     def within(self, here: ToothPairPose, which: int) -> float:
-        """Return the angle on either side of the line of centres that contains the visible part of a wheel [rad]."""
+        """Return the half-angle [rad] of the sector around the line of centres that contains the visible part of a
+        wheel.
+        """
         if self.whole:
             return pi
         z = here.wheel(which)[0]
@@ -251,7 +257,9 @@ def _whole(here: ToothPairPose) -> ToothViewport:
 
 
 def _near(here: ToothPairPose) -> ToothViewport:
-    """Return a viewport around contact point, instant centre and pitch point, with a margin of one or two pitches."""
+    """Return a viewport around the contact point, the instant centre and the pitch point, with a margin of one or two
+    pitches.
+    """
     sizes = here.sizes
     pitch = 2 * pi * sizes.D / sizes.pitch_sum
     points = [(sizes.D * sizes.z1 / sizes.pitch_sum, 0.0)]
@@ -286,7 +294,7 @@ def _wheel(axes: Axes, here: ToothPairPose, which: int, view: ToothViewport) -> 
 
 
 def _turning(axes: Axes, here: ToothPairPose, which: int, view: ToothViewport) -> None:
-    """Draw an arrow in the sense of rotation of a wheel, with the wheel's name; a driven wheel at rest has no arrow."""
+    """Draw an arrow in the sense of rotation of a wheel, and the wheel's name. A driven wheel at rest has no arrow."""
     z, tip, root, _ = here.wheel(which)
     pitch = 2 * pi / z
     inwards = 1 if tip > root else -1
@@ -319,7 +327,7 @@ def _line_of_centres(axes: Axes, here: ToothPairPose, view: ToothViewport) -> No
 
 
 def _contact(axes: Axes, here: ToothPairPose, view: ToothViewport) -> None:
-    """Draw the contact point, the normal and the instant centre."""
+    """Draw the contact point, the contact normal and the instant centre."""
     (x, y), (cx, cy), (nx, ny) = here.contact, here.centre, here.normal
     more = 0.12 * (view.top - view.bottom)
     along = (cx - x) * nx + (cy - y) * ny

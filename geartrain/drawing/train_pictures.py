@@ -90,7 +90,7 @@ def picture(
 
 
 def thumbnail(train: GearTrain) -> str:
-    """Return a small plan of a train, or its stick diagram if it has no plan, as an HTML image for a notebook.
+    """Return an HTML image for a notebook: a small plan of a train, or its stick diagram if it has no plan.
 
     Raise `MissingExtraError` if matplotlib is not installed, and `QuestionError` if neither picture can be drawn.
     """

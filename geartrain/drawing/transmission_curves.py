@@ -58,8 +58,8 @@ _PERIOD_LABELS = ("transmission error\n(deg, driven)", "speed ratio\nover its me
 
 
 def mesh_figure(mesh: GearMesh, alpha1: float | None = None) -> Figure:
-    """Plot flanks, path of contact and losses of a pair, or its transmission function and efficiency if it has no path
-    of contact.
+    """Return a figure of flanks, path of contact and losses of a pair; if the pair has no path of contact, of its
+    transmission function and efficiency.
 
     alpha1   angle of the driving tooth from the line of centres [rad], at which triangular teeth are drawn in contact
     """
@@ -74,7 +74,7 @@ def mesh_figure(mesh: GearMesh, alpha1: float | None = None) -> Figure:
 
 
 def comparison_figure(found: FormComparison) -> Figure:
-    """Plot flanks, paths of contact and losses of the compared tooth forms that run."""
+    """Return a figure of flanks, paths of contact and losses of the compared tooth forms that can run."""
     return shapes_figure({form.name: form.path for form in found.forms if form.path and form.runs})
 
 
@@ -118,8 +118,8 @@ _BEYOND = 4.0  # maximum extension of an axis beyond the real path, over the ran
 
 
 def triangular_figure(transmission: TriangularTransmission, friction: PairFriction | None = None) -> Figure:
-    """Draw driven angle, speed ratio, sliding efficiency and moment arms of a pair with triangular teeth against
-    the angle of the driver.
+    """Return a figure of driven angle, speed ratio, sliding efficiency and moment arms of a pair with triangular teeth
+    against the angle of the driver.
 
     Thin lines show the ideal path of one tooth pair (docs/teeth.md, equations 2 to 11); thick lines show the real path
     of all tooth pairs. The driver angle decreases with time. A second axis next to the speed ratio gives the position
@@ -184,7 +184,7 @@ def _values(
     x: Floats,
     held: float | None = None,
 ) -> tuple[tuple[Floats, ...], ...]:
-    """Return the curves of each panel at the driver angles alpha_1 = x [rad].
+    """Return the curves of each panel at driver angles alpha_1 = x [rad].
 
     The curves are the driven angle alpha_2 [deg], the speed ratio tau, the efficiency, and the relative moment arms of
     driver and driven wheel. Efficiency and moment arms are NaN during a dwell, and the efficiency is NaN where friction
@@ -205,7 +205,9 @@ def _values(
 
 
 def _limits(ideal: Floats, real: Floats) -> tuple[float, float]:
-    """Return axis limits around the real path and the nearby part of the ideal path; 0 and 1 if no value is finite."""
+    """Return axis limits that contain the real path and the nearby part of the ideal path; 0 and 1 if no value is
+    finite.
+    """
     ideal, real = ideal[np.isfinite(ideal)], real[np.isfinite(real)]
     if not len(real):
         return 0.0, 1.0
@@ -234,8 +236,8 @@ def _matching(panels: list[Axes], transmission: TriangularTransmission) -> None:
 
 
 def _jumps(axes: Axes, transmission: TriangularTransmission) -> None:
-    """Draw each impact with the speed ratios before and after it, at which a tooth pair separates and the next pair
-    drives.
+    """Draw each impact, at which a tooth pair separates and the next pair starts to drive, with the speed ratios before
+    and after the impact.
     """
     turns = zip(transmission.intervals, (*transmission.intervals[1:], transmission.intervals[0]), strict=True)
     hits = [(last, new) for last, new in turns if new.held is None]
@@ -250,30 +252,33 @@ def _jumps(axes: Axes, transmission: TriangularTransmission) -> None:
 
 
 def _arms_key(axes: Axes) -> None:
-    """Draw a legend of the line styles of both wheels above their panel."""
+    """Draw a legend above the panel that explains the line styles of both wheels."""
     for name, (_, style) in zip(("$b_1$, driver", "$b_2$, driven"), _CURVES, strict=True):
         axes.plot([], [], color=BLACK, linewidth=1.2, linestyle=style, label=name)
     legend_above(axes, 2)
 
 
 def _centre_at(signs: tuple[int, int], tau: Any) -> Any:
-    """Return the distance of the instant centre from the driver's axis, divided by the centre distance, at speed ratio
-    tau.
+    """Return the distance of the instant centre from the driver's axis, divided by the centre distance, at the speed
+    ratio tau.
 
-    The denominator is bounded below, for speed ratios far from the real path; a sign in `signs` is -1 for a ring.
+    The denominator has a lower bound, which applies to speed ratios far from the real path. A sign in `signs` is -1 for
+    a ring gear.
     """
     first, second = signs
     return tau / np.maximum(first + second * tau, 0.1)
 
 
 def _ratio_at(signs: tuple[int, int], centre: Any) -> Any:
-    """Return the speed ratio for a position of the instant centre, which is the inverse of `_centre_at`."""
+    """Return the speed ratio for a position of the instant centre (inverse function of `_centre_at`)."""
     first, second = signs
     return centre / np.maximum(first * (1 - second * centre), 0.1)
 
 
 def _centres(signs: tuple[int, int], low: float, high: float) -> list[float]:
-    """Return ticks for the instant centre between two speed ratios: round values that are not too close together."""
+    """Return tick positions for the instant centre between two speed ratios: round values that are not too close
+    together.
+    """
     minimum, most = sorted(float(_centre_at(signs, tau)) for tau in (low, high))
     ticks: list[float] = []
     for bins in range(_CENTRES, 0, -1):
@@ -286,7 +291,9 @@ def _centres(signs: tuple[int, int], low: float, high: float) -> list[float]:
 
 
 def _instant_centre(axes: Axes, signs: tuple[int, int]) -> None:
-    """Draw a second axis for the instant centre: its distance from the driver's axis divided by the axis distance."""
+    """Draw a second axis that shows the distance of the instant centre from the driver's axis, divided by the centre
+    distance.
+    """
     beside = axes.secondary_yaxis("right", functions=(partial(_centre_at, signs), partial(_ratio_at, signs)))
     beside.set_ylabel("instant centre\n$O_1C / D$", fontsize=TEXT)
     beside.tick_params(labelsize=SMALL)
@@ -295,7 +302,7 @@ def _instant_centre(axes: Axes, signs: tuple[int, int]) -> None:
 
 
 def _label_time(axes: Axes) -> None:
-    """Label the abscissa and draw an arrow in the direction of time, in which the driver's angle decreases."""
+    """Label the abscissa and draw an arrow in the direction of time. The driver's angle decreases with time."""
     axes.set_xlabel(r"driver angle $\alpha_1$ (deg)", fontsize=TEXT)
     axes.annotate(
         "time",
@@ -348,8 +355,8 @@ _SINGULAR = 0.1  # pitches from the pitch point within which singular values do 
 
 
 def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
-    """Return a figure that compares the flanks, path of contact, stress, heat, flash temperature, sliding and loss of
-    tooth forms for one pair.
+    """Return a figure that compares the flanks, paths of contact, stress, heat, flash temperature, sliding and loss of
+    several tooth forms for one pair.
     """
     if not paths:
         what, why = "no tooth form can be drawn", "no form has a path of contact for this pair"
@@ -404,7 +411,7 @@ def _pitch_title(pitch: PitchSurfaces) -> str:
 
 
 def _places(path: PathOfContact) -> Floats:
-    """Return positions along the whole path of contact, except the pitch point [modules or rad]."""
+    """Return positions along the whole path of contact, without the pitch point [modules or rad]."""
     approach, recess = path.arcs
     if min(approach, recess) < 0:
         return np.linspace(-approach, recess, _PATH_SAMPLES)
@@ -419,7 +426,7 @@ def _line(axes: Axes, name: str, styles: Styles, points: Floats) -> None:
 
 
 def _label_flank_panel(axes: Axes, text: str) -> None:
-    """Label a panel of flanks, which is not to scale, because steep flanks would coincide."""
+    """Label a panel of flanks. The panel is not to scale, because steep flanks would coincide if it were."""
     axes.plot([0], [0], "+", color=BLACK, markersize=9, gid="pitch point")
     axes.axhline(0.0, color=GREY, linewidth=0.8, linestyle="-.")
     name_axes(axes, title=text)
@@ -434,7 +441,9 @@ def _label_flank_panel(axes: Axes, text: str) -> None:
 
 
 def _quantities(pitch: PitchSurfaces, unit: float) -> Iterator[tuple[str, Callable[[PathContact], Floats]]]:
-    """Yield each plotted quantity with its label; lengths in modules make spur and bevel gears comparable."""
+    """Yield the label and the function of each plotted quantity. Lengths are in modules so that spur and bevel gears
+    can be compared.
+    """
     # H has the dimension 1/length, and the flash temperature length**(-1/4)
     yield r"Hertz pressure $\sqrt{H}$", lambda c: np.sqrt(c.H * unit)
     yield "heat per area, hotter flank $Q$", lambda c: np.maximum(c.Q1, c.Q2)

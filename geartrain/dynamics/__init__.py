@@ -1,9 +1,10 @@
 """Torques, losses and transmission errors of a train, from its loads, friction and tooth forms.
 
-Input are the circuits, exact speeds and loads of a state, and the known data of each gear pair. Results are torques,
-powers, efficiencies, the driving wheel of each pair, and the angle of every link at every position including
-transmission errors. Call the methods of `GearTrain` (`torques`, `driven`, `motion`, `strength`, `dynamics`), or one of
-the functions here with `GearTrain.mechanics`. Both return results of the classes in this package.
+The input consists of the circuits, exact speeds and loads of a state, and the known data of each gear pair. The results
+are torques, powers, efficiencies, the driving wheel of each pair, and the angle of every link, including transmission
+errors, at every position of the input. Call the methods of `GearTrain` (`torques`, `driven`, `motion`, `strength`,
+`dynamics`), or one of the functions here with `GearTrain.mechanics`. Both return results of the classes in this
+package.
 
 Torques are balanced with the transpose of the Willis system, A^T x + T = 0 (docs/torques.md, equation 3). The loss of
 each pair follows from the direction of power flow relative to its carrier (5). Transmission errors propagate according

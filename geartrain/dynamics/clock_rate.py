@@ -1,4 +1,4 @@
-"""Energy of each beat, amplitude of the pendulum, minimum weight and rate errors of a clock with an escapement.
+"""Energy per beat, pendulum amplitude, minimum weight and rate errors of a clock with an escapement.
 
 The equations are (20) to (23) of docs/dynamics.md. A positive rate error means that the clock gains.
 """
@@ -24,19 +24,20 @@ DAY = 86400.0
 
 
 def circular_error(amplitude: float) -> float:
-    """Return the relative rate error of a pendulum that swings in a circular arc [1]; -A^2/16 for small amplitudes A.
+    """Return the relative rate error of a pendulum that swings in a circular arc [1]. For small amplitudes A, it is
+    -A^2/16.
 
     The period of a simple pendulum is 2 K(sin(A/2))/pi times the period of infinitely small oscillations, where K is
     the complete elliptic integral of the first kind.
 
-    amplitude   half of the total arc [rad]
+    amplitude   amplitude A, which is half of the total arc [rad]
     """
     return float(pi / (2 * ellipk(sin(amplitude / 2) ** 2)) - 1)
 
 
 def escapement_error(escapement: Escapement, amplitude: float, quality: float) -> float | None:
-    """Return the relative rate error due to the impulses of an escapement, by Airy's theorem [1]; None if the kind of
-    the escapement is not declared, or its impulse extends beyond the amplitude.
+    """Return the relative rate error due to the impulses of an escapement, computed by Airy's theorem [1]; None if the
+    kind of the escapement is not declared, or if its impulse extends beyond the amplitude.
 
     amplitude   half of the total arc [rad]
     quality     quality factor of the pendulum; the impulses supply the energy that it loses
@@ -54,7 +55,7 @@ def escapement_error(escapement: Escapement, amplitude: float, quality: float) -
 
 def swing_amplitude(pendulum: Pendulum, impulse: float) -> float | None:
     """Return the amplitude at which a pendulum loses a given energy per period [rad]; None if the mass of its bob or
-    its quality factor is not declared, or if the pendulum would swing over the top.
+    its quality factor is not declared, or if the amplitude would exceed half a turn.
 
     impulse   energy that the pendulum receives per period [J]
     """
@@ -72,40 +73,44 @@ class Timekeeping(Result):
     state: str | None
     """Name of the state; None for a train without states."""
     source: str
-    """Link at which power enters."""
+    """Name of the link at which power enters."""
     slides: bool
     """True if `source` is a sliding weight, so that `torque` and `minimum_torque` are forces."""
     torque: float
-    """Torque on this link in its sense of rotation [N m], or force along its travel [N]."""
+    """Torque on the link `source` in its sense of rotation [N m], or force along its travel if it slides [N]."""
     power: float
-    """Power that enters at this link [W]."""
+    """Power that enters at the link `source` [W]."""
     efficiency: float
-    """Fraction of the power that reaches the escape wheel; 0 if friction stops the train."""
+    """Fraction of the input power that reaches the escape wheel; 0 if friction stops the train."""
     lost_in_bearings: float
-    """Fraction of the power that is lost in bearings."""
+    """Fraction of the input power that is lost in bearings."""
     beat_energy: float
     """Energy that the escape wheel receives per beat [J]."""
     amplitude: float | None
     """Amplitude of the pendulum, which is half of its total arc [rad]; None if it is not known."""
     minimum_torque: float | None
-    """Minimum torque [N m] or force [N] at `source` for which the pendulum reaches the declared `arc`."""
+    """Minimum torque [N m] or force [N] at `source` for which the pendulum reaches the declared `arc`; None if it
+    cannot be determined.
+    """
     minimum_weight: float | None
-    """Mass of the weight that exerts the minimum torque [kg]."""
+    """Mass of the weight that exerts the minimum torque [kg]; None if it cannot be determined."""
     descent: float | None
-    """Speed at which the weight descends [m/s]."""
+    """Speed at which the weight descends [m/s]; None if there is no weight."""
     going_time: float | None
-    """Time from one winding to the next [s]."""
+    """Time from one winding to the next [s]; None if it cannot be determined."""
     circular: float | None
-    """Rate error due to the circular arc of the pendulum [s/d]."""
+    """Rate error due to the circular arc of the pendulum [s/d]; None if the amplitude is unknown."""
     escapement: float | None
-    """Rate error due to the impulses of the escapement [s/d]."""
+    """Rate error due to the impulses of the escapement [s/d]; None if it cannot be determined."""
     thermal: float | None
-    """Rate error per kelvin due to the thermal expansion of the pendulum rod [s/d/K]."""
+    """Rate error per kelvin due to the thermal expansion of the pendulum rod [s/d/K]; None if it cannot be
+    determined.
+    """
 
     @property
     def goes(self) -> bool | None:
-        """True if the drive is sufficient: torque reaches the escape wheel, and the amplitude reaches the `arc`. None
-        if the arc or the amplitude is not known.
+        """True if the drive is sufficient: torque reaches the escape wheel, and the pendulum amplitude reaches the
+        declared `arc`. None if the arc or the amplitude is unknown.
         """
         if self.efficiency <= 0:
             return False
@@ -113,8 +118,8 @@ class Timekeeping(Result):
 
 
 def find_timekeeping(setting: LoadCase) -> Timekeeping | None:
-    """Return the energy, amplitude and rate errors of a clock; None without an escapement, or without a drive or load
-    with a unit from which the torque at the escape wheel follows.
+    """Return the energy, amplitude and rate errors of a clock. Return None if there is no escapement, or no drive or
+    load with a unit from which the torque at the escape wheel follows.
     """
     escapement, case = setting.train.escapement, setting.case
     found = None if escapement is None else escapement_torques(setting)
@@ -162,7 +167,9 @@ def find_timekeeping(setting: LoadCase) -> Timekeeping | None:
 
 
 def _minimum_torque(escapement: Escapement, amplitude: float | None, torque: float, constant: float) -> float | None:
-    """Return the torque at which the amplitude of the pendulum equals the `arc` of its escapement [N m]."""
+    """Return the torque [N m] at which the amplitude of the pendulum equals the declared `arc` of its escapement; None
+    if it cannot be determined.
+    """
     if amplitude is None or escapement.arc is None:
         return None
     # the energy of the pendulum is proportional to the torque beyond the constant friction

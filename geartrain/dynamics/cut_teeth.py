@@ -1,4 +1,4 @@
-"""Modules and cut tooth outlines of the wheels of a train, which do not depend on a layout."""
+"""Modules and cut tooth outlines of the wheels of a train, independent of a layout."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ class _Place(NamedTuple):
 
 
 def find_modules(declared: Train) -> Mapping[str, float]:
-    """Return the transverse module [m] of each wheel that declares a module with a unit, or is connected by meshes to
-    such a wheel.
+    """Return the transverse module of each wheel [m], by wheel, if the wheel declares a module with a unit or meshes
+    connect it to such a wheel.
     """
     found = {
         name: wheel.transverse_module
@@ -46,8 +46,8 @@ def find_modules(declared: Train) -> Mapping[str, float]:
 
 
 def find_cut_teeth(train: TrainMechanics) -> TrainTeeth:
-    """Return the tooth outlines [modules] of all wheels with straight teeth in a plane, and the reasons why other
-    wheels have none.
+    """Return the tooth outlines [modules] of all wheels whose teeth are straight and in one plane, and the reasons why
+    other wheels have no outlines.
 
     The result has no outlines if a declared tooth form is invalid.
     """
@@ -77,6 +77,8 @@ def _places(declared: Train) -> Mapping[str, _Place]:
 
 
 def _cone(declared: Train, wheel: Wheel, name: str) -> float:
-    """Return a nominal half cone angle [rad]: 0 for a spur wheel without bevel mates, 1 if teeth are not plane."""
+    """Return a nominal half angle of the pitch cone [rad]: 0 for a spur wheel without bevel mates, 1 if the teeth are
+    not in one plane.
+    """
     mates = (mate for gear in declared.gears if name in gear.pair for mate in gear.pair)
     return float(any(declared.wheels[mate][1].kind == "bevel" for mate in mates) or wheel.kind != "spur")

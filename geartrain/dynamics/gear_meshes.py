@@ -1,8 +1,8 @@
 """Gear meshes with declared tooth forms, and couplings with variable ratio, built from the declaration of a train.
 
 The module also computes tooth sizes if only the tooth shape is declared. The size of triangular teeth is arbitrary, but
-a wheel has the same size in all its pairs. So the sizes in every connected set follow from its first pair by
-breadth-first search, with each pair at the centre distance that its transmission function requires.
+a wheel has the same size in all its pairs. Therefore, the sizes in every connected set of pairs follow from its first
+pair by breadth-first search. Each pair is at the centre distance that its transmission function requires.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 
 ShaftAngle = Callable[[GearPair], float | None]
-"""Function that returns the shaft angle of a pair [rad]; None for a pair on parallel axes."""
+"""Function that returns the shaft angle of a gear pair [rad]; None for a pair on parallel axes."""
 
 
 @dataclass(frozen=True)
@@ -57,7 +57,7 @@ class PinMesh(CouplingMesh):
 
 
 def find_meshes(train: Train, shaft_angle: ShaftAngle = lambda _: None) -> Mapping[str, GearMesh]:
-    """Return all gear pairs with a declared tooth form, by name.
+    """Return the meshes of all gear pairs with a declared tooth form, by name of the pair.
 
     The first wheel of a pair is the driver, unless it is changed by `GearMesh.driven_by`. The teeth of a pair are built
     on first access to the pair; `GearTrainError` is then raised if they cannot be built.
@@ -119,19 +119,21 @@ def _meshing_wheels(train: Train, gear: GearPair, place: str) -> MeshingWheels:
 
 
 def _kind(wheel: Wheel) -> str:
-    """Return the kind of a wheel; for spur wheels with a helix angle, return "helical"."""
+    """Return the kind of a wheel; for spur wheels with a helix angle, the kind is "helical"."""
     return "helical" if wheel.is_helical else wheel.kind
 
 
 def _width(train: Train, *wheels: Wheel) -> float | None:
-    """Return the minimum face width of some wheels [m]; None unless all widths are declared."""
+    """Return the minimum face width of the given wheels [m]; None unless all widths are declared."""
     declared = [wheel.thickness or train.thickness for wheel in wheels]
     given = [width.si for width in declared if width is not None]
     return min(given) if len(given) == len(wheels) else None
 
 
 def _pitch_distance(*wheels: Wheel) -> float | None:
-    """Return the sum of the pitch radii of some wheels [m]; None unless all of them declare a module with a unit."""
+    """Return the sum of the pitch radii of the given wheels [m]; None unless all of them declare a module with
+    a unit.
+    """
     halves = [
         wheel.transverse_module * wheel.count / 2
         for wheel in wheels
@@ -182,8 +184,8 @@ def find_outlines(meshes: Sequence[GearMesh]) -> dict[str, PairOutline]:
 
 
 def _in_order(meshes: Iterable[GearMesh]) -> Iterator[GearMesh]:
-    """Yield the pairs in breadth-first order. Each pair except the first of a connected set shares a wheel with an
-    earlier pair.
+    """Yield the gear meshes in breadth-first order. Each mesh, except the first of a connected set, shares a wheel with
+    an earlier mesh.
     """
     at: dict[str, list[GearMesh]] = {}
     for mesh in (meshes := tuple(meshes)):

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 def radians_per_second(train: Train, case: StateCase) -> float | None:
-    """Return the train's unit of speed [rad/s]; None if its speeds are numbers without a unit.
+    """Return the train's unit of speed, expressed in rad/s; None if its speeds are numbers without a unit.
 
     Speeds have a unit if the train declares a `rate`, which is the speed of the first input that turns, or if its
     inputs have units.
@@ -66,14 +66,18 @@ def pitch_line_speed(setting: LoadCase, circuit: Circuit, mesh: GearMesh) -> flo
 
 
 def at_speed(mesh: GearMesh, speed: float | None) -> GearMesh:
-    """Return the mesh with the friction coefficient at a pitch-line speed [m/s], if its friction depends on speed."""
+    """Return the mesh with the friction coefficient at a pitch-line speed [m/s]. A mesh whose friction does not depend
+    on speed is returned unchanged.
+    """
     if mesh.wheels.friction_law is None:
         return mesh
     return replace(mesh, wheels=replace(mesh.wheels, pitch_line=speed))
 
 
 def at_own_speeds(meshes: Sequence[GearMesh], setting: LoadCase | None) -> tuple[GearMesh, ...]:
-    """Return the meshes with friction at their pitch-line speeds in one state, as far as these speeds are known."""
+    """Return the meshes with the friction coefficients at their pitch-line speeds in one load case, if these speeds are
+    known.
+    """
     if setting is None:
         return tuple(meshes)
     circuits = {circuit.id: circuit for circuit in setting.circuits}

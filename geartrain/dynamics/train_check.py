@@ -1,4 +1,4 @@
-"""Checks of whether a train can be built, based on its declaration and the declared tooth forms."""
+"""Checks whether a train can be built, based on its declaration and on the declared tooth forms."""
 
 from __future__ import annotations
 
@@ -17,7 +17,9 @@ if TYPE_CHECKING:
 
 
 def find_build_findings(train: TrainMechanics) -> tuple[BuildFinding, ...]:
-    """Return all findings on parts that cannot be built or whose design is inadvisable (docs/buildability.md)."""
+    """Return all findings on parts that cannot be built, and on parts whose design is inadvisable
+    (docs/buildability.md).
+    """
     cuts = _cuts_teeth(train.declaration)
     found = tuple(check_build(train.declaration, train.tree, train.circuits, lambda: _outlines(train) if cuts else {}))
     if not cuts:

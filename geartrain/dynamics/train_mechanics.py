@@ -25,13 +25,15 @@ if TYPE_CHECKING:
     from geartrain.train import StateCase, Train
 
 DrivenWays = Mapping[str, Sequence[tuple["GearMesh", tuple[str, ...]]]]
-"""Driving directions of each pair, as meshes with the names of the states in which they occur."""
+"""Driving directions of each pair, by name of the pair. Each is a mesh with the names of the states in which it
+occurs.
+"""
 
 
 @final
 @dataclass(frozen=True, eq=False)
 class TrainMechanics(Shown):
-    """Analysis of a train that depends on teeth and loads: drivers, transmission functions, and load cases."""
+    """Mechanics of a train that depend on teeth and loads: drivers, transmission functions, and load cases."""
 
     kinematics: TrainKinematics
     """Kinematics of the same train, without teeth and loads."""
@@ -60,7 +62,9 @@ class TrainMechanics(Shown):
 
     @property
     def signs(self) -> Mapping[str, int]:
-        """Signs by link: -1 if the axis points against the reference direction of its parallel axes, else 1."""
+        """Sign of each link's axis, by link: -1 if it points against the reference direction of its parallel axes, 1 if
+        it does not.
+        """
         return self.kinematics.signs
 
     # ------------------------------------------------------------------------------------------------- equal planets
@@ -90,8 +94,8 @@ class TrainMechanics(Shown):
 
     @cached_property
     def undriven(self) -> Mapping[str, GearMesh]:
-        """Gear pairs that declare a tooth form, by name of the pair, with the first wheel as driver. Their teeth are
-        computed on first access.
+        """Gear pairs that declare a tooth form, by name of the pair. Their first wheel is the driver, and their teeth
+        are computed on first access.
         """
         if not any(map(self.declaration.form_of, self.declaration.gears)):
             return {}  # avoids importing tooth forms for a train without any
@@ -204,10 +208,10 @@ class TrainMechanics(Shown):
         return self._settings[case.state]
 
     def make_load_case(self, case: StateCase) -> LoadCase | None:
-        """Return the load case with the given prescriptions, which may differ from the declared ones; None if the
-        verdict on the speeds is neither determined nor free.
+        """Return the load case with the prescribed speeds, brakes, locks and loads of `case`, which may differ from the
+        declared ones; None if the verdict on the speeds is neither determined nor free.
 
-        case   prescriptions, with locks given joint by joint, as in `TrainKinematics.cases`
+        case   state case in which locks are given joint by joint, as in `TrainKinematics.cases`
         """
         from geartrain.dynamics.torques.load_case import LoadCase, speed_forms
 
@@ -233,7 +237,7 @@ class TrainMechanics(Shown):
 def _find_driven_ways(teeth: Iterable[GearMesh], driven: Iterable[tuple[str | None, Sequence[GearMesh]]]) -> DrivenWays:
     """Return the driving directions of all pairs; both directions are included if the driver of a pair is undetermined.
 
-    driven   states, each with the pairs as driven in it; the state is None for a train without states
+    driven   names of states, each with the meshes as driven in this state; the name is None for a train without states
     """
     found: dict[str, list[tuple[GearMesh, tuple[str, ...]]]] = {mesh.name: [] for mesh in teeth}
     for state, meshes in driven:
@@ -244,7 +248,9 @@ def _find_driven_ways(teeth: Iterable[GearMesh], driven: Iterable[tuple[str | No
 
 
 def _count(ways: list[tuple[GearMesh, tuple[str, ...]]], mesh: GearMesh, state: str | None) -> None:
-    """Add a state to a driving direction of a pair, in place; a mesh with a known driver replaces one without."""
+    """Add a state to the driving direction of a pair in which `mesh` is driven, in place. A mesh with a known driver
+    replaces a mesh with an unknown driver.
+    """
     own = () if state is None else (state,)
     for at, (known, states) in enumerate(ways):
         if known.driver == mesh.driver:

@@ -1,8 +1,8 @@
 """Teeth of every wheel of a train, which are cut to suit all its mates.
 
-Drawing, simulation and manufacture use the same teeth. A wheel has the teeth that its pairs declare, else standard
-teeth. If it is in several pairs, it has the deepest roots that they require, and fillets that clear all mates. If its
-pairs require different teeth, the wheel has no teeth.
+Drawing, simulation and manufacture use the same teeth. A wheel has the teeth that its pairs declare, or standard teeth
+if they declare none. If it belongs to several pairs, it has the deepest roots that these pairs require, and fillets
+that clear all mates. If its pairs require different teeth, the wheel has no teeth.
 """
 
 from __future__ import annotations
@@ -44,7 +44,9 @@ STANDARD = "standard"
 
 
 class ToothingPlace(Protocol):
-    """Protocol of a placed wheel: module [mm] and half cone angle [rad], which determine its teeth."""
+    """Protocol of a placed wheel: its module [mm] and the half angle of its pitch cone [rad], which determine its
+    teeth.
+    """
 
     @property
     def module(self) -> float:
@@ -52,12 +54,12 @@ class ToothingPlace(Protocol):
 
     @property
     def cone(self) -> float:
-        """Half cone angle [rad]; 0 for a cylindrical wheel."""
+        """Half angle of the pitch cone [rad]; 0 for a cylindrical wheel."""
 
 
 @dataclass(frozen=True, slots=True)
 class PairBacklash:
-    """Backlash of a pair of cut wheels: along the pitch line [mm], and as an angle of each wheel [rad]."""
+    """Backlash of a pair of cut wheels: along the pitch line [mm], and as an angle of rotation of each wheel [rad]."""
 
     pair: str
     wheels: tuple[str, str]
@@ -74,10 +76,12 @@ class TrainTeeth:
     """Teeth of all wheels of a train, or the reasons why wheels have no teeth."""
 
     wheels: Mapping[str, WheelTeeth]
-    """Teeth of each wheel. `problems` contains the reasons why other wheels have no teeth."""
+    """Teeth of each wheel that has teeth, by name. `problems` contains the reasons why other wheels have no teeth."""
     problems: Mapping[str, tuple[Problem, ...]]
     approximations: Mapping[str, WheelTeeth]
-    """Approximate teeth of each wheel whose pairs require different teeth; they are cut for its first pair."""
+    """Approximate teeth of each wheel whose pairs require different teeth, by name. They are cut to suit the first pair
+    of the wheel.
+    """
     flat: frozenset[str]
     """Names of the wheels whose teeth are straight and in one plane."""
     backlashes: tuple[PairBacklash, ...]
@@ -92,14 +96,14 @@ def find_train_teeth(
 ) -> TrainTeeth:
     """Return the teeth of all wheels whose teeth are straight and in one plane.
 
-    backlash    backlash of pairs without a declared form [mm]; by default a twentieth of the module
-    apart       pair -> centre distance minus its design value [mm], for displaced wheels
+    backlash    backlash of pairs without a declared form [mm]; by default 1/20 of the module
+    apart       centre distance minus its design value [mm], by pair, for displaced wheels
     """
     return _Toothing(train, places, backlash, apart).all()
 
 
 def find_disagreements(train: TrainMechanics, places: Mapping[str, ToothingPlace]) -> Mapping[str, Problem]:
-    """Return the problem of each wheel whose pairs require different declared tooth forms, by wheel."""
+    """Return a problem for each wheel whose pairs require different declared tooth forms, by wheel."""
     return _Toothing(train, places, None, FrozenDict()).disagreements()
 
 
@@ -155,7 +159,7 @@ class _Toothing:
 
     @cached_property
     def standard(self) -> dict[str, StandardTeeth]:
-        """Standard teeth of each wheel for whose pairs no tooth form is declared."""
+        """Standard teeth of each wheel whose pairs declare no tooth form, by wheel."""
         free = (name for name in self.pairs if name not in self.shaped and not self._wave_pairs(name))
         gears = {name: self._gear(name) for name in free if self._is_flat(name)}
         pairs = [gear.pair for gear in self.declared.gears if set(gear.pair) <= set(gears)]
@@ -180,8 +184,8 @@ class _Toothing:
     def _standard_pair(
         self, first: tuple[UndeclaredWheel, StandardTeeth], second: tuple[UndeclaredWheel, StandardTeeth], name: str
     ) -> tuple[Involute, WheelPair, int]:
-        """Return the standard tooth form of two wheels, their pair in the order in which a ring gear is second, and the
-        number (1 or 2) of `first` in this pair.
+        """Return the standard tooth form of two wheels, their wheel pair, in which a ring gear is the second wheel, and
+        the position (1 or 2) of `first` in this pair.
         """
         (one, teeth), (other, its) = (second, first) if first[0].internal else (first, second)
         form = standard_form(teeth, its, self._standard_backlash(name))
@@ -193,8 +197,8 @@ class _Toothing:
     # ------------------------------------------------------------------------------------------------ declared forms
 
     def _declared_requested(self, name: str) -> Iterator[PairRequirement]:
-        """Yield the requirements that pairs with a declared tooth form impose on the teeth of a wheel. Mates that are
-        not spur wheels are only included if the wheel has no spur mate.
+        """Yield the requirements that pairs with a declared tooth form impose on the teeth of a wheel. Pairs with mates
+        that are not spur wheels are included only if the wheel has no spur mate.
         """
         meshes = [mesh for gear in self.pairs[name] if (mesh := self._mesh(gear)) is not None]
         flat = [mesh for mesh in meshes if self._wheel(self._mate(mesh.gear, name)).kind == "spur"]
@@ -247,8 +251,8 @@ class _Toothing:
         return list(self._declared_requested(name) if name in self.shaped else self._standard_requested(name))
 
     def _escapement_sense(self, name: str) -> int:
-        """Return the sense in which an escapement lets its escape wheel turn: 1 or -1 (1 if it is unknown), or 0 for
-        other wheels.
+        """Return the sense in which an escapement lets its escape wheel turn, 1 or -1 (1 if the sense is unknown);
+        return 0 for other wheels.
         """
         link, wheel = self.declared.wheels[name]
         if self.declared.escapement is None or not self.declared.escapement.has_wheel(link, wheel.count):
@@ -263,7 +267,7 @@ class _Toothing:
         return -1 if speed is not None and speed < 0 else 1
 
     def disagreements(self) -> Mapping[str, Problem]:
-        """Return the problem of each wheel whose pairs require different declared tooth forms, by wheel."""
+        """Return a problem for each wheel whose pairs require different declared tooth forms, by wheel."""
         found = {}
         for name in self.pairs:
             try:
@@ -317,8 +321,7 @@ class _Toothing:
     def _backlash(self, gear: GearPair) -> float | None:
         """Return the backlash of a pair along the pitch circles at its actual centre distance [modules].
 
-        The result is None if the transmission function of the teeth changes with the centre distance and the wheels are
-        displaced.
+        The result is None if the wheels are displaced and their transmission function depends on the centre distance.
         """
         mesh, gap = self._mesh(gear), self.apart.get(gear.name)
         if gap is not None and gear.name not in self.waves:

@@ -18,21 +18,21 @@ _SAME = 1e-9  # rad: angles closer than this coincide
 
 @dataclass(frozen=True, slots=True)
 class WheelTeeth:
-    """Teeth of one wheel, with lengths in modules."""
+    """Teeth of one wheel. All lengths are in modules."""
 
     wheel: str
     z: int
     kind: str
     """Kind of the wheel: `external`, `ring` or `pins`."""
     form: str
-    """Name of the declared tooth form, or `standard`. `words` is a description of the form for a manufacturer."""
+    """Name of the declared tooth form, or `standard`. `words` is a description of the tooth form for a manufacturer."""
     words: str
     tip: float
     """Tip radius of the wheel [modules]."""
     root: float
     """Root radius of the wheel [modules]."""
     tooth: tuple[Vertex, ...] = ()
-    """Outline of the first tooth from root to root, symmetric about the x axis [modules]; empty for pins."""
+    """Outline of the first tooth from root to root [modules], symmetric about the x axis; empty for pins."""
     pins: LanternPins | None = None
     """Pins of a lantern, or separate pins of a ring with pin teeth; None for cut teeth."""
 

@@ -1,7 +1,7 @@
 """Kinematics of a declared train: exact speeds, mobility, loops, and a verdict.
 
-Input is the declaration of a train with its inputs, brakes and locks. Results are fundamental circuits with their
-carriers, speeds as Fractions (or floats with an error estimate), the mobility, a verdict with its certificate, and
+The input is the declaration of a train with its inputs, brakes and locks. The results are fundamental circuits with
+their carriers, speeds as Fractions (or floats with error estimates), the mobility, a verdict with its certificate, and
 outputs compared with their expected values. `TrainKinematics` provides all results for one train and computes each of
 them once.
 

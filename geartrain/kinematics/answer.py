@@ -18,7 +18,8 @@ _MAIN = 3  # maximum number of links in the summary of an answer
 
 
 def abridged_names(names: Sequence[str], mark: str = ", ") -> str:
-    """Join names with `mark`. If there are more than 13 names, those after the 12th are replaced by their number.
+    """Join names with `mark`. If there are more than 13 names, the names after the 12th are replaced by the number of
+    these names.
 
     >>> abridged_names(["a", "b"], " - "), abridged_names("abcdefghijklmnop")
     ('a - b', 'a, b, c, d, e, f, g, h, i, j, k, l and 4 more')
@@ -40,7 +41,7 @@ class Loop(Result):
     """Names of the pairs, in their order around the loop; the last pair closes the loop."""
     product: Fraction
     """Product of the speed ratios around the loop, equation (20). If it is 1, the loop can turn and one of its pairs is
-    redundant. Otherwise the links of the loop are locked to the carrier.
+    redundant. If it is not 1, the links of the loop are locked to the carrier.
     """
 
     def _summary(self) -> str:
@@ -106,15 +107,15 @@ class Verdict(Result):
 
 @dataclass(frozen=True, slots=True)
 class SpeedAccuracy:
-    """Error of a speed computed in float64 [unit of the answer]: its estimate, and the true error if the exact speed is
-    known.
+    """Error of a speed that was computed in float64 [unit of the answer]: an estimate, and the true error if the exact
+    speed is known.
     """
 
     estimate: float
     true_error: float | None
     condition: float | None = None
     """Component-wise condition number of the speed [1], equation (25) of docs/theory.md; infinite for a link at rest,
-    None in trains of more than 400 links.
+    and None in trains of more than 400 links.
     """
 
 
@@ -122,13 +123,13 @@ class ClutchActions(TypedDict, total=False):
     """Keys that the JSON output contains only for a train with one-way clutches."""
 
     one_way: Sequence[OneWayAction]
-    """Active one-way clutches, each with its behaviour: it holds or overruns."""
+    """Active one-way clutches, each with the information whether it holds or overruns."""
     notes: Sequence[str]
-    """Notes on the one-way clutches, such as their behaviour when the output drives."""
+    """Notes on the one-way clutches, such as their behaviour when the output drives the train."""
 
 
 class RowResiduals(TypedDict, total=False):
-    """Keys that the JSON output contains only for float speeds: residual of each row of the Willis system."""
+    """Key that the JSON output contains only for float speeds: residual of each row of the Willis system."""
 
     residual: Mapping[str, float]
     """Relative residual of each row, by row label: magnitude of the residual divided by the sum of the magnitudes of
@@ -185,7 +186,7 @@ class Answer(FrozenFields, Tabular, TrainResult):
     outputs: Mapping[str, OutputResult]
     """Evaluation of each declared output, computed at the first access."""
     ratios: Mapping[str, Mapping[str, Fraction]]
-    """Speed of each link divided by the speed of one input while all other inputs are at rest, as
+    """Speed of each link divided by the speed of one input when all other inputs are at rest, as
     `ratios[link][input]`. Computed at the first access; empty for float speeds.
     """
     method: str
@@ -205,20 +206,23 @@ class Answer(FrozenFields, Tabular, TrainResult):
     sliding: frozenset[str] = frozenset()
     """Links that slide; their speeds are travels [mm per unit of the train, or mm per turn]."""
     contains_pi: Mapping[str, bool] = field(default_factory=dict)
-    """True for each link and output whose exact speed depends on pi; empty if the train has no racks, drums and the
-    like. It is computed at the first access, from a second solution with another rational number for pi.
+    """Flag for each link and output: True if its exact speed depends on pi. It is empty if the train has no racks,
+    drums or similar couplings. It is computed at the first access, from a second solution with another rational number
+    for pi.
     """
     tolerances: Mapping[str, Fraction] = field(default_factory=dict)
     """Tolerance [`unit`] of the speed of each link that depends on a coupling with an approximate `ratio`. It is the
-    sum of the changes of the speed if each of these ratios in turn changes by its tolerance. Computed at the first
-    access.
+    sum of the changes in speed that result if each of these ratios in turn is changed by its tolerance. Computed at the
+    first access.
     """
     expected: str = "determined"
-    """Kind of verdict that `expect` of the state or the train declares; `determined` if it is not declared."""
+    """Kind of verdict that is expected, as declared by `expect` of the state or of the train; `determined` if none is
+    declared.
+    """
     one_way: tuple[OneWayAction, ...] = ()
-    """One-way clutches that are active in the state, each with its behaviour: it holds or overruns."""
+    """One-way clutches that are active in the state, each with the information whether it holds or overruns."""
     notes: tuple[str, ...] = ()
-    """Notes on the one-way clutches, such as their behaviour when the output drives."""
+    """Notes on the one-way clutches, such as their behaviour when the output drives the train."""
     _output: str | None = field(default=None, kw_only=True, repr=False, compare=False)
 
     def _summary(self) -> str:
@@ -243,8 +247,8 @@ class Answer(FrozenFields, Tabular, TrainResult):
         return dict.fromkeys(shown or (link for link in self.speeds if link not in known))
 
     def _figure(self, link: str, turning: Sequence[str], inputs: Mapping[str, SpeedValue | None]) -> str:
-        """Return a speed as text. It is given as a multiple of the input speed if exactly one input turns and both
-        speeds are exact.
+        """Return the speed of a link as text. It is given as a multiple of the input speed if exactly one input turns
+        and both speeds are exact.
         """
         speed = self.speeds[link]
         own = inputs.get(turning[0]) if len(turning) == 1 else None
@@ -281,8 +285,8 @@ class Answer(FrozenFields, Tabular, TrainResult):
         return tuple(result for result in results if not result.holds)
 
     def __bool__(self) -> bool:
-        """Return True if the verdict is as expected, no output is in `failures`, and all one-way clutches that must
-        hold do hold.
+        """Return True if the verdict is as expected, `failures` is empty, and all one-way clutches that must hold do
+        hold.
         """
         return self.as_expected and not self.failures and not any(each.fails for each in self.one_way)
 
@@ -306,7 +310,9 @@ class Answer(FrozenFields, Tabular, TrainResult):
 
     @property
     def clutch_actions(self) -> ClutchActions:
-        """One-way clutches and notes on them, in the form of the JSON output; empty without one-way clutches."""
+        """One-way clutches and notes on them, in the form of the JSON output; empty if the train has no one-way
+        clutches.
+        """
         return {"one_way": self.one_way, "notes": self.notes} if self.one_way else {}
 
     @property

@@ -1,9 +1,9 @@
 """Ordinary trains in the frame of each carrier: exact relative ratios, and loops with their ratio products.
 
-Relative to one carrier, the links that mesh form an ordinary train whose relative speeds are rational multiples of one
-unknown. Breadth-first search finds all of them. A mesh that closes a loop is redundant if it is consistent with the
-other meshes; otherwise it locks the train to its carrier. The components are coupled by the links that they share, and
-the resulting system is small for practical trains.
+Relative to one carrier, the links that mesh form an ordinary train, whose relative speeds are rational multiples of one
+unknown. Breadth-first search finds all these trains. A mesh that closes a loop is redundant if it is consistent with
+the other meshes. If it is not, it locks the train to its carrier. The components are coupled by the links that they
+share, and the resulting system is small for practical trains.
 """
 
 from __future__ import annotations
@@ -40,13 +40,15 @@ class Components:
     node_group: Sequence[int]
     """Index of the component of each node."""
     ratios: FactoredRatios
-    """Speed of each node's link relative to its carrier, divided by the unknown speed of the component."""
+    """Speed of each node's link relative to the node's carrier, divided by the unknown speed of the component."""
     node_circuit: Sequence[int]
     """Index of the circuit through which the breadth-first search reached each node; -1 for a root."""
     group_carrier: Sequence[int]
     """Carrier of each component, as an index into `links`."""
     nodes_of: Mapping[int, Sequence[int]]
-    """Nodes of each link, one for each carrier relative to which the link meshes."""
+    """Indices of the nodes of each link, by index of the link; there is one node for each carrier relative to which the
+    link meshes.
+    """
     closing: Sequence[int]
     """Indices of the circuits that close a loop with ratio product 1; each of these circuits is redundant."""
     breaking: Sequence[int]
@@ -56,15 +58,17 @@ class Components:
 
     @property
     def node_parent(self) -> Sequence[int]:
-        """Predecessor of each node in the search tree; -1 for a root."""
+        """Predecessor of each node in the search tree, as a node index; -1 for a root."""
         return self.ratios.parent
 
     def relative(self, node: int) -> Fraction:
-        """Return the speed of a node's link relative to its carrier, divided by the unknown speed of the component."""
+        """Return the speed of a node's link relative to the node's carrier, divided by the unknown speed of the
+        component.
+        """
         return self.ratios.value(node)
 
     def node(self, link: int, carrier: int) -> int:
-        """Return the node of a link relative to a carrier."""
+        """Return the index of the node of a link relative to a carrier."""
         return next(node for node in self.nodes_of[link] if self.node_carrier[node] == carrier)
 
     def group_of(self, circuit: Circuit) -> int:
@@ -108,8 +112,8 @@ class Components:
         return above if above >= 0 else None
 
     def path(self, nodes: Iterable[int]) -> list[int]:
-        """Return the circuits on the paths in the search tree between nodes of one component. They determine the ratios
-        of the speeds.
+        """Return the indices of the circuits on the paths in the search tree between nodes of one component. These
+        circuits determine the ratios of the nodes' speeds.
         """
         wanted = list(nodes)
         chains = [chain_to_root(node, self._predecessor) for node in wanted]
@@ -125,8 +129,8 @@ def find_components(
     """Find the ordinary trains relative to every carrier by breadth-first search: equations (18) and (19) of
     docs/theory.md.
 
-    first   links from which the search starts if possible (the inputs); the unknown of a component is then the speed of
-            an input, which avoids products of fractions with many digits
+    first   links from which the search starts if possible, usually the inputs; the unknown of a component is then the
+            speed of an input, which avoids products of fractions with many digits
     """
     index = {link: at for at, link in enumerate(links)}
     node_link, node_carrier, edges, holding = _nodes(index, circuits)
@@ -179,7 +183,7 @@ _Edge = tuple[int, int, int, int]
 def _nodes(
     index: Mapping[str, int], circuits: Sequence[Circuit]
 ) -> tuple[list[int], list[int], list[list[_Edge]], list[int]]:
-    """Return the link of each node, its carrier, its edges, and the couplings with winding number 0.
+    """Return the link, the carrier and the edges of each node, and the indices of the couplings with winding number 0.
 
     An edge (circuit, other node, a, b) means that the relative speed of the other node is a/b times the relative speed
     of this node.
@@ -220,7 +224,7 @@ class ReducedSystem:
     """Linear system that couples the components: unknowns, equations, and the speed of every link as a linear form.
 
     Unknowns 0 to g - 1 belong to the g components. They are followed by one unknown for each carrier other than the
-    frame, and one for each link that is in no mesh. `origin` gives the cause of each equation: ("share", link, node)
+    frame, and one for each link that does not mesh. `origin` gives the cause of each equation: ("share", link, node)
     for a link that occurs relative to two carriers, ("loop", circuit, -1) for a loop that cannot turn, ("hold",
     circuit, -1) for a coupling with winding number 0.
     """
@@ -242,8 +246,8 @@ class ReducedSystem:
         return self.seen_from(parts.nodes_of[link][0])
 
     def unknowns_of(self, link: int) -> tuple[int, ...]:
-        """Return the unknowns on which a link's speed depends, without computing their coefficients, which may have
-        many digits.
+        """Return the unknowns on which a link's speed depends. Their coefficients, which may have many digits, are not
+        computed.
         """
         parts = self.components
         if link == parts.frame:
@@ -256,7 +260,9 @@ class ReducedSystem:
         return (parts.node_group[node], *(() if carrier == parts.frame else (self.own[carrier],)))
 
     def seen_from(self, node: int) -> LinearForm:
-        """Return the speed of a node's link as a linear form: the speed of its carrier plus the relative speed."""
+        """Return the speed of a node's link as a linear form: the speed of the node's carrier plus the relative
+        speed.
+        """
         parts = self.components
         row: LinearForm = {parts.node_group[node]: parts.relative(node)}
         carrier = parts.node_carrier[node]
@@ -297,8 +303,8 @@ def reduce_components(parts: Components) -> ReducedSystem:
 
 @dataclass(frozen=True)
 class SolvedPart:
-    """Links and circuits of a train, or of the part that affects the requested links. Components are computed on first
-    use.
+    """Links and circuits of a whole train, or of the part of it that affects the requested links. Components are
+    computed on first use.
     """
 
     links: tuple[str, ...]

@@ -1,6 +1,7 @@
-"""Train as a networkx graph whose edges carry the declared objects, and its adjacency matrix.
+"""Train as a networkx graph, whose edges have the declared objects as data, and adjacency matrix of this graph.
 
-The edges are undirected. The declared object of an edge determines which link has which wheel, or has the pin.
+The edges are undirected. The declared object of an edge determines which link has which wheel, or which link has the
+pin.
 """
 
 from __future__ import annotations
@@ -21,11 +22,12 @@ if TYPE_CHECKING:
 
 
 def build_graph(train: Train) -> Graph:
-    """Return a graph whose vertices are links, and whose edges are turning, sliding and gear pairs and couplings.
+    """Return a graph whose vertices are the links, and whose edges are the turning pairs, sliding pairs, gear pairs and
+    couplings.
 
-    Edges have the data `kind` (revolute, prismatic, gear, or the kind of a coupling), `label` (axis, or
-    name of the pair) and `declared`, the object of the declaration. The key of an edge is the name of the pair or
-    coupling; joints have the keys `revolute 0`, `revolute 1`, `prismatic 0` etc. in the order of the declaration.
+    Edges have the data `kind` (revolute, prismatic, gear, or the kind of a coupling), `label` (axis, or name of the
+    pair) and `declared`, the object of the declaration. The key of an edge is the name of the pair or coupling; joints
+    have the keys `revolute 0`, `revolute 1`, `prismatic 0` etc. in the order of the declaration.
     """
     from geartrain.numerics.lazy_graph import LazyGraph
 
@@ -39,7 +41,7 @@ def build_graph(train: Train) -> Graph:
 
 
 def _edges(train: Train) -> Iterator[tuple[tuple[str, str], str, str, str, Any]]:
-    """Yield for each edge its two links, its key, its kind, its label, and the declared object."""
+    """Yield, for each edge, its two links, its key, its kind, its label, and its declared object."""
     for at, joint in enumerate(train.revolutes):
         first, second = joint.pair
         yield (first, second), f"revolute {at}", "revolute", joint.axis, joint
@@ -58,11 +60,15 @@ def _edges(train: Train) -> Iterator[tuple[tuple[str, str], str, str, str, Any]]
 _JOINTS = {"revolute": "R", "prismatic": "P"}
 _DOT_STYLES = {"revolute": "penwidth=1", "prismatic": "style=dotted, penwidth=1", "gear": "penwidth=3"}
 MOST_SQUARE = 48
-"""Maximum number of links for which the adjacency matrix is shown by default; its size is quadratic."""
+"""Maximum number of links for which the adjacency matrix is shown by default. The size of the matrix is quadratic in
+this number.
+"""
 
 
 def edge_rows(graph: Graph) -> list[tuple[str, str, str, str]]:
-    """Return the edges in the order of the declaration: two links, kind, and name of the axis or pair."""
+    """Return the edges in the order of the declaration. Each edge is given by its two links, its kind, and the name of
+    its axis or pair.
+    """
     return [(first, second, data["kind"], str(data["label"])) for first, second, data in graph.edges(data=True)]
 
 
@@ -92,7 +98,7 @@ def adjacency_kinds(train: Train) -> list[list[str]]:
 
 
 def adjacency_matrix(graph: Graph) -> LabelledArray:
-    """Return the adjacency matrix, whose entries are the numbers of edges between each two links."""
+    """Return the adjacency matrix. Each entry is the number of edges between two links."""
     import numpy as np
 
     from geartrain.numerics.labelled_array import labelled_array
@@ -106,7 +112,9 @@ def adjacency_matrix(graph: Graph) -> LabelledArray:
 
 
 def to_dot(graph: Graph) -> str:
-    """Return the graph as Graphviz text: thin turning pairs, thick gear pairs, dashed couplings, a box as frame."""
+    """Return the graph as Graphviz text. Turning pairs are thin lines, gear pairs thick lines, couplings dashed lines,
+    and the frame is a box.
+    """
     lines = [f"graph {_quoted(graph.name)} {{", "  node [shape=circle];"]
     for link, data in graph.nodes(data=True):
         lines.append(f"  {_quoted(link)}{' [shape=box]' if data['frame'] else ''};")
@@ -119,8 +127,8 @@ def to_dot(graph: Graph) -> str:
 
 
 def to_graphml(graph: Graph) -> str:
-    """Return the graph as GraphML text. Edges have a kind and a label; gear pairs also have the names of their wheels,
-    and couplings those of the links with pin and slot.
+    """Return the graph as GraphML text. Edges have a kind and a label. Gear pairs also have the names of their wheels;
+    couplings also have the names of the links with pin and slot.
     """
     import networkx as nx
 
@@ -128,8 +136,8 @@ def to_graphml(graph: Graph) -> str:
 
 
 def to_json(graph: Graph) -> str:
-    """Return the graph as node-link JSON. Edges have a kind and a label; gear pairs also have the names of their
-    wheels, and couplings those of the links with pin and slot.
+    """Return the graph as node-link JSON. Edges have a kind and a label. Gear pairs also have the names of their
+    wheels; couplings also have the names of the links with pin and slot.
     """
     import networkx as nx
 

@@ -20,21 +20,25 @@ SECONDS_PER_DAY = 86400
 SECONDS_PER_YEAR = 31556952  # 365.2425 d, the mean year of the Gregorian calendar
 SpeedValue = Fraction | float
 Relative = Callable[[str, str], SpeedValue | None]
-"""Function that returns the speed of a link relative to another, about the first's axis; None if undetermined."""
+"""Function that returns the speed of one link relative to another, about the axis of the first link; None if the speed
+is undetermined.
+"""
 
 
 @dataclass(frozen=True, slots=True)
 class RatioGoal:
-    """Speed that a declared target of an output requires. It is compared with its sign, or only by its magnitude."""
+    """Speed that is required by a declared target of an output. It is compared including its sign, or only by its
+    magnitude.
+    """
 
     label: str
     """Description of the required speed without its sense of rotation."""
     speed: Fraction
     """Required speed [unit of the train]; it is positive if only the magnitude is compared."""
     signed: bool
-    """True if the sign is compared, False if only the magnitude is compared."""
+    """True if the sign of the speed is compared, False if only its magnitude is compared."""
     sense: str = ""
-    """Declared sense of the required speed: "direct", "retrograde" or empty."""
+    """Declared sense of rotation of the required speed: "direct", "retrograde" or empty."""
 
     @property
     def words(self) -> str:
@@ -49,8 +53,8 @@ class RatioGoal:
 
 
 def error_against(speed: SpeedValue, wanted: Fraction, signed: bool) -> SpeedValue:
-    """Return the relative error speed / wanted - 1. Magnitudes are compared if `signed` is False. If `wanted` is 0, the
-    speed is returned.
+    """Return the relative error speed / wanted - 1. If `signed` is False, magnitudes are compared. If `wanted` is 0,
+    the speed itself is returned.
     """
     own = speed if signed else magnitude(speed)
     return own / wanted - 1 if wanted else own
@@ -134,15 +138,15 @@ class SpeedFigures(TypedDict, total=False):
     way, or is not determined.
     """
     value: Required[float | None]
-    """Nearest float64; None if the speed is beyond the range of float64 or is not determined."""
+    """Float64 number nearest to the speed; None if the speed is beyond the range of float64 or is not determined."""
     unit: str
-    """Unit `mm` for the travel of a sliding link, per unit of the train or per turn; omitted for turning links."""
+    """Unit of the travel of a sliding link, `mm`, per unit of the train or per turn; omitted for turning links."""
     decimal: str
-    """Decimal number with twelve digits; only given if the speed is beyond the range of float64."""
+    """Speed as a decimal number with twelve digits, given only if the speed is beyond the range of float64."""
     estimate: float | None
     """Estimated absolute error of a speed that was computed in floats [unit of the train]."""
     true_error: float | None
-    """Error of a speed computed in floats [unit of the train]; None if the exact speed is not known."""
+    """True error of a speed that was computed in floats [unit of the train]; None if the exact speed is not known."""
     tolerance: float
     """Tolerance of a speed that depends on a coupling with an approximate `ratio` [unit of the train]."""
     condition: float | None
@@ -152,7 +156,7 @@ class SpeedFigures(TypedDict, total=False):
 
 
 class JudgedExpectation(NamedTuple):
-    """Declared `expect` of an output, and the result of its comparison with the speed."""
+    """Declared `expect` of an output, and the result of comparing it with the speed."""
 
     value: str
     """Expected value as declared."""
@@ -162,7 +166,7 @@ class JudgedExpectation(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class JudgedFigure(Result):
-    """Declared `published` value of an output, the calculated value, and the result of their comparison."""
+    """Declared `published` value of an output, the calculated value, and the result of comparing the two values."""
 
     KEYS = ("value", Key("as", "form"), "place", "found", "holds")
 
@@ -171,9 +175,9 @@ class JudgedFigure(Result):
     form: Literal["speed", "input/output", "output/input", "period"]
     """Quantity that the source prints: "speed", "output/input", "input/output" or "period"."""
     place: str | None
-    """Place in the source where the value is printed."""
+    """Location in the source at which the value is printed; None if it is not declared."""
     found: SpeedValue | None
-    """Same quantity calculated for this train; a period is in [s]. None if it is not determined."""
+    """The same quantity as calculated for this train; a period is in seconds. None if it is not determined."""
     holds: bool | None
     """True if the published and the calculated value agree in all printed digits, or within the declared tolerance;
     False if they differ, or if the quantity is not determined.
@@ -227,7 +231,9 @@ class OutputResult(Result):
 
     @property
     def period(self) -> SpeedValue | None:
-        """Time of one turn [s]; None if the link rests or slides, or if its speed or the unit of time is unknown."""
+        """Time of one turn [s]; None if the link is at rest or slides, or if its speed or the unit of time is
+        unknown.
+        """
         if self.slides or not self.unit_seconds or not self.speed:
             return None
         return self.unit_seconds / magnitude(self.speed)
@@ -236,14 +242,16 @@ class OutputResult(Result):
     def found(self) -> SpeedValue | None:
         """Value that is compared with the `published` value; None if it is undefined, or if no value is published.
 
-        A period is in [s]; it is negative if the output turns in the sense opposite to the declared `sense`.
+        A period is in seconds; it is negative if the output turns in the sense opposite to the declared `sense`.
         """
         published = self.output.published
         return None if published is None else _as_published(published, self.speed, self.ratio, self.unit_seconds)
 
     @property
     def found_text(self) -> str | None:
-        """Value that is compared with a published period, as a string in the units of the source; otherwise None."""
+        """Value that is compared with a published period, as text in the units of the source; None if no period is
+        published.
+        """
         figure = self.output.published
         if figure is None or self.found is None or not isinstance(figure.value, PrintedPeriod):
             return None
@@ -280,7 +288,7 @@ class OutputResult(Result):
     @property
     def holds(self) -> bool:
         """False if the output differs from an `expect` or `published` value, or is outside the tolerance of a target;
-        otherwise True.
+        True if not.
         """
         judged = (self.expect_holds, self.published_holds, *(target.met for target in self.targets))
         # None means that nothing was declared or compared, which is not a failure
@@ -295,7 +303,9 @@ class OutputResult(Result):
         return bool(expected and (self.published_holds is not False or self._holds_published(sign=-1)))
 
     def _holds_published(self, sign: int) -> bool | None:
-        """Return whether the output, multiplied by `sign` (1 or -1), agrees with the published value."""
+        """Return True if the output, multiplied by `sign` (1 or -1), agrees with the published value, False if it
+        differs, and None if no value is published.
+        """
         published, value = self.output.published, self.found
         if published is None:
             return None
@@ -318,8 +328,8 @@ def magnitude(value: SpeedValue) -> SpeedValue:
 
 
 def speed_figures(speed: SpeedValue | None, slides: bool = False) -> SpeedFigures:
-    """Return a speed in the form of the JSON output; beyond the range of float64, `value` is None and `decimal` is
-    given. `slides` is True if the speed is a travel in mm.
+    """Return a speed in the form of the JSON output. If it is beyond the range of float64, `value` is None and
+    `decimal` is given. `slides` is True if the speed is a travel in mm.
     """
     if not isinstance(speed, Fraction):
         return {"exact": None, "value": speed}
@@ -341,7 +351,7 @@ def judge_outputs(
 ) -> Iterator[OutputResult]:
     """Yield the comparison of every output of a state with its declared expectations.
 
-    relative      function that returns the speed of one link relative to another, about the axis of the first
+    relative      function that returns the speed of one link relative to another, about the axis of the first link
     is_rotation   function that returns whether all axes between two links are parallel
     """
     moving = [speed for speed in case.inputs.values() if speed]
@@ -382,9 +392,9 @@ def _expect_holds(output: Output, speed: SpeedValue | None) -> bool | None:
 def _as_published(
     published: Published, speed: SpeedValue | None, ratio: SpeedValue | None, unit: Fraction | None
 ) -> SpeedValue | None:
-    """Return an output converted to the quantity that the source prints; None if it is undefined.
+    """Return the speed of an output converted to the quantity that the source prints; None if it is undefined.
 
-    unit   time of one turn at a speed of 1 [s]
+    unit   time of one turn at a speed of 1 [s]; None if there is no unit of time
     """
     if published.as_ == "period":
         found = published.turns.value * unit / speed if speed and unit else None
@@ -404,7 +414,8 @@ def unit_seconds(train: Train) -> Fraction | None:
 
 
 def in_plain_units(printed: Figure, unit: Fraction | None) -> Figure:
-    """Return a published value or its tolerance as a number in the unit of `OutputResult.found`; a period is in [s].
+    """Return a published value or its tolerance as a number in the unit of `OutputResult.found`; a period is in
+    seconds.
 
     unit   time of one turn at a speed of 1 [s], which is the length of a printed year
     """
@@ -412,7 +423,7 @@ def in_plain_units(printed: Figure, unit: Fraction | None) -> Figure:
 
 
 def goal_of(train: Train, target: Target) -> RatioGoal:
-    """Return the speed that a target requires [unit of the train], and how it is compared."""
+    """Return the speed that a target requires [unit of the train], and whether its sign is compared."""
     turns = target.turns.value
     if target.speed is not None:
         return RatioGoal(f"speed {target.speed}", target.speed.value * turns, True)
@@ -484,8 +495,8 @@ def sensitivity(
     solve_with: Callable[[Sequence[Circuit]], Relative],
     circuits: Sequence[Circuit],
 ) -> Iterator[Sensitivity]:
-    """Yield the relative change [ppm] of each output that is affected if an uncertain wheel has one tooth fewer or
-    more.
+    """Yield the relative change of the speed of each affected output [ppm] if an uncertain wheel has one tooth fewer or
+    one tooth more.
 
     solve_with   function that solves the train with the given circuits, and returns the function for relative speeds
     """

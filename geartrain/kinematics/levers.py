@@ -1,8 +1,8 @@
-"""Lever analogy: the elementary epicyclic sets of a train as points on a line.
+"""Lever analogy: the elementary epicyclic sets of a train represented as points on a line.
 
-Relative to its carrier k, all members m of a set have fixed speed ratios: w_m = w_k + x_m u with constants x_m, where
-the speed u is common to all members. The points (x_m, w_m) of one state therefore lie on a straight line, with the
-carrier at x = 0 (Kutzbach 1927; Benford and Leising 1981).
+Relative to its carrier k, all members m of a set have fixed speed ratios: w_m = w_k + x_m u, where w are speeds, x_m is
+a constant of each member, and the speed u is common to all members. The points (x_m, w_m) of one state therefore lie on
+a straight line, with the carrier at x = 0 (Kutzbach 1927; Benford and Leising 1981).
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ class Lever(Shown):
     carrier: str
     """Name of the carrier k of the epicyclic set."""
     abscissae: Mapping[str, Fraction]
-    """Exact abscissa x of each link; 0 for the carrier, and at most 1 in magnitude."""
+    """Exact abscissa x of each link, by link; 0 for the carrier, and at most 1 in magnitude."""
 
     def _summary(self) -> str:
         points = ", ".join(f"{link} {brief(x)}" for link, x in self.abscissae.items())
@@ -37,7 +37,9 @@ class Lever(Shown):
 
 
 def find_levers(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> list[Lever]:
-    """Return the lever of every elementary epicyclic set: coaxial links that mesh relative to one moving carrier."""
+    """Return the lever of each elementary epicyclic set, which consists of coaxial links that mesh relative to one
+    moving carrier.
+    """
     parts = find_components(tuple(train.links), train.frame, circuits)
     found = []
     for group, carrier in enumerate(parts.group_carrier):

@@ -1,7 +1,7 @@
 """Equal planets declared by the key `copies`, and the expanded train in which each planet is declared separately.
 
-One planet determines all speeds, because equal planets have equal speeds. Assembly, loads, drawings and part lists need
-all planets: docs/theory.md, 6.
+One planet determines all speeds, because equal planets have equal speeds. Assembly conditions, loads, drawings and
+parts lists require all planets; see docs/theory.md, section 6.
 """
 
 from __future__ import annotations
@@ -45,18 +45,20 @@ def with_copies(train: Train, tree: Tree) -> Train:
 
 
 def originals(train: Train) -> dict[str, str]:
-    """Return the name of the declared link for each link of the expanded train."""
+    """Return the name of the declared link from which each link of the expanded train was copied, by link."""
     own = {link: link for link in train.links}
     return own | {_copy_name(link, at): link for link, part in train.links.items() for at in range(2, 1 + part.copies)}
 
 
 def original(name: str, declared: Container[str]) -> str:
-    """Return the declared name of a part of the expanded train, given all declared names of its kind."""
+    """Return the declared name of a part of the expanded train; `declared` contains all declared names of parts of its
+    kind.
+    """
     return name if name in declared else name.rpartition(".")[0]
 
 
 def as_one(train: Train) -> Train:
-    """Return the train in which one planet has the mass, inertia and stiffness of all its copies together."""
+    """Return the train in which one planet has the total mass, inertia and stiffness of all its copies."""
     if not has_copies(train):
         return train
     links = {name: _with_total_inertia(train, part) for name, part in train.links.items()}
@@ -200,8 +202,8 @@ def _unequal(train: Train, first: str, second: str, *loc: str | int) -> Problem:
 
 @dataclass(frozen=True)
 class _Expansion:
-    """Expansion of a train, in which every copy of a link, joint, pair or coupling becomes a separate part. Copy 1 is
-    the declared part.
+    """Expansion of a train in which every copy of a link, joint, pair or coupling becomes a separate part. The copy
+    with the number 1 is the declared part.
     """
 
     declared: Train
@@ -246,13 +248,15 @@ class _Expansion:
     # ------------------------------------------------------------------------------------------------------- one part
 
     def _further_copies(self, *links: str) -> range:
-        """Return the numbers, from 2, of the further copies of a joint or pair between the given links."""
+        """Return the numbers of the further copies, from 2, of a joint or pair between the given links."""
         return range(2, 1 + max(self.declared.links[link].copies for link in links))
 
     def _all_copies(
         self, parts: Sequence[_Part], links_of: Callable[[_Part], Iterable[str]], copy: Callable[[_Part, int], _Part]
     ) -> list[tuple[int, _Part]]:
-        """Return all joints or pairs, each followed by its further copies, with the index of the declared part."""
+        """Return all joints or pairs, each followed by its further copies. Each part is preceded by the index of the
+        declared part.
+        """
         found = []
         for index, part in enumerate(parts):
             copies = [copy(part, at) for at in self._further_copies(*links_of(part))]
@@ -260,7 +264,7 @@ class _Expansion:
         return found
 
     def _copied_link(self, link: str, at: int) -> str:
-        """Return the name of copy number `at` of a link; a link without copies keeps its name."""
+        """Return the name of the copy of a link with the number `at`. A link without copies keeps its name."""
         return _copy_name(link, at) if self.declared.links[link].copies > 1 else link
 
     def _link(self, part: Link, at: int) -> Link:
@@ -288,7 +292,7 @@ class _Expansion:
         return _copy_name(wheel, at) if self.declared.links[self.declared.wheels[wheel][0]].copies > 1 else wheel
 
     def _loads(self, loads: Mapping[str, Quantity] | None) -> Mapping[str, Quantity] | None:
-        """Return the loads of the expanded train: a torque on a planet acts on each of its copies."""
+        """Return the loads of the expanded train, in which a torque on a planet acts on each of its copies."""
         if not loads:
             return loads
         found = dict(loads)
@@ -299,7 +303,7 @@ class _Expansion:
     # ---------------------------------------------------------------------------------------------------------- places
 
     def _axis(self, label: str, at: int) -> Axis:
-        """Return the axis of copy number `at`, rotated about the axis of the carrier."""
+        """Return the axis of the copy with the number `at`, rotated about the axis of the carrier."""
         carrier, number = self._carriers[label]
         about = self.declared.axes.get(self.tree.axis(carrier) or "", Axis())
         axis, angle = self.declared.axes[label], tau * (at - 1) / number
@@ -333,7 +337,7 @@ class _Expansion:
 
 @dataclass(frozen=True)
 class _Places:
-    """Function that converts a path in the expanded train to the file and line of the original part."""
+    """Function that converts the path of a part in the expanded train to the file and line of the declared part."""
 
     declared: Train
     indices: Mapping[str, list[int]]
@@ -358,7 +362,9 @@ def _copy_name(name: str, at: int) -> str:
 
 
 def _with_divided_share(gear: GearPair, number: int) -> GearPair:
-    """Return the pair with 1/`number` of the declared load share, which refers to all copies together."""
+    """Return the pair with the declared load share divided by `number`, because the declared share is the total for all
+    copies.
+    """
     if gear.share is None or number == 1:
         return gear
     return gear.changed(share=Figure.parse(str(gear.share.value / number)))

@@ -1,7 +1,7 @@
 """Kinematics of a train: joint tree, circuits, mobility and speeds, each computed once on first access.
 
-A state is solved in four steps: its inputs, brakes and locks are read, the part of the train that affects the requested
-links is found, the method is chosen, and the outputs are evaluated. Remarks are not errors; they describe conventions
+A state is solved in four steps. Its inputs, brakes and locks are read; the part of the train that affects the requested
+links is found; the method is chosen; and the outputs are evaluated. Remarks are not errors; they describe conventions
 and mean values in the answers.
 """
 
@@ -88,8 +88,8 @@ def lint_train(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> Iterato
 
 
 def _is_finger(train: Train, gear: GearPair, name: str, mate: str) -> bool:
-    """Return True if a spur wheel has too few teeth to drive its mate continuously: one tooth, or two if the mate has
-    more than 20.
+    """Return True if a spur wheel has too few teeth to drive its mate continuously. This is the case for one tooth, and
+    for two teeth if the mate has more than 20.
     """
     wheel, other = train.wheels[name][1], train.wheels[mate][1]
     # teeth of helical wheels overlap
@@ -101,7 +101,7 @@ def _is_finger(train: Train, gear: GearPair, name: str, mate: str) -> bool:
 
 
 Method = Literal["auto", "exact", "sparse", "floats"]
-"""Method of solution; "floats" is an older name of "sparse"."""
+"""Method of solution; "floats" is an older name for "sparse"."""
 
 
 @final
@@ -134,7 +134,7 @@ class TrainKinematics(Shown):
     def circuits_without(self, names: Sequence[str]) -> tuple[Circuit, ...]:
         """Return all circuits except those of the given pairs.
 
-        names   names of the omitted pairs
+        names   names of the pairs to be omitted
         """
         known = [circuit.id for circuit in self.circuits]
         for name in (name for name in names if name not in known):
@@ -148,8 +148,8 @@ class TrainKinematics(Shown):
 
     @cached_property
     def signs(self) -> Mapping[str, int]:
-        """Signs by link: -1 for each link whose axis points against the reference direction of the axes parallel to it.
-        Links with the sign 1 are omitted.
+        """Sign of each link's axis, by link: -1 if it points against the reference direction of the axes parallel to
+        it. Links with the sign 1 are omitted.
         """
         return self._axes.link_signs
 
@@ -170,8 +170,8 @@ class TrainKinematics(Shown):
 
     @cached_property
     def cases(self) -> Mapping[str | None, StateCase]:
-        """Prescriptions (inputs, brakes and locks) of each state, by name of the state (None for a train without
-        states). Locks are expressed joint by joint.
+        """Inputs, brakes and locks of each state, by name of the state (None for a train without states). Locks are
+        given joint by joint.
         """
         declared = self.declaration.cases
         return {case.state: case for case in close_joints(self.declaration, self.tree, declared)}
@@ -182,9 +182,9 @@ class TrainKinematics(Shown):
         return tuple(state for state, case in self.cases.items() if not case.problems)
 
     def case(self, state: str | None = None) -> StateCase:
-        """Return the prescriptions (inputs, brakes and locks) of one state.
+        """Return the inputs, brakes and locks of one state.
 
-        state   a declared state; None only for a train without states
+        state   name of a declared state; None only for a train without states
         """
         case = self.cases[self.declaration.single_state(state)]
         if case.problems:
@@ -195,7 +195,7 @@ class TrainKinematics(Shown):
 
     @cached_property
     def whole(self) -> SolvedPart:
-        """All links and circuits of the train, with components and reduced system computed on first use."""
+        """All links and circuits of the train. Its components and its reduced system are computed on first use."""
         return self._solved_part(self.circuits, tuple(self.declaration.links))
 
     @cached_property
@@ -215,7 +215,9 @@ class TrainKinematics(Shown):
 
     @cached_property
     def gridlock(self) -> Gridlock:
-        """Locked parts of the train, and meshes whose removal frees it; computed quickly if nothing is locked."""
+        """Locked parts of the train, and the meshes whose removal frees it. The computation is fast if no link is
+        locked.
+        """
         from geartrain.kinematics.gridlock import find_gridlock
 
         return find_gridlock(self.whole, self.mobility)
@@ -242,17 +244,18 @@ class TrainKinematics(Shown):
         return self.case_equations(self.case(state))
 
     def case_equations(self, case: StateCase) -> WillisSystem:
-        """Return the Willis equations with the given prescriptions, which may differ from the declared ones.
+        """Return the Willis equations for the inputs, brakes and locks in `case`, which may differ from the declared
+        ones.
 
-        case   prescriptions, with locks given joint by joint, as in `cases`
+        case   state case in which locks are given joint by joint, as in `cases`
         """
         return self._system(self.whole, case)
 
     def solve(self, state: str | None = None, output: str | None = None, method: Method = "auto") -> Answer:
         """Return the speeds and evaluated outputs in one state; see `GearTrain.solve`.
 
-        state    a declared state; None only for a train without states
-        output   an output or a link; only the circuits that can affect it are solved
+        state    name of a declared state; None only for a train without states
+        output   name of an output or a link; only the circuits that can affect it are solved
         method   method of solution
         """
         wanted, part, case = None, self.whole, self.cases[self.declaration.single_state(state)]
@@ -279,7 +282,7 @@ class TrainKinematics(Shown):
         return self._build_answer(case, verdict, speeds, solution.relative, wanted, len(part.circuits), solution.ratios)
 
     def sensitivity(self, answer: Answer) -> Iterator[Sensitivity]:
-        """Yield the effect on each output if an uncertain wheel has one tooth fewer or more.
+        """Yield the change of each output if an uncertain wheel has one tooth fewer or one tooth more.
 
         answer   result of `solve`
         """
@@ -295,10 +298,10 @@ class TrainKinematics(Shown):
         state: str | None = None,
         inputs: Mapping[str, Sequence[float]] | None = None,
     ) -> FloatSpeeds:
-        """Return float64 speeds with error estimates by sparse LU, with one factorisation for all input speeds.
+        """Return float64 speeds with error estimates, computed by one sparse LU factorisation for all input speeds.
 
-        state    a declared state; None only for a train without states
-        inputs   input link -> speeds, one for each case, instead of the declared speeds [unit of the train]
+        state    name of a declared state; None only for a train without states
+        inputs   speeds by input link, one for each case [unit of the train]; None for the declared speeds
         """
         from geartrain.kinematics.speeds import solve_floats
 
@@ -308,8 +311,8 @@ class TrainKinematics(Shown):
         return solve_floats(system, inputs)
 
     def single_output(self, case: StateCase, output: str) -> tuple[StateCase, tuple[str, str]]:
-        """Return the prescriptions of a state with a single output, the link whose speed is the output, and the link
-        relative to which it is measured.
+        """Return the case of a state restricted to a single output, the link whose speed is the output, and the link
+        relative to which this speed is measured.
 
         case     one of `cases`
         output   name of an output or a link
@@ -365,8 +368,8 @@ class TrainKinematics(Shown):
     def _answer_in_floats(
         self, part: SolvedPart, case: StateCase, wanted: tuple[str, str] | None, solution: Solution | None
     ) -> Answer:
-        """Return the answer with float speeds and error estimates, and with their true errors if the exact solution is
-        known.
+        """Return the answer with float speeds and error estimates. If the exact solution is known, the true errors are
+        included.
         """
         from geartrain.kinematics.speeds import solve_floats
 
@@ -424,8 +427,8 @@ class TrainKinematics(Shown):
         ratios: Mapping[str, Mapping[str, Fraction]] | None,
         accuracy: Mapping[str, SpeedAccuracy] | None = None,
     ) -> Answer:
-        """Return the answer with evaluated outputs, restricted to the links `wanted` if given; `ratios` is None for
-        float speeds.
+        """Return the answer with evaluated outputs. It is restricted to the links in `wanted` unless this is None.
+        `ratios` is None for float speeds.
         """
         declared = self.declaration
         if verdict.kind in ("locked", "contradictory"):
@@ -484,11 +487,13 @@ class TrainKinematics(Shown):
         return lambda of, base: relative(of, self.tree.reference(of, base))
 
     def _solved_with(self, circuits: Sequence[Circuit], case: StateCase) -> Relative:
-        """Return the function for relative speeds of the train in which `circuits` replace its circuits."""
+        """Return the function for relative speeds of the train in which `circuits` replace the declared circuits."""
         return self._seen(solve(self._solved_part(circuits, tuple(self.declaration.links)), case, self.signs).relative)
 
     def _with_pi(self, case: StateCase, speeds: Mapping[str, SpeedValue], seen: Relative) -> dict[str, bool]:
-        """Return for each link and output whether its speed changes with another number for pi; empty without pi."""
+        """Return, for each link and output, True if its speed changes when another rational number replaces pi. The
+        result is empty if no ratio contains pi.
+        """
         if not any(circuit.travels and touches_pi(circuit.ratio) for circuit in self.circuits):
             return {}
         other = [_with_other_pi(circuit) if circuit.travels else circuit for circuit in self.circuits]
@@ -500,8 +505,8 @@ class TrainKinematics(Shown):
         return changes
 
     def _ratio_tolerance(self, case: StateCase, relative: Relative) -> Callable[[str, str], Fraction] | None:
-        """Return a function that returns the sum of the changes of a relative speed if each approximate ratio in turn
-        changes by its tolerance; None if all ratios are exact.
+        """Return a function of two links that returns the sum of the changes of their relative speed if each
+        approximate ratio in turn is changed by its tolerance. Return None if all ratios are exact.
         """
         approximate = [each for each in self.declaration.couplings if each.bounds is not None]
         if not approximate:

@@ -1,5 +1,5 @@
-"""Willis system as a sparse matrix, for the float solvers and for other solvers, and residuals in twice the working
-precision.
+"""Willis system as a sparse matrix, for the float solver of this package and for other solvers, and residuals in twice
+the working precision.
 
 The entries are tooth counts and their sums, which are integers far below 2**53. A float64 matrix represents them
 exactly, so the error of a float solution is due only to the solver.
@@ -29,7 +29,7 @@ _GIVEN = -1  # column of prescribed speeds
 
 
 class PaddedRows:
-    """Integer rows of a linear system as arrays, which are padded to a common number of terms."""
+    """Integer rows of a linear system as arrays. The rows are padded to a common number of terms."""
 
     def __init__(self, links: Sequence[str], rows: Sequence[WillisEquation]) -> None:
         self.at = {link: column for column, link in enumerate(links)}
@@ -72,13 +72,15 @@ class PaddedRows:
         return total + low
 
     def prescribe(self, x: Floats, right: Floats) -> None:
-        """Set prescribed speeds in `x` to their exact values, in place; their rows have a single coefficient 1."""
+        """Set prescribed speeds in `x` to their exact values, in place. The row of a prescribed speed has a single
+        coefficient, which is 1.
+        """
         single = np.flatnonzero((self.coefficients != 0).sum(axis=1) == 1)
         own = self.coefficients[single, 0] == 1
         x[self.columns[single[own], 0]] = right[single[own]]
 
     def size(self, x: Floats) -> Floats:
-        """Return |A| |x|, the sum of the magnitudes of the terms, for each row and case."""
+        """Return |A| |x|, which is the sum of the magnitudes of the terms, for each row and case."""
         total: Floats = np.einsum("rt,rtc->rc", np.abs(self.coefficients), np.abs(x[self.columns]))
         return total
 
@@ -116,7 +118,9 @@ class WillisMatrix(Shown):
     rows: tuple[WillisEquation, ...]
     """Equations of the rows, each with its label, kind and exact right-hand side."""
     links: tuple[str, ...]
-    """Links of the columns: all links except the frame, or all links if the whole system is requested."""
+    """Links of the columns: all links except the frame, or all links including the frame if the whole system is
+    requested.
+    """
     omitted: tuple[str, ...]
     """Labels of omitted rows: the row of the frame, and rows that follow from other rows."""
 
@@ -126,7 +130,7 @@ class WillisMatrix(Shown):
 
     @property
     def labels(self) -> tuple[str, ...]:
-        """Labels of the rows, which are names of pairs and prescriptions."""
+        """Labels of the rows, which are the names of pairs and of prescribed speeds."""
         return tuple(row.label for row in self.rows)
 
     @property
@@ -159,11 +163,11 @@ def build_matrix(
 def independent_rows(
     links: Sequence[str], equations: Sequence[WillisEquation], redundant: Sequence[str]
 ) -> tuple[list[str], list[WillisEquation]]:
-    """Return the moving links, and the rows without the row of the frame and without redundant rows.
+    """Return the moving links, and all rows except the row of the frame and redundant rows.
 
-    If the speeds are determined, there are as many rows as moving links. There are more if rows contradict each other,
-    because all such rows are kept. Redundant rows are found by Gaussian elimination modulo a prime if there are too
-    many rows.
+    If the speeds are determined, there are as many rows as moving links. If rows contradict each other, there are more
+    rows, because all contradictory rows are kept. Redundant rows are found by Gaussian elimination modulo a prime if
+    there are too many rows.
     """
     frame = next(row.terms[0][0] for row in equations if row.kind == "frame")
     links, idle = [link for link in links if link != frame], set(redundant)

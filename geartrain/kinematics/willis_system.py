@@ -1,6 +1,6 @@
 """Labelled Willis system: one integer equation for each circuit, for the frame, and for each input, brake and lock.
 
-`relative_speed` gives the speed of one link relative to another, exact or in floats.
+`relative_speed` returns the speed of one link relative to another, exact or as a float.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 def axis_sense(of: str, base: str, signs: Mapping[str, int]) -> int:
-    """Return 1 if the axes of two links have the same reference sense, and -1 if their senses are opposite.
+    """Return 1 if the axes of two links have the same reference sense, and -1 if their reference senses are opposite.
 
     signs   -1 for links whose axis is opposite to the reference direction of its parallel axes
     """
@@ -51,7 +51,8 @@ def relative_speed(
     """Return w_of - s w_base, the relative speed about the axis of `of`; None if a speed is not known.
 
     speed_of   function that returns the speed of a link about its own axis; None if it is not determined
-    signs      -1 for links whose axis is opposite to the reference direction; s is the product of both links' signs
+    signs      -1 for links whose axis is opposite to the reference direction; s is the product of the signs of both
+    links
     """
     own, other = speed_of(of), speed_of(base)
     if own is None or other is None:
@@ -81,7 +82,7 @@ class WillisSystem(Shown):
     equations: tuple[WillisEquation, ...]
     """Equations of the rows, with their labels."""
     exact: bool = True
-    """False if radians were converted to turns or turns to radians. Numbers are then shown as decimals."""
+    """False if radians were converted to turns, or turns to radians. Numbers are then displayed as decimals."""
     redundant: tuple[str, ...] = ()
     """Names of redundant pairs, which close loops with ratio product 1; empty if they were not determined."""
     sliding: frozenset[str] = frozenset()
@@ -101,7 +102,7 @@ class WillisSystem(Shown):
         ----------
         whole : bool
             True to include the column and row of the frame and rows that follow from other rows, as in `text`.
-            Otherwise the matrix is square and regular if the train is determined.
+            If it is False, the matrix is square and regular for a determined train.
 
         Returns
         -------
@@ -145,7 +146,7 @@ def assemble_willis_system(
     given.
 
     signs       -1 for links whose axis is opposite to the reference direction of its parallel axes
-    redundant   names of pairs whose equations are known to follow from others
+    redundant   names of pairs whose equations are known to follow from other equations
     """
     rows = [WillisEquation("frame", "frame", ((frame, 1),))]
     rows += [

@@ -31,13 +31,15 @@ class AccuracyReport(Result):
 
 
 def describe_accuracy(found: AccuracyReport) -> Document:
-    """Return a document with a section for each stage of computation in each state, and one for the omitted stages."""
+    """Return a document with a section for each stage of computation in each state, and a section on the stages that
+    were omitted.
+    """
     sections = [section for each in found.states for section in _sections(each)]
     return Document(f"Error against run time: {found.name}", [_LEAD], sections)
 
 
 def accuracy_document(found: TrainAccuracy) -> Document:
-    """Return the output of `geartrain inspect bench` for one state, as a document."""
+    """Return the output of `geartrain inspect bench` for one state as a document."""
     name = "" if found._declaration is None else found._declaration.name
     return describe_accuracy(AccuracyReport(name, "", (found,)))
 

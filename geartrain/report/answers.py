@@ -50,7 +50,9 @@ _SPANS = {
 
 
 def shift_table(train: GearTrain, answers: Sequence[Answer]) -> Section:
-    """Return a section with one row for each state: the engaged elements, and the speed and ratio of each output."""
+    """Return a section with one row for each state, which contains the engaged brakes and clutches and the speed and
+    ratio of each output.
+    """
     declared = train.declaration
     clutches = list(declared.clutches)
     names = list(dict.fromkeys(name for answer in answers for name in answer.outputs))
@@ -66,12 +68,16 @@ def shift_table(train: GearTrain, answers: Sequence[Answer]) -> Section:
 
 
 def closed_mark(declared: Train, clutch: str) -> str:
-    """Return the mark of a closed clutch or brake in a shift table: `x`, or `*` if it is one-way."""
+    """Return the mark of a closed clutch or brake in a shift table: `*` for a one-way clutch, `x` for any other clutch
+    or brake.
+    """
     return "x" if declared.clutches[clutch].one_way is None else "*"
 
 
 def holding_note(declared: Train) -> str:
-    """Return the meaning of the mark of one-way clutches in a shift table; empty if the train has none."""
+    """Return an explanation of the mark for one-way clutches in a shift table; an empty string if the train has no
+    one-way clutch.
+    """
     one_way = any(each.one_way for each in declared.clutches.values())
     return "* marks a one-way clutch that holds (only while the input drives). " if one_way else ""
 
@@ -85,8 +91,8 @@ def _speed_and_ratio(answer: Answer, name: str) -> str:
 
 
 def answer_sections(train: GearTrain, answer: Answer) -> Iterator[Section]:
-    """Yield the sections on one state: the pointers with their targets, and, as details, all outputs, targets and
-    speeds.
+    """Yield the sections on one state: first the pointers with their targets, then, as details, all outputs, targets
+    and speeds.
     """
     if answer.outputs:
         yield _pointers(train, answer)
@@ -100,8 +106,8 @@ def answer_sections(train: GearTrain, answer: Answer) -> Iterator[Section]:
 def _pointers(train: GearTrain, answer: Answer) -> Section:
     """Return a section with the speed, period, target and error of each pointer.
 
-    If no output has a dial, a target or a published figure, all outputs are shown. Otherwise the remaining outputs are
-    only counted.
+    If no output has a dial, a target or a published figure, all outputs are shown. Otherwise only the number of the
+    remaining outputs is given.
     """
     pointers = [each for each in answer.outputs.values() if _is_pointer(each)] or list(answer.outputs.values())
     rows = [_pointer_row(train.declaration, result) for result in pointers]
@@ -115,7 +121,7 @@ def _pointers(train: GearTrain, answer: Answer) -> Section:
 
 
 def _is_pointer(result: OutputResult) -> bool:
-    """Return True if an output has a dial, a target or a published figure, or fails an expectation."""
+    """Return True if an output has a dial, a target or a published figure, or does not meet an expectation."""
     return result.output.is_pointer or not result.holds
 
 
@@ -132,12 +138,12 @@ def _pointer_row(declared: Train, result: OutputResult) -> tuple[str, ...]:
 
 
 def _is_clock(declared: Train) -> bool:
-    """Return True if the unit of speed is turns per day or per shorter time."""
+    """Return True if the unit of speed is turns per day or turns per shorter time."""
     return declared.unit_days is not None and declared.unit_days <= 1
 
 
 def _target_cells(declared: Train, target: TargetResult | None) -> tuple[str, str, str]:
-    """Return a target as a string, the error in ppm, and the error in days per century (in s/day for clocks)."""
+    """Return three strings: the target, the error in ppm, and the error in days per century (in s/day for clocks)."""
     if target is None:
         return "", "", ""
     wanted = figure(target.speed, 6) if declared.unit_days is None else _period(declared, target.speed)
@@ -148,7 +154,9 @@ def _target_cells(declared: Train, target: TargetResult | None) -> tuple[str, st
 
 
 def _period(declared: Train, speed: SpeedValue | None) -> str:
-    """Return the time of one turn as a string; "" for a link at rest or speeds without a unit of time."""
+    """Return the time of one turn as a string; an empty string for a link at rest, or if speeds have no unit
+    of time.
+    """
     if not speed or declared.unit_days is None:
         return ""
     # short units, because the table has many columns
@@ -160,7 +168,7 @@ def _error_text(error: float | None) -> str:
 
 
 def _fault(result: OutputResult) -> str:
-    """Return the expectations, published figures and tolerances that an output fails, as a string."""
+    """Return a description of the checks that an output fails: expected values, published values and tolerances."""
     expect, published = result.output.expect, result.output.published
     sign = only_sign(result)
     parts = []
@@ -178,10 +186,11 @@ _LONGER = 2  # d: a pointer of such a period may be off by a day
 
 
 def _clock_rates(declared: Train, result: OutputResult, target: TargetResult) -> tuple[str, str, str]:
-    """Return the error of an output in seconds per day and seconds per year, and the days after which it is a day off.
+    """Return three strings: the error of an output in seconds per day, the error in seconds per year, and the number of
+    days after which the error is one day.
 
-    The first two strings are "" unless the output has a clock hand or a target of about a day; the third is "" for
-    shorter targets.
+    The first two strings are empty unless the output has a clock hand or a target of about one day. The third is empty
+    for targets shorter than that.
     """
     if declared.unit_days is None or target.days_per_century is None:
         return "", "", ""
@@ -289,7 +298,9 @@ def _output(train: GearTrain, result: OutputResult) -> tuple[str, ...]:
 
 
 def result_words(result: OutputResult) -> str:
-    """Return the computed value that corresponds to a published figure as a string, exact and in decimals."""
+    """Return a string with the computed value, exact and as a decimal number, that corresponds to a
+    published figure.
+    """
     published = result.output.published
     if result.found is None:
         if result.speed is None or published is None or published.as_ == "speed":
@@ -304,7 +315,9 @@ def result_words(result: OutputResult) -> str:
 
 
 def only_sign(result: OutputResult) -> str:
-    """Return a remark and a remedy if an output has the expected magnitude in the opposite sense; otherwise ""."""
+    """Return a remark and a remedy if an output has the expected magnitude but the opposite sense, or an empty string
+    if it does not.
+    """
     if not result.differs_in_sign:
         return ""
     published = result.output.published
@@ -313,7 +326,8 @@ def only_sign(result: OutputResult) -> str:
 
 
 def expectations_met(answers: Iterable[Answer]) -> str:
-    """Return a count such as `all 3 expectations and 2 published figures hold`, or how many fail; "" if there are none.
+    """Return a text such as `all 3 expectations and 2 published figures hold`, or how many of them fail; an empty
+    string if there are none.
 
     A target with a tolerance is counted; a target without tolerance is not.
     """
@@ -334,7 +348,8 @@ def expectations_met(answers: Iterable[Answer]) -> str:
 
 
 def _as_read(declared: Train, result: OutputResult) -> str:
-    """Return the sense of rotation seen on the dial, and the times of one turn and of one division, as a string.
+    """Return a string with the sense of rotation as seen on the dial, the time of one turn and the time of one
+    division.
 
     The sense is reversed on a face that points away from the viewing side.
     """
@@ -354,9 +369,10 @@ def _as_read(declared: Train, result: OutputResult) -> str:
 
 
 def _span(declared: Train, units: Fraction | float, digits: int = 7) -> str:
-    """Return a time as a string in years if the unit is a year, otherwise in days, hours, minutes or seconds.
+    """Return a string with a time: in years if the train's unit is a year, otherwise in days, hours, minutes or
+    seconds.
 
-    Return a number without a unit if the train has no unit of time.
+    If the train has no unit of time, the string is a number without a unit.
     """
     if declared.unit_days is None:
         return figure(units, 7)
@@ -402,7 +418,7 @@ def _shift(value: float | None) -> str:
 
 
 def speeds_text(answer: Answer, output: str | None, oblique: frozenset[str]) -> str:
-    """Return the speeds of one state, or of one output, as lines of text.
+    """Return lines of text with the speeds of one state, or, if `output` is not None, with the speed of one output.
 
     oblique   links whose speeds are sums of joint speeds about axes that are not parallel
     """
@@ -455,13 +471,15 @@ def speeds_text(answer: Answer, output: str | None, oblique: frozenset[str]) -> 
 
 
 def clutch_lines(answer: Answer) -> Iterator[str]:
-    """Yield a line on each one-way clutch of a state, which reports if it holds or overruns, and notes on clutches."""
+    """Yield a line for each one-way clutch that reports whether the clutch is engaged or overruns; then yield notes on
+    the clutches.
+    """
     yield from (each.text(answer.unit) for each in answer.one_way)
     yield from answer.notes
 
 
 def answer_text(answer: Answer) -> str:
-    """Return the output of `geartrain solve` for one state."""
+    """Return the text that `geartrain solve` prints for one state."""
     declared = answer._declaration
     oblique = frozenset() if declared is None else GearTrain(declared).kinematics.joint_sums
     return speeds_text(answer, answer._output, oblique)
@@ -476,8 +494,8 @@ def answer_document(answer: Answer) -> Document | None:
 
 
 def why_floats(answer: Answer) -> str:
-    """Return the reason why a system was solved in floating-point arithmetic, the estimated error, and how to get exact
-    fractions.
+    """Return a text with the reason why a system was solved in floating-point arithmetic, the estimated error, and how
+    to get exact fractions.
     """
     error = max((each.estimate for each in answer.accuracy.values()), default=0.0)
     why = "the system is coupled too densely for exact elimination within about a second"
@@ -488,8 +506,8 @@ def why_floats(answer: Answer) -> str:
 
 
 def _speed(speed: SpeedValue | None, tolerance: Fraction | None, slides: bool = False) -> str:
-    """Return a speed as a fraction, with the mark ≈ if it depends on an approximate ratio, and with its unit if the
-    link slides.
+    """Return a speed as a string that contains a fraction, the mark ≈ if the speed depends on an approximate ratio, and
+    a unit if the link slides.
     """
     text = exact(speed) + " mm" if slides and speed is not None else exact(speed)
     return f"≈ {text.removeprefix('≈ ')}" if tolerance else text
@@ -500,7 +518,9 @@ def _marks(answer: Answer, link: str, oblique: frozenset[str]) -> str:
 
 
 def _pi(answer: Answer, name: str) -> str:
-    """Return a mark for the speed of a link or output that contains pi and is not written as a multiple of it."""
+    """Return a mark if the speed of a link or output contains pi but is not written as a multiple of pi, or an empty
+    string if no mark is needed.
+    """
     speed = answer.speeds.get(name) if name not in answer.outputs else answer.outputs[name].speed
     if speed is None or not answer.contains_pi.get(name) or "π" in exact(speed):
         return ""
@@ -508,8 +528,8 @@ def _pi(answer: Answer, name: str) -> str:
 
 
 def _errors(answer: Answer, link: str) -> str:
-    """Return the condition number, estimated error and true error of a floating-point speed as a string; "" for an
-    exact speed.
+    """Return a string with the condition number, the estimated error and the true error of a floating-point speed; an
+    empty string for an exact speed.
     """
     accuracy = answer.accuracy.get(link)
     if accuracy is None:

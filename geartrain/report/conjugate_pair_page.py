@@ -20,7 +20,9 @@ if TYPE_CHECKING:
 
 
 def conjugate_verdict(design: PairDesign) -> str:
-    """Return a sentence on whether the teeth can run; if they cannot, add each reason with its remedy."""
+    """Return a sentence that states whether the teeth can run. If they cannot, the sentence gives each reason and its
+    remedy.
+    """
     if design.runs and design.locks:
         return "Verdict: the teeth keep the ratio exactly at every instant, but friction locks them."
     if design.runs:
@@ -31,7 +33,9 @@ def conjugate_verdict(design: PairDesign) -> str:
 
 
 def conjugate_sections(design: PairDesign) -> Iterator[Section]:
-    """Yield the sections on a pair. For teeth that cannot run, yield only the wheels and the path of contact."""
+    """Yield the sections on a pair. If the teeth cannot run, yield only the sections on the wheels and the path of
+    contact.
+    """
     yield from (_wheels(design), _path(design))
     if design.losses_and_stresses is not None:
         yield from (_losses_and_stresses(design.losses_and_stresses), _friction(design))
@@ -137,14 +141,14 @@ def _friction(design: PairDesign) -> Section:
 
 
 def pair_name(path: PathOfContact) -> str:
-    """Return the tooth counts and the kind of a pair as a string, such as `24/18 spur`."""
+    """Return a text with the tooth counts and the kind of a pair, such as `24/18 spur`."""
     pitch = path.pitch
     kind = f"bevel, {degrees(pitch.R1 + pitch.R2):.6g} deg" if pitch.bevel else "internal" if pitch.R2 < 0 else "spur"
     return f"{pitch.z1}/{pitch.z2} {kind}"
 
 
 def cost(value: float) -> str:
-    """Return a loss or stress as a string; `inf` if it is infinite."""
+    """Return a text with a loss or stress; `inf` if the value is infinite."""
     return f"{value:.9g}" if isfinite(value) else "inf"
 
 
@@ -173,7 +177,9 @@ def _header(name: str) -> str:
 
 
 def _sharing(found: FormComparison) -> Section:
-    """Return the section on load shared by tooth pairs; only a sentence if the contact ratio never exceeds 1."""
+    """Return the section on the sharing of the load by tooth pairs. The section is a single sentence if no contact
+    ratio exceeds 1.
+    """
     base = found.measures
     runs = [form.measures for form in found.forms if form.runs and form.measures]
     if all(each.contact_ratio < 1 + 1e-9 for each in (base, *runs)):  # tolerance for a contact ratio of exactly 1

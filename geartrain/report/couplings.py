@@ -1,5 +1,5 @@
-"""Sections on the couplings of a train other than pins: sizes as declared, belt lengths, what is not modelled, and
-transmission functions.
+"""Sections on the couplings of a train other than pins: declared sizes, belt lengths, effects that are not modelled,
+and transmission functions.
 """
 
 from __future__ import annotations
@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 
 
 def coupling_sections(train: GearTrain) -> Iterator[Section]:
-    """Yield a section on the sizes of the couplings of a train and on effects that are not modelled; kinds of couplings
-    without remarks are omitted.
+    """Yield a section on the sizes of the couplings of a train and on effects that are not modelled. Kinds of couplings
+    without any remarks are omitted.
     """
     shown = [each for each in train.declaration.couplings if each.about or each.UNKNOWN]
     if shown:
@@ -30,7 +30,7 @@ def coupling_sections(train: GearTrain) -> Iterator[Section]:
 
 
 def _belt_lengths(train: GearTrain) -> Iterator[tuple[str, str]]:
-    """Yield the lengths of the belts around two pulleys whose diameters and axis positions are declared."""
+    """Yield the name and the length of each belt around two pulleys whose diameters and axis positions are declared."""
     from geartrain.kinematics.buildability.belt_drives import pulley_pairs
 
     for pair in pulley_pairs(train.declaration, train.kinematics.tree, train.circuits):
@@ -40,26 +40,30 @@ def _belt_lengths(train: GearTrain) -> Iterator[tuple[str, str]]:
 
 @dataclass(frozen=True)
 class VaryingCoupling(Result):
-    """Coupling with a variable ratio other than a pin in a slot, and its transmission function."""
+    """Coupling with a variable ratio, other than a pin in a slot, and its transmission function."""
 
     coupling: str
     """Name of the coupling."""
     kind: str
     """Kind of the coupling."""
     driver: str
-    """Driving link."""
+    """Name of the driving link."""
     driven: str
-    """Driven link."""
+    """Name of the driven link."""
     ratio: Fraction
-    """Exact mean speed of the driven link divided by the speed of the driver, relative to the carrier."""
+    """Exact mean ratio: speed of the driven link divided by speed of the driving link, relative to the carrier."""
     swing: float
-    """Maximum minus minimum deviation of the driven link from uniform motion [rad]."""
+    """Peak-to-peak deviation of the driven link from uniform motion [rad]."""
     speed_ratio: tuple[float, float]
-    """Minimum and maximum speed ratio, with the sign of the mean ratio taken as positive."""
+    """Minimum and maximum speed ratio. The sign is chosen so that the mean ratio is positive."""
     at_once: bool
-    """True if the driven link moves in instantaneous steps; its speed ratio is then the value between the steps."""
+    """True if the driven link moves in instantaneous steps. In that case `speed_ratio` describes the motion between the
+    steps.
+    """
     formula: str
-    """Driven angle q as a function of the driver's angle S; empty if no closed form is known."""
+    """Formula for the driven angle q as a function of the driver's angle S; an empty string if no closed form
+    is known.
+    """
 
 
 def varying_section(couplings: Sequence[VaryingCoupling]) -> Section:

@@ -1,6 +1,7 @@
 """JSON Schema of the declaration, for editors, and the reference of its keys in Markdown, for readers.
 
-Both are generated from the models that read declarations, and from the examples in `geartrain/train/examples.yaml`.
+Schema and reference are generated from the models that read declarations, and from the examples in
+`geartrain/train/examples.yaml`.
 """
 
 from __future__ import annotations
@@ -39,7 +40,7 @@ _MERGED = (
     "Source",
     "Published",
 )
-"""Parts of a declaration that a child of `extends` may declare incompletely, so that an editor must not require all
+"""Parts of a declaration of which a child of `extends` may give only some keys, so that an editor must not require all
 their keys.
 """
 
@@ -69,7 +70,7 @@ def _models() -> Schema:
 
 
 def _without_sections(shape: Any) -> Any:
-    """Return a schema whose descriptions omit the numpydoc sections of docstrings."""
+    """Return a schema in which the descriptions omit the numpydoc sections of docstrings."""
     if isinstance(shape, list):
         return [_without_sections(part) for part in shape]
     if not isinstance(shape, dict):
@@ -81,13 +82,17 @@ def _without_sections(shape: Any) -> Any:
 
 
 def _options(shape: Schema) -> list[Schema]:
-    """Return the members of a union, with nested unions expanded, or a list of only the schema if it is not a union."""
+    """Return the members of a union, with nested unions expanded. If the schema is not a union, the list contains only
+    the schema itself.
+    """
     members = shape.get("anyOf") or shape.get("oneOf")
     return [shape] if members is None else [option for member in members for option in _options(member)]
 
 
 def _body(part: Schema) -> Schema:
-    """Return the schema of a part in its long form, a mapping, if the part may also have a short form."""
+    """Return the schema of a part. If the part also has a short form, this is the schema of its long form,
+    a mapping.
+    """
     return next((option for option in _options(part) if "properties" in option), part)
 
 
@@ -95,8 +100,8 @@ def _body(part: Schema) -> Schema:
 
 
 def _example_values(models: Schema) -> dict[tuple[str, str], Any]:
-    """Return an example value of each key of each part: the shortest in the examples of the part itself, otherwise in
-    all examples.
+    """Return an example value of each key of each part. It is the shortest value in the examples of that part or, if
+    these contain none, in all examples.
     """
     found: dict[tuple[str, str], tuple[bool, int, Any]] = {}
     for source, data in example_data():
@@ -108,7 +113,7 @@ def _example_values(models: Schema) -> dict[tuple[str, str], Any]:
 
 
 def _values(models: Schema, shape: Schema, data: Any, name: str) -> Iterator[tuple[str, str, Any]]:
-    """Yield the part, the key and the value of each entry in a declaration, given as plain data."""
+    """Yield the part, the key and the value of each entry of a declaration, which is given as plain data."""
     for option in _options(shape):
         if "$ref" in option:
             inner = option["$ref"].rsplit("/", 1)[-1]
@@ -128,7 +133,9 @@ def _values(models: Schema, shape: Schema, data: Any, name: str) -> Iterator[tup
 
 
 def _fits(body: Schema, data: Any) -> bool:
-    """Return True if all keys of a mapping belong to a part of a declaration, and its kind, form or law is the same."""
+    """Return True if all keys of a mapping are keys of a part of a declaration, and the mapping has the same kind, form
+    or law.
+    """
     keys = body["properties"]
     return isinstance(data, dict) and all(
         key in keys and keys[key].get("const", value) == value for key, value in data.items()
@@ -156,7 +163,7 @@ quotes. A quantity is a number and a unit, such as `2.5 mm`:
 
 @dataclass(frozen=True)
 class _Chapter:
-    """A section of the reference: one part, or a key for which there are several kinds of parts."""
+    """Section of the reference: one part of a declaration, or a key whose values can be parts of several kinds."""
 
     title: str
     depth: int
@@ -164,7 +171,7 @@ class _Chapter:
 
     @property
     def anchor(self) -> str:
-        """Fragment of the section's address within the page."""
+        """Anchor of the section, which is the fragment of its address within the page."""
         return _anchor(self.title)
 
     @property
@@ -178,7 +185,7 @@ def _anchor(title: str) -> str:
 
 
 def declaration_reference() -> str:
-    """Return the reference of all keys as Markdown: the top-level keys, then the keys of their parts."""
+    """Return the reference of all keys as Markdown text: first the top-level keys, then the keys of their parts."""
     models = _models()
     chapters = [_Chapter(_TITLE, 2, ("Train",)), *_chapters(models, "Train", 2, set())]
     kinds = {part: f"[keys](#{each.anchor})" for each in reversed(chapters) for part in each.parts}
@@ -211,7 +218,9 @@ def _references(shape: Any) -> Iterator[str]:
 
 
 def _chapters(models: Schema, name: str, depth: int, seen: set[str]) -> Iterator[_Chapter]:
-    """Yield the sections of all parts below a part; parts that a top-level key also has are listed under that key."""
+    """Yield the sections of all parts below a part. Parts that also belong to a top-level key are described under that
+    key.
+    """
     found = {
         key: tuple(dict.fromkeys(_references(shape))) for key, shape in _body(_part(models, name))["properties"].items()
     }
@@ -229,7 +238,9 @@ def _chapters(models: Schema, name: str, depth: int, seen: set[str]) -> Iterator
 
 
 def _kind_title(models: Schema, name: str) -> str:
-    """Return the key that selects one of several kinds of parts, such as `form: involute`, or its first key."""
+    """Return the key and value that select one of several kinds of parts, such as `form: involute`, or the first key of
+    the part.
+    """
     keys = _body(_part(models, name))["properties"]
     return next((f"{key}: {shape['const']}" for key, shape in keys.items() if "const" in shape), next(iter(keys)))
 
@@ -237,7 +248,9 @@ def _kind_title(models: Schema, name: str) -> str:
 def _section(
     models: Schema, chapter: _Chapter, kinds: Mapping[str, str], printed: dict[tuple[str, ...], _Chapter]
 ) -> Iterator[str]:
-    """Yield the lines of a section. Keys that an earlier section explains are only named, with a link to it."""
+    """Yield the lines of a section. Keys that are explained in an earlier section are only named, with a link to that
+    section.
+    """
     several = len(chapter.parts) > 1
     name = chapter.title if several else chapter.parts[0]
     part = models["properties"][name] if several else _part(models, name)
@@ -268,7 +281,7 @@ def _section(
 
 
 def _rows(part: Schema, kinds: Mapping[str, str]) -> dict[tuple[str, ...], str]:
-    """Return key, type, default and meaning of each key of a part, with a YAML line as an example."""
+    """Return the cells of each key of a part (key, type, default and meaning) mapped to a YAML line as an example."""
     body, rows = _body(part), {}
     for key, shape in body["properties"].items():
         meaning, *default = _DEFAULT.split(" ".join(shape["description"].split()), maxsplit=1)
@@ -283,7 +296,7 @@ def _rows(part: Schema, kinds: Mapping[str, str]) -> dict[tuple[str, ...], str]:
 
 
 def _kind(shape: Schema, parts: Mapping[str, str]) -> str:
-    """Return the type of a key in a few words, in the notation of YAML; `parts` has the types of all parts."""
+    """Return the type of a key in a few words, in the notation of YAML. `parts` contains the types of all parts."""
     if "$ref" in shape:
         return parts[shape["$ref"].rsplit("/", 1)[-1]]
     if len(options := _options(shape)) > 1:

@@ -21,46 +21,46 @@ MOST_ROWS = 120
 
 
 class ExactText(str):
-    """Table cell that shows an exact value abridged; `full` is the complete text, which an HTML page copies."""
+    """Table cell that shows an exact value in abridged form. `full` is the complete text, which an HTML page copies."""
 
     __slots__ = ("_value",)
 
     _value: Fraction | float | str
 
     def __new__(cls, text: str, value: Fraction | float | None = None) -> ExactText:
-        """Return a cell that shows `text` for `value`. Without a value, the text itself is complete."""
+        """Return a cell that shows `text` for the exact `value`. If `value` is None, the text itself is complete."""
         made = super().__new__(cls, text)
         made._value = text if value is None else value
         return made
 
     @property
     def full(self) -> str:
-        """Unabridged value as a string, written only on access because it may have very many digits."""
+        """Complete value as a string. The string is computed on access only, because it may have very many digits."""
         return fraction_text(self._value) if isinstance(self._value, Fraction) else str(self._value)
 
 
 class CitedText(str):
-    """Table cell that holds the key of a source; an HTML page links it to the source."""
+    """Table cell that contains the key of a source. An HTML page links the cell to the source."""
 
     __slots__ = ()
 
 
 class SceneText(str):
-    """Text that refers to a numbered scene of the viewer in an HTML page; a click on it shows the scene."""
+    """Text that refers to a numbered scene of the viewer in an HTML page. A click on the text shows the scene."""
 
     __slots__ = ("_scene",)
 
     _scene: int
 
     def __new__(cls, text: str, scene: int) -> SceneText:
-        """Return text that refers to the scene with this number."""
+        """Return text that refers to the scene with the number `scene`."""
         made = super().__new__(cls, text)
         made._scene = scene
         return made
 
     @property
     def scene(self) -> int:
-        """Number of the scene in the viewer; the first is 1."""
+        """Number of the scene in the viewer. The first scene has the number 1."""
         return self._scene
 
 
@@ -85,7 +85,9 @@ class Table(Shown):
 
 
 def table_document(columns: Mapping[str, Sequence[object]], most: int) -> Document:
-    """Return a document of one table: the first `most` rows of a result's columns, and the number of omitted rows."""
+    """Return a document with one table: the first `most` rows of the columns of a result, and the number of omitted
+    rows.
+    """
     count = len(next(iter(columns.values()), ()))
     rows = [[_cell(value) for value in row] for row in islice(zip(*columns.values(), strict=True), most)]
     more = [f"{count - most:,} more rows."] if count > most else []
@@ -97,7 +99,7 @@ def _cell(value: object) -> str:
 
 
 def filled_table(header: Sequence[str], rows: Sequence[Sequence[str]], always: int, wide: bool = False) -> Table:
-    """Return a table without its empty columns; the first `always` columns are kept."""
+    """Return a table without its empty columns. The first `always` columns are kept even if they are empty."""
     used = [at for at in range(len(header)) if at < always or any(row[at] for row in rows)]
     return _chosen(Table(header, rows, wide), used)
 
@@ -105,11 +107,11 @@ def filled_table(header: Sequence[str], rows: Sequence[Sequence[str]], always: i
 _UNIT = re.compile(r"\[(.+?)\]")
 """Regular expression that finds the unit in the docstring of a field."""
 _CellColumn = tuple[str, Callable[[Any], str]]
-"""Head of a column, and the function that returns its cell for a result."""
+"""Header of a column, and the function that returns the cell of a result in this column."""
 
 
 def result_table(results: Iterable[Any], *columns: str | _CellColumn, wide: bool = False) -> Table:
-    """Return a table with one row for each result; all results have the same class.
+    """Return a table with one row for each result. All results have the same class.
 
     columns   name of a field, or `field:digits` for a number; the head of the column is the name with the unit from the
               field's docstring, unless it is given as in `head=field:digits`. A column can also be a pair of a head and
@@ -193,7 +195,9 @@ class Picture(Shown):
 
 @dataclass(frozen=True, slots=True)
 class SourceReference:
-    """Bibliographic reference. An HTML page links `url` if it is an http or https address, and otherwise prints it."""
+    """Bibliographic reference. On an HTML page, `url` becomes a link if it is an http or https address, and plain text
+    if it is not.
+    """
 
     cite: str
     url: str = ""
@@ -202,20 +206,20 @@ class SourceReference:
 
 @dataclass(frozen=True, slots=True)
 class PageExtras:
-    """Contents that only an HTML page shows, in addition to the document."""
+    """Contents that are shown only on an HTML page, in addition to the document."""
 
     badge: str = ""
-    """Verdict in one or two words. `sound` is True if it is favourable."""
+    """Verdict in one or two words. `sound` is True if the verdict is favourable."""
     sound: bool = True
     notes: Sequence[str] = ()
-    """Short remarks below the summary, such as the extra to install for pictures."""
+    """Short remarks below the summary, such as the name of an extra to install for pictures."""
     pictures: Sequence[Picture] = ()
     viewer: str = ""
-    """Complete HTML page with the animated train; "" if there is none."""
+    """Complete HTML page with the animated train; an empty string if there is no animation."""
     sections: Sequence[Section] = ()
     """Sections that follow the sections of the document."""
     references: Mapping[str, SourceReference] = field(default_factory=dict)
-    """Bibliographic references by key of the source."""
+    """Bibliographic references, keyed by source."""
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -259,14 +263,14 @@ class Document:
 
 
 def titled(state: str | None, words: str) -> str:
-    """Return a section title, such as `Speeds`, or `State 1: speeds` for one of several states."""
+    """Return a section title, such as `Speeds`, or, if the train has several states, `State 1: speeds`."""
     return words[0].upper() + words[1:] if state is None else f"State {state}: {words}"
 
 
 def without_details(document: Document, requested: Sequence[str] = ()) -> Document:
     """Return a document without its detail sections.
 
-    requested   words of section titles; if given, only the sections whose titles contain one of them are kept
+    requested   words of section titles; if given, only sections whose titles contain one of these words are kept
 
     Without requested words, a last section lists the titles that were omitted. Raise `QuestionError` if a requested
     word is in no title.
@@ -292,14 +296,14 @@ def without_details(document: Document, requested: Sequence[str] = ()) -> Docume
 
 
 def figure(value: Fraction | float | None, digits: int = 8) -> str:
-    """Return a number in decimal notation with at most `digits` significant digits; a dash for None."""
+    """Return a string with a number in decimal notation, with at most `digits` significant digits; a dash for None."""
     if value is None:
         return "-"
     return decimal(value, digits) if isinstance(value, Fraction) else f"{value:.{digits}g}"
 
 
 def exact(value: Fraction | float | None) -> str:
-    """Return a number as a fraction, abridged if it is very long; a float has a tilde before it."""
+    """Return a string with a number as a fraction, abridged if it is very long. A float is preceded by a tilde."""
     if value is None:
         return "undetermined"
     if not isinstance(value, Fraction):
@@ -308,7 +312,9 @@ def exact(value: Fraction | float | None) -> str:
 
 
 def one_to(ratio: Fraction | float | None) -> str:
-    """Return output divided by input as `1 : n`, or as `n : 1` if the output is faster; a dash for None or 0."""
+    """Return the ratio of output to input as a string `1 : n`, or `n : 1` if the output is faster; a dash for None or
+    0.
+    """
     if not ratio:
         return "-"
     if not -1 < ratio < 1:
@@ -317,13 +323,13 @@ def one_to(ratio: Fraction | float | None) -> str:
 
 
 def ppm(value: float | None) -> str:
-    """Return parts per million as a string with a sign; a dash for None."""
+    """Return a text with a sign and a value in parts per million; a dash for None."""
     # a relative error below 1e-15 is rounding
     return "-" if value is None else "0" if abs(value) < 1e-9 else f"{value:+.6g}"
 
 
 def cut(rows: Sequence[Sequence[str]], of: int | None = None, most: int = MOST_ROWS) -> list[Sequence[str]]:
-    """Return the first `most` rows of a table, and a last row with the number of omitted rows if there are any.
+    """Return the first `most` rows of a table. If rows are omitted, an additional last row states their number.
 
     of   total number of rows, if `rows` does not hold all of them
     """
@@ -337,16 +343,17 @@ def cut(rows: Sequence[Sequence[str]], of: int | None = None, most: int = MOST_R
 
 
 GAP = 2
-"""Number of blanks between two columns of a table; a matrix has one."""
+"""Number of spaces between two columns of a table, except for a matrix, which has one space."""
 
 
 def gap_of(table: Table) -> int:
-    """Return the number of blanks between two columns of a table."""
+    """Return the number of spaces between two columns of a table."""
     return 1 if table.wide else GAP
 
 
 def strips(table: Table, width: int) -> Iterator[Table]:
-    """Yield a table as strips of columns that fit the width, each with the first column.
+    """Divide a table into strips of columns that fit the width, and yield each strip. Each strip also contains the
+    first column.
 
     A table that fits is yielded unchanged. A word is broken only if it is wider than the available width.
 
@@ -367,7 +374,7 @@ def strips(table: Table, width: int) -> Iterator[Table]:
 
 
 def column_widths(table: Table, width: int) -> list[int]:
-    """Return the width of each column in characters, at most the length of its longest cell.
+    """Return the width of each column in characters. A column is not wider than its longest cell.
 
     The columns that need the fewest characters in addition to their longest word are widened first. The sum exceeds
     `width` only if the longest words do not fit.
@@ -393,7 +400,7 @@ _NUMBER = re.compile(r"[+\-−~]?\d[\d ]*(\.\d*)?(e[+-]?\d+)?")
 
 
 def aligned_rows(table: Table) -> list[list[str]]:
-    """Return the rows with the numbers of each numeric column shifted so that their decimal points are aligned.
+    """Return the rows of a table in which the decimal points of each numeric column are aligned by spaces.
 
     A column is numeric if each of its cells is a decimal number, empty, or a dash.
     """
@@ -419,7 +426,9 @@ def _columns(table: Table) -> list[tuple[str, ...]]:
 
 
 def _minimum(column: Sequence[str], whole: bool) -> int:
-    """Return the minimum width of a column: its longest word, or its longest cell if cells do not wrap."""
+    """Return the minimum width of a column in characters: the length of its longest word, or of its longest cell if
+    cells are not wrapped.
+    """
     pieces = column if whole else [word for cell in column for word in cell.split()]
     return max(1, *(len(piece) for piece in pieces), 0)
 

@@ -23,15 +23,17 @@ class RatioElasticity(Result):
     """Elasticity of a speed ratio with respect to a tooth count."""
 
     state: str | None
-    """Name of the state; None for a train without states."""
+    """Name of the state; None if the train has no states."""
     output: str
-    """Output whose speed is the numerator of the ratio."""
+    """Name of the output whose speed is the numerator of the ratio."""
     input: str
-    """Input whose speed is the denominator of the ratio."""
+    """Name of the input whose speed is the denominator of the ratio."""
     wheel: str
-    """Wheel with respect to whose tooth count the elasticity is taken."""
+    """Name of the wheel whose tooth count is varied."""
     elasticity: ClosedForm
-    """Elasticity (z/f) df/dz: relative change of the ratio f per relative change of the tooth count z."""
+    """Elasticity (z/f) df/dz of the ratio f with respect to the tooth count z, that is, the relative change of f per
+    relative change of z.
+    """
 
 
 @dataclass(frozen=True)
@@ -47,9 +49,9 @@ class FormulaReport(Result):
     formulas: tuple[OutputFormula, ...]
     """Formulas of the outputs in each requested state."""
     sensitivities: tuple[RatioElasticity, ...] = ()
-    """Elasticities of each ratio with respect to each tooth count; empty unless requested."""
+    """Elasticities of each ratio with respect to each tooth count; empty if they are not requested."""
     couplings: tuple[VaryingCoupling, ...] = ()
-    """Couplings with a variable ratio, whose mean ratios the formulas contain."""
+    """Couplings with a variable ratio. The formulas contain the mean ratios of these couplings."""
 
 
 def collect_formulas(
@@ -72,8 +74,8 @@ def _formulas(train: GearTrain, state: str | None, outputs: Sequence[str] = ()) 
 
 
 def describe_formulas(found: FormulaReport, latex: bool = False, inverse: bool = False) -> Document:
-    """Return a document with the formula, value and locking condition of each output, and with the elasticities if
-    `found` contains them.
+    """Return a document with the formula, value and locking condition of each output. If `found` contains elasticities,
+    the document includes them.
     """
     states = dict.fromkeys(each.state for each in found.formulas)
     sections = [section for state in states for section in _state(found, state, latex, inverse)]
@@ -82,7 +84,8 @@ def describe_formulas(found: FormulaReport, latex: bool = False, inverse: bool =
 
 
 def formula_section(train: GearTrain, state: str | None, explained: bool = True) -> Iterator[Section]:
-    """Yield a section with the formulas of one state that contain tooth counts; yield nothing if there are none.
+    """Yield a section with the formulas of one state that contain tooth counts; yield nothing if there are no such
+    formulas.
 
     explained   True to begin the section with an explanation of the notation
     """

@@ -22,17 +22,17 @@ _OF_PAIR = (Key("form", "mesh.form"), Key("gears", "mesh.gears"), Key("note", "m
 
 @dataclass(frozen=True)
 class DrivenPair(Result):
-    """Pair with a declared tooth form, driven by one of its wheels."""
+    """Gear pair with a declared tooth form, driven by one of its two wheels."""
 
     KEYS = (Key("pair", "mesh.name"), Key("", "mesh.who"), "states", *_OF_PAIR)
 
     mesh: GearMesh
     states: tuple[str, ...] = ()
-    """Names of the states in which `mesh.driver` drives."""
+    """Names of the states in which the wheel `mesh.driver` drives."""
 
     @cached_property
     def account(self) -> PairAccount:
-        """Results of the mesh as numbers, text and tables."""
+        """Results of the mesh as numbers, texts and tables."""
         return self.mesh.account()
 
     @property
@@ -43,14 +43,14 @@ class DrivenPair(Result):
 
 @dataclass(frozen=True)
 class DrivenPin(Result):
-    """Pin-and-slot coupling with declared dimensions, and its results while the pin drives."""
+    """Pin-and-slot coupling with declared dimensions, and results for the case that the pin drives."""
 
     KEYS = ("coupling", Key("ratio", "figures.speed_ratio.mean"), Key("", "figures"))
 
     coupling: str
     """Name of the coupling."""
     figures: PinFigures
-    """Transmission function and losses of the coupling with the pin driving."""
+    """Transmission function and losses of the coupling for the case that the pin drives."""
 
 
 _MOST_PAIRS = 12  # with more, a report as text omits their tables
@@ -82,19 +82,19 @@ def _teeth(train: GearTrain, pairs: Sequence[DrivenPair]) -> Section:
 
 
 def joined_table(rows: Sequence[AccountTable]) -> Table:
-    """Return one table with the rows of several pairs of the same tooth form."""
+    """Return one table that contains the rows of several pairs with the same tooth form."""
     return Table(rows[0].header, [each.row for each in rows], wide=rows[0].wide)
 
 
 def without_losses(mesh: GearMesh) -> Section | None:
-    """Return the section on the friction of a pair whose sliding losses are 0 or not known; None for other pairs."""
+    """Return a section on the friction of a pair whose sliding losses are 0 or unknown; None for other pairs."""
     if not mesh.has_friction:
         return Section("Friction", ("No friction is given, so that sliding losses are 0.",))
     return None if mesh.computes_losses else Section("Friction", (f"{mesh.friction_words}.",))
 
 
 def fault_text(fault: Problem) -> str:
-    """Return the fault, its cause and its remedy as sentences."""
+    """Return sentences on a fault, its cause and its remedy."""
     return f"{fault.what}; {fault.why}. {fault.fix}." if fault.why else f"{fault.what}. {fault.fix}."
 
 
@@ -112,10 +112,12 @@ def _pins(train: GearTrain) -> Section:
 
 
 def driven_pairs(train: GearTrain) -> tuple[DrivenPair, ...]:
-    """Return the pairs with a declared tooth form, with one entry for each wheel that drives in at least one state."""
+    """Return the pairs with a declared tooth form. A pair has one entry for each wheel that drives in at least one
+    state.
+    """
     return tuple(DrivenPair(mesh, states) for ways in train.mechanics.driven_ways.values() for mesh, states in ways)
 
 
 def driven_pins(train: GearTrain) -> tuple[DrivenPin, ...]:
-    """Return the pin-and-slot couplings of a train with declared dimensions, each with the pin driving."""
+    """Return the pin-and-slot couplings of a train with declared dimensions. In each result the pin drives."""
     return tuple(DrivenPin(joint.coupling.name, pin_figures(joint.transmission)) for joint in train.mechanics.pins)

@@ -33,7 +33,7 @@ of its scripts are unknown.
 
 @dataclass(frozen=True, slots=True)
 class _Anchors:
-    """Anchor names in one document of a page. `contents` has the anchor and title of each heading."""
+    """Anchor names in one document of a page. `contents` lists the anchor and title of each heading."""
 
     contents: Sequence[tuple[str, str]]
     sections: Sequence[str]
@@ -90,7 +90,7 @@ def to_html(documents: Sequence[Document]) -> str:
 
 
 def to_fragment(documents: Sequence[Document]) -> str:
-    """Return documents as HTML for a notebook, without the style and script of a page; pictures are omitted.
+    """Return documents as HTML for a notebook, without the style and script of a page. Pictures are omitted.
 
     Raise `MissingExtraError` if jinja2 is not installed (extra `report`).
     """
@@ -100,7 +100,7 @@ def to_fragment(documents: Sequence[Document]) -> str:
 
 
 def check_pages() -> None:
-    """Raise `MissingExtraError` if jinja2 is not installed, before the contents of a page are computed."""
+    """Raise `MissingExtraError` if jinja2 is not installed. It is called before the contents of a page are computed."""
     try:
         import jinja2  # noqa: F401
     except ImportError:
@@ -109,7 +109,7 @@ def check_pages() -> None:
 
 @cache
 def _template(name: str) -> Any:
-    """Return a compiled template. It is cached because compiling takes longer than rendering."""
+    """Return a compiled template. The template is cached because compiling takes longer than rendering."""
     from jinja2 import Environment, FunctionLoader
 
     environment = Environment(autoescape=True, trim_blocks=True, lstrip_blocks=True, loader=FunctionLoader(_resource))
@@ -124,20 +124,22 @@ def _template(name: str) -> Any:
 
 
 def _on_paper(table: Table) -> list[Table]:
-    """Return the strips of columns in which a table wider than a sheet is printed; an empty list for other tables."""
+    """Return the strips of columns in which a table that is wider than a sheet is printed; an empty list for other
+    tables.
+    """
     parts = list(strips(table, ON_PAPER))
     return parts if len(parts) > 1 else []
 
 
 def _with_code(line: str) -> Any:
-    """Return a line as HTML, with text between backticks as code and everything else escaped."""
+    """Return a line as HTML, with text between backticks as code and all other text escaped."""
     from markupsafe import Markup, escape
 
     return Markup(re.sub(r"`([^`]+)`", r"<code>\1</code>", str(escape(line))))
 
 
 def is_web(url: str) -> bool:
-    """Return True for an http or https address with a host, which may become a link."""
+    """Return True if an address is an http or https address with a host, which may become a link."""
     try:
         parts = urlsplit(url)
     except ValueError:
@@ -146,7 +148,8 @@ def is_web(url: str) -> bool:
 
 
 def inline(svg: str, number: int) -> str:
-    """Return an SVG document as an element of a page, with ids made unique by `number` and without a fixed size.
+    """Return an SVG document as an element of an HTML page. Its ids are made unique by `number`, and its fixed size is
+    removed.
 
     Lengths in paths are cut to two decimals, because no screen or printer resolves a hundredth of a point.
     """
@@ -185,7 +188,9 @@ def _anchors(document: Document, prefix: str) -> _Anchors:
 
 
 def _marks(titles: Sequence[str], prefix: str) -> Iterator[str]:
-    """Yield a unique anchor for each title: its words joined by hyphens, with a number if repeated."""
+    """Yield a unique anchor for each title: its words joined by hyphens, followed by a number if the anchor was already
+    used.
+    """
     seen: dict[str, int] = {}
     for title in titles:
         name = re.sub(r"[^a-z0-9]+", "-", title.lower()).strip("-") or "section"
@@ -194,14 +199,16 @@ def _marks(titles: Sequence[str], prefix: str) -> Iterator[str]:
 
 
 def _policy(script: str, framed: bool) -> str:
-    """Return the content security policy of a page, which loads nothing and runs only its own script (by its hash)."""
+    """Return the content security policy of a page. The page loads nothing and runs only its own script, which is
+    identified by its hash.
+    """
     if framed:
         return _POLICY + _INTO_FRAMES
     return f"{_POLICY}'sha256-{b64encode(sha256(script.encode()).digest()).decode()}'"
 
 
 def _colours() -> str:
-    """Return the CSS variables of the light and dark palettes; the reader's system selects one."""
+    """Return the CSS variables of the light and dark palettes. The reader's operating system selects one palette."""
     light, dark = THEMES["light"].css, THEMES["dark"].css
     return f":root {{ {light} }}\n@media (prefers-color-scheme: dark) {{ :root {{ {dark} }} }}\n"
 

@@ -55,12 +55,12 @@ _RESULTS = {
     "pin": "teeth.pair_results:PinFigures",
     "mesh --compare": "teeth.form_comparison:FormComparison",
 }
-"""Result class, as `package.module:class`, of each JSON output that has the data of a single class."""
+"""Result class, as `package.module:class`, of each JSON output whose data are those of a single class."""
 
 
 @cache
 def answers() -> dict[str, Schema]:
-    """Return the schema of the JSON output of each command, or of each use of a command, by name."""
+    """Return the schemas of the JSON output of each command, or of each use of a command, keyed by name."""
     from geartrain.report.gear_pairs import DrivenPair
     from geartrain.report.pair_page import FormedPair
     from geartrain.report.train_data import TrainReport
@@ -87,7 +87,9 @@ def answers() -> dict[str, Schema]:
 
 
 def _of_any_form(kind: type) -> Schema:
-    """Return the schema of a result on a pair of any tooth form: one alternative for each form's figures."""
+    """Return the schema of a result on a pair of any tooth form. It has one alternative for the results of
+    each form.
+    """
     from geartrain.teeth.any_tooth_form import tooth_forms
 
     pair = shape_of(kind)
@@ -100,7 +102,9 @@ def _of_any_form(kind: type) -> Schema:
 
 
 def answer_schema() -> Schema:
-    """Return one JSON Schema (draft 2020-12) of all JSON answers; `#/$defs/QUESTION` is the schema of one answer."""
+    """Return one JSON Schema (draft 2020-12) of all JSON answers; `#/$defs/NAME` is the schema of the answer with this
+    name.
+    """
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "Answers of geartrain",
@@ -112,8 +116,8 @@ def answer_schema() -> Schema:
 def describe_answer(question: str) -> Document:
     """Return a table of the keys of one JSON answer, with the type and meaning of each value.
 
-    In the keys, `states[]` represents the entries of a list, and `outputs.*` the values of an object with arbitrary
-    keys.
+    In the keys, `states[]` represents the entries of a list, and `outputs.*` represents the values of an object with
+    arbitrary keys.
     """
     known = answers()
     check_choice("question", question, known)
@@ -151,7 +155,7 @@ _PLAIN: dict[Any, Schema] = {
 
 
 def shape_of(kind: Any, to: Callable[[Any], Any] | None = None, keys: tuple[str | Key, ...] = ()) -> Schema:
-    """Return the JSON Schema of values with a type annotation.
+    """Return the JSON Schema of the values that have a given type annotation.
 
     kind   annotation of the values
     to     function that converts a value to plain data
@@ -209,7 +213,7 @@ def _typed_dict(kind: Any) -> Schema:
 
 
 def _one_of(shapes: list[Schema]) -> Schema:
-    """Return the schema of a union without duplicate alternatives; a single alternative is returned unchanged."""
+    """Return the schema of a union without duplicate alternatives. A single alternative is returned unchanged."""
     # nested unions become one list of alternatives
     flat = [each for shape in shapes for each in shape.get("anyOf", [shape])]
     different = [each for at, each in enumerate(flat) if each not in flat[:at]]
@@ -237,7 +241,9 @@ def _described(shape: Schema, meaning: str) -> Schema:
 
 
 def meaning_of(kind: Any, path: str) -> str:
-    """Return the docstring of a field or property, given as `attribute` or `part.attribute`; "" if it has none."""
+    """Return the docstring of a field or property, given as `attribute` or `part.attribute`; an empty string if it has
+    no docstring.
+    """
     first, _, rest = path.partition(".")
     if rest:
         whole_kind = attribute_kind(kind, first)
@@ -262,7 +268,9 @@ def _object(properties: Mapping[str, Schema], required: Any, kind: type) -> Sche
 
 
 def _summary(what: Any) -> str:
-    """Return the first paragraph of a docstring as one line; "" for an object without a docstring of geartrain."""
+    """Return the first paragraph of a docstring as one line; an empty string for an object without a docstring in this
+    package.
+    """
     maker = getattr(what, "func", what)  # the function of a cached property
     own = getattr(maker, "__module__", "geartrain").startswith("geartrain")
     text = what.__doc__ if own and (isinstance(what, type | property) or maker is not what) else ""
@@ -305,7 +313,7 @@ def _evaluated(annotation: Any, module: ModuleType) -> Any:
 
 
 class _Names(dict[str, Any]):
-    """Names that are defined in a module, including those that it imports only for annotations."""
+    """Names that are defined in a module, including names that the module imports only for annotations."""
 
     def __init__(self, module: ModuleType) -> None:
         super().__init__(vars(builtins) | vars(module))
@@ -318,13 +326,15 @@ class _Names(dict[str, Any]):
 
 @cache
 def _imports(module: ModuleType) -> dict[str, str]:
-    """Return the source module of each name that a module imports, including imports only for annotations."""
+    """Return a dictionary that maps each name that a module imports, including imports only for annotations, to the
+    module from which it is imported.
+    """
     nodes = ast.walk(ast.parse(inspect.getsource(module)))
     return {name.name: node.module or "" for node in nodes if isinstance(node, ast.ImportFrom) for name in node.names}
 
 
 class DefaultsAsWritten(GenerateJsonSchema):
-    """JSON Schema generator that writes default numbers and quantities as in a declaration file."""
+    """JSON Schema generator that writes default numbers and quantities in the form of a declaration file."""
 
     def encode_default(self, dft: Any) -> Any:
         """Return a default value as JSON data."""

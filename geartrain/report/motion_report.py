@@ -26,21 +26,21 @@ _TURNS, _POSITIONS = 20.0, 20_001  # turns and positions of the run in a report
 
 
 class PhaseRange(NamedTuple):
-    """Range of one output's deviation over runs with random tooth phases."""
+    """Range of the deviation of one output over several runs with random tooth phases."""
 
     peak_to_peak: tuple[float, float]
-    """Minimum and maximum peak-to-peak deviation of the output over the runs [rad]."""
+    """Minimum and maximum of the peak-to-peak deviation of the output [rad] in all runs."""
     rms: tuple[float, float]
-    """Minimum and maximum root mean square deviation of the output over the runs [rad]."""
+    """Minimum and maximum of the root mean square deviation of the output [rad] in all runs."""
 
 
 class PhaseSets(NamedTuple):
-    """Number of sets of random tooth phases that were tried, and the random seed."""
+    """Number of evaluated sets of random tooth phases, and the random seed."""
 
     sets: int
     """Number of sets of random tooth phases."""
     seed: int | None
-    """Random seed; None if none was given."""
+    """Random seed; None if no seed was given."""
 
 
 class PartialRun(NamedTuple):
@@ -54,26 +54,28 @@ class PartialRun(NamedTuple):
 
 @dataclass(frozen=True)
 class OutputMotion:
-    """Motion of one output over a run. Results that were not requested are None."""
+    """Motion of one output over a run. A result that was not requested is None."""
 
     KEYS = (Key("", "tally"), "setting", "sensitivity", "phases", "spectrum")
 
     tally: RunningStatistics
-    """Extreme values and moments of the deviation and of the speed over the run."""
+    """Extreme values and moments of the deviation, and of the speed, over the run."""
     setting: float
-    """Constant offset of the pointer that makes its deviation 0 at turn 0 [rad]."""
+    """Constant offset of the pointer [rad] by which its deviation at turn 0 becomes 0."""
     sensitivity: Mapping[str, float]
-    """Rotation of the output per rotation error of the driven side of each pair [rad/rad], by pair."""
+    """Rotation of the output per rotation error of the driven wheel of each pair [rad/rad], keyed by pair."""
     phases: PhaseRange | None
-    """Range of the deviation over runs with random tooth phases; None unless requested."""
+    """Range of the deviation over runs with random tooth phases; None if it was not requested."""
     spectrum: Sequence[SpectrumLine] | None
-    """Spectral lines of the deviation, each at an exact order (cycles per turn of the input); None unless requested."""
+    """Spectral lines of the deviation, each at an exact order (cycles per turn of the input); None if they were not
+    requested.
+    """
 
 
 @dataclass(frozen=True)
 class MotionFigures(Result):
-    """Deviations and speeds of the outputs of a train with declared tooth forms or pins over a run in one state. Angles
-    are in rad, and travels of links that slide are in mm.
+    """Deviations and speeds, over a run in one state, of the outputs of a train with declared tooth forms or pins.
+    Angles are in rad, and travels of links that slide are in mm.
     """
 
     PAGE = "report.motion_report:describe_motion"
@@ -84,13 +86,13 @@ class MotionFigures(Result):
     )
 
     run: MotionRun
-    """Run from which the results are taken; it is not included in the JSON data."""
+    """Motion run from which the results are taken. It is not included in the JSON data."""
     name: str
     """Name of the train."""
     state: str | None
     """Name of the requested state; None if no state was requested."""
     input: str
-    """Name of the driving link, whose turns are counted."""
+    """Name of the driving link. The number of turns refers to this link."""
     turns: float
     """Revolutions of the driving link over the run; negative for backward motion."""
     positions: int
@@ -98,47 +100,51 @@ class MotionFigures(Result):
     period: Fraction | None
     """Turns of the driving link after which the motion repeats; None if every output moves uniformly."""
     drivers: Mapping[str, MeshDriver]
-    """Driving wheel of each pair whose speed ratio varies."""
+    """Driving wheel of each pair whose speed ratio varies, keyed by pair."""
     reversing_drivers: Sequence[str]
-    """Pairs whose driving wheel temporarily turns against its mean sense of rotation."""
+    """Names of the pairs whose driving wheel temporarily turns against its mean sense of rotation."""
     rigid: Sequence[str]
-    """Pairs whose declared tooth form keeps a constant speed ratio, so that they contribute no transmission error."""
+    """Names of the pairs whose declared tooth form keeps a constant speed ratio, so that they contribute no
+    transmission error.
+    """
     outputs: Mapping[str, OutputMotion]
-    """Deviation, speed and further requested results, by name of the output."""
+    """Deviation, speed and further requested results of each output, keyed by output name."""
     separation: Annotated[Any, WingResult("simulation", "SeparationRates")] | None
     """Speeds of the driving link at which teeth first separate. The computed motion is valid only below these
     speeds; None if no link driven by the input has an inertia, if torques have no units, or if the optional package
     `simulation` is not installed.
     """
     phases: PhaseSets | None
-    """Random tooth phases that were evaluated; None unless requested."""
+    """Random tooth phases that were evaluated; None if none were requested."""
     partial: PartialRun | None
     """Progress of an interrupted run; None for a complete run."""
     advances: Mapping[str, float]
-    """Mean speed of each link that one-way clutches drive in steps, per unit speed of the input [1], by link."""
+    """Mean speed of each link that is driven stepwise by one-way clutches, divided by the input speed [1], keyed by
+    link.
+    """
 
 
 @dataclass(frozen=True)
 class UnfollowedMotion:
-    """State whose motion cannot be computed, with the reason."""
+    """State of a train whose motion cannot be computed, and the reason."""
 
     KEYS = ("name", "state", "error")
 
     name: str
     """Name of the train."""
     state: str | None
-    """Name of the state; None for a train without states."""
+    """Name of the state; None if the train has no states."""
     why: GearTrainError
     """Error that prevents the computation of the motion."""
 
     @property
     def error(self) -> str:
-        """Reason why the motion cannot be computed, as a string."""
+        """Text that states why the motion cannot be computed."""
         return str(self.why)
 
 
 def collect_motion(run: MotionRun, name: str, state: str | None, separation: Any = None) -> MotionFigures:
-    """Return the results of a motion run for each output."""
+    """Return the results of a motion run for each of its outputs."""
     motion = run.motion
     # pairs that drive no output are not reported
     used = {source.id for source in motion._forward.used}
@@ -179,7 +185,9 @@ def _phase_range(tallies: list[RunningStatistics]) -> PhaseRange | None:
 
 
 def collect_motions(train: GearTrain) -> Iterator[MotionFigures | UnfollowedMotion]:
-    """Yield the motion in every state; yield nothing if the train has neither tooth forms nor pins with dimensions."""
+    """Yield the motion in every state; yield nothing if the train has neither tooth forms nor pins with declared
+    dimensions.
+    """
     if not ripples(train):
         return
     from geartrain.dynamics import MotionRun
@@ -211,7 +219,7 @@ def separation_rates(train: GearTrain, state: str | None, without: Sequence[str]
 
 
 def ripples(train: GearTrain) -> bool:
-    """Return True if a pin has dimensions, or if the speed ratio of a gear pair varies within a turn."""
+    """Return True if a pin has declared dimensions, or if the speed ratio of a gear pair varies within a turn."""
     return bool(train.mechanics.couplings) or any(not mesh.rigid for mesh in train.meshes)
 
 
@@ -223,7 +231,7 @@ _ROUNDING = 1e-13  # rad: smaller deviations are rounding errors
 
 
 def describe_motion(found: MotionFigures, every_output: bool = False) -> Document:
-    """Return a document on the deviation and speed of each output over a run, with the further requested results."""
+    """Return a document on the deviation and speed of each output over a run, and on further requested results."""
     run = found.run
     train, period = run.motion._problem, run.motion.period
     summary = [
@@ -247,7 +255,9 @@ def describe_motion(found: MotionFigures, every_output: bool = False) -> Documen
 
 
 def motion_document(found: Motion | MotionRun) -> Document | None:
-    """Return the output of `geartrain motion` for a run, or for the default run of a motion; None if it was not run."""
+    """Return the output of `geartrain motion` for a run, or for the default run of a motion; None if the motion has no
+    run.
+    """
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.dynamics import MotionRun
 
@@ -261,7 +271,7 @@ def motion_document(found: Motion | MotionRun) -> Document | None:
 
 
 def motion_sections(run: MotionRun, every_output: bool = False) -> Iterator[Section]:
-    """Yield sections on the outputs, on the pairs that cause their deviations, and on the requested further results."""
+    """Yield sections on the outputs, on the pairs that cause their deviations, and on further requested results."""
     yield Section("Outputs", tuple(_remarks(run)), _outputs(run.statistics, run.motion._problem.deviation))
     if run.motion._forward.used:
         yield _pairs(run, every_output)
@@ -278,7 +288,7 @@ def motion_sections(run: MotionRun, every_output: bool = False) -> Iterator[Sect
 def moving_sections(
     train: GearTrain, found: Sequence[MotionFigures | UnfollowedMotion], toothed: bool
 ) -> Iterator[Section]:
-    """Yield a section on the motion in each state of a train with declared tooth forms or pins.
+    """Yield a section on the motion in each state of a train that declares tooth forms or pins.
 
     toothed   True if the train declares tooth forms
     """
@@ -303,7 +313,9 @@ def moving_sections(
 
 
 def _rigid(meshes: Iterable[GearMesh]) -> str:
-    """Return a sentence that lists the pairs with constant speed ratio by tooth form; "" if all speed ratios vary."""
+    """Return a sentence that lists, by tooth form, the pairs with a constant speed ratio; an empty string if all speed
+    ratios vary.
+    """
     forms: dict[str, list[str]] = {}
     for mesh in meshes:
         if mesh.rigid:
@@ -332,9 +344,7 @@ def _by_unit(
     head: Callable[[str], tuple[str, ...]],
     rows: Callable[[RunningStatistics], Sequence[tuple[str, ...]]],
 ) -> tuple[Table, ...]:
-    """Return a table of the outputs that turn, with angles in deg, and a table of the links that slide, with travels in
-    mm.
-    """
+    """Return two tables: the outputs that turn, with angles in deg, and the links that slide, with travels in mm."""
     groups = {unit: [tally for tally in tallies if _unit(tally.slides) == unit] for unit in ("deg", "mm")}
     return tuple(
         Table(head(unit), [row for tally in own for row in rows(tally)]) for unit, own in groups.items() if own
@@ -402,7 +412,9 @@ def _pairs(run: MotionRun, every_output: bool) -> Section:
 
 
 def _shares(motion: Motion, outputs: Sequence[str]) -> Table:
-    """Return a table of the peak-to-peak contribution [deg or mm] of each pair to the deviation of some outputs."""
+    """Return a table of the contribution of each pair to the peak-to-peak deviation of the given outputs [deg
+    or mm].
+    """
     rows = []
     for source in motion._forward.used:
         driver = motion._problem.drivers[source.id]
@@ -421,7 +433,7 @@ def _shares(motion: Motion, outputs: Sequence[str]) -> Table:
 
 
 def _steps(motion: Motion) -> Iterator[Section]:
-    """Yield a section on the couplings that move in steps; yield nothing if there are none."""
+    """Yield a section on the couplings that move in steps; yield nothing if there are no such couplings."""
     rows = []
     for source in motion._forward.used:
         transmission = source.transmission
@@ -456,7 +468,7 @@ def _amounts(slides: bool, *values: float) -> tuple[str, ...]:
 
 
 def _amount(slides: bool, value: float, digits: int = 6) -> str:
-    """Return an angle in degrees, or the travel of a link that slides in mm, as a string."""
+    """Return a string with an angle in degrees, or with the travel in mm of a link that slides (`slides` is True)."""
     # joints that cancel leave rounding errors
     value = value if abs(value) > _ROUNDING else 0.0
     return f"{value if slides else degrees(value):.{digits}g}"

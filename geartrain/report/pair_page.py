@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class FormedPair(Result):
-    """Pair of wheels with any tooth form, with the results for its mesh."""
+    """Pair of wheels with any tooth form, and the results for its mesh."""
 
     KEYS = (
         *(Key("form", "mesh.form"), Key("driver", "mesh.driver"), Key("gears", "mesh.gears"), Key("note", "mesh.note")),
@@ -45,9 +45,9 @@ class FormedPair(Result):
     )
 
     mesh: GearMesh
-    """Gear mesh of the pair, with its driving wheel."""
+    """Gear mesh of the pair; the mesh specifies the driving wheel."""
     outlines: tuple[WheelOutline, ...] = ()
-    """Outlines of the wheels, if they were constructed."""
+    """Outlines of the wheels; empty if they were not constructed."""
 
     @property
     def figures(self) -> PairFigures:
@@ -57,7 +57,9 @@ class FormedPair(Result):
 
 @dataclass(frozen=True)
 class TriangularPair(Result):
-    """Pair of wheels with triangular teeth outside a train, with the effects of impacts under operating conditions."""
+    """Pair of wheels with triangular teeth that does not belong to a train, with the effects of impacts under operating
+    conditions.
+    """
 
     KEYS = (Key("", "figures"), "course", "impacts", "outlines")
 
@@ -65,20 +67,21 @@ class TriangularPair(Result):
     course: ContactCourse
     """Speed ratio, instant centre and moment arms over one pitch."""
     impacts: PairImpacts | None
-    """Energies of the impacts and limits of speed; None unless operating conditions are given."""
+    """Energies of the impacts and speed limits; None if no operating conditions are given."""
     outlines: tuple[WheelOutline, ...] = ()
-    """Outlines of the wheels, if they were constructed."""
+    """Outlines of the wheels; empty if they were not constructed."""
 
 
 def collect_pair(
     mesh: GearMesh, outlines: Sequence[WheelOutline] = (), operation: PairOperation | None = None
 ) -> PairDesign | TriangularPair | FormedPair:
-    """Return the data on one pair of wheels outside a train.
+    """Return the data on one pair of wheels that does not belong to a train.
 
     outlines    outlines of the wheels that were constructed
     operation   operating conditions, for the impacts of triangular teeth
 
-    The class depends on the teeth: conjugate at their design distance, triangular, or other.
+    The class of the result depends on the teeth: conjugate teeth at their design distance, triangular teeth, or other
+    teeth.
     """
     if not isinstance(mesh, TriangularMesh):
         return _design(mesh, outlines) or FormedPair(mesh, tuple(outlines))
@@ -92,8 +95,8 @@ def describe_pair(
 ) -> Document:
     """Return a document on one pair of wheels: verdict, sizes, transmission function, losses and outlines.
 
-    The arguments are the same as in `collect_pair`. The document gives the permitted range of a friction coefficient or
-    of a clearance factor that is out of range.
+    The arguments are those of `collect_pair`. The document gives the permitted range of a friction coefficient or of a
+    clearance factor that is out of range.
     """
     first, second = mesh.counts
     drives = f"The wheel of {first} drives the wheel of {second}."
@@ -115,7 +118,9 @@ def describe_pair(
 
 
 def _design(mesh: GearMesh, outlines: Sequence[WheelOutline]) -> PairDesign | None:
-    """Return the design of conjugate teeth; None for other tooth forms, and at a distance where the ratio varies."""
+    """Return the design of conjugate teeth; None for other tooth forms, and for a centre distance at which the ratio
+    varies.
+    """
     if not isinstance(mesh, ConjugateMesh) or not mesh.rigid:
         return None
     from geartrain.teeth.conjugate.conjugate_mesh import PairDesign
@@ -143,7 +148,9 @@ def _outline(wheel: WheelOutline) -> Section:
 
 
 def describe_pin(transmission: PinTransmission) -> Document:
-    """Return a document on a pin in a slot, with pin or slot driving: mean ratio, amplitude, speeds and friction."""
+    """Return a document on a pin in a slot, for a driving pin and for a driving slot: mean ratio, amplitude, speeds and
+    friction.
+    """
     from geartrain.teeth.pair_results import pin_figures
 
     found = pin_figures(transmission)
@@ -170,12 +177,12 @@ def describe_pin(transmission: PinTransmission) -> Document:
 
 
 def _angle(name: str, angle: float) -> tuple[str, str, str]:
-    """Return a row of a table with an angle in radians and in degrees."""
+    """Return a table row with the name of an angle, its value in radians and its value in degrees."""
     return name, f"{angle:.9g} rad", f"{degrees(angle):.9g} deg"
 
 
 def _share(efficiency: float | None) -> str:
-    """Return an efficiency as a string; `-` if friction locks the pin or no work is done on a constant load."""
+    """Return a string with an efficiency; `-` if friction locks the pin or if no work is done on a constant load."""
     return "-" if efficiency is None else f"{efficiency:.9f}"
 
 
@@ -183,7 +190,9 @@ def _share(efficiency: float | None) -> str:
 
 
 def triangular_sections(mesh: TriangularMesh, operation: PairOperation | None) -> Iterator[Section]:
-    """Yield the sections on a pair with triangular teeth; only sizes and clearance if the teeth never touch."""
+    """Yield the sections on a pair with triangular teeth. If the teeth never touch, yield only the sections on sizes
+    and clearance.
+    """
     transmission, window = mesh.transmission, mesh.window
     yield _sizes(transmission)
     if window is not None:
@@ -200,7 +209,9 @@ def triangular_sections(mesh: TriangularMesh, operation: PairOperation | None) -
 
 
 def triangular_verdict(mesh: TriangularMesh) -> str:
-    """Return a sentence on whether the pair can turn; if it cannot, add the reason and the remedy."""
+    """Return a sentence that states whether the pair can turn. If it cannot, the sentence gives the reason and the
+    remedy.
+    """
     transmission, found = mesh.transmission, mesh.transmission.verdict
     words = [f"Verdict: {found.kind}: {found.text}."]
     if not found:
@@ -273,8 +284,8 @@ def _path(transmission: TriangularTransmission) -> Section:
 
 
 def _course(mesh: TriangularMesh) -> Section:
-    """Return a section on speed ratio, instant centre and moment arms at the ends of contact intervals and
-    within them.
+    """Return a section on the speed ratio, instant centre and moment arms, at the ends of contact intervals and between
+    the ends.
     """
     found = contact_course(mesh.transmission, friction=pair_friction(mesh.wheels))
     angles, lengths = (found.alpha1, found.alpha2), (found.speed_ratio, found.instant_centre, found.driver_arm)
@@ -340,7 +351,9 @@ def _losses(mesh: TriangularMesh) -> Section:
 
 
 def _impacts(transmission: TriangularTransmission, operation: PairOperation | None) -> PairImpacts | None:
-    """Return the impacts under operating conditions; None if no conditions are given or the teeth never touch."""
+    """Return the impacts under the operating conditions; None if no conditions are given or if the teeth
+    never touch.
+    """
     from geartrain.dynamics.motion.pair_impacts import find_pair_impacts
 
     return None if operation is None or not transmission.intervals else find_pair_impacts(transmission, operation)

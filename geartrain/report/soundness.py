@@ -1,4 +1,4 @@
-"""Verdict of `geartrain check` on a train: failures and remarks as lines that begin with a place in a file."""
+"""Verdict of `geartrain check` on a train: failures and remarks as lines that begin with a location in a file."""
 
 from __future__ import annotations
 
@@ -24,21 +24,23 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Soundness:
-    """Findings of `geartrain check` on a train in a file. An instance is true if its `failures` are empty."""
+    """Findings of `geartrain check` on a train in a file. An instance evaluates to True if its `failures` are empty."""
 
     train: GearTrain
     file: str
     answers: Sequence[Answer]
     failures: tuple[str, ...]
-    """Lines on undetermined speeds, unmet expectations, parts that cannot be built, and teeth that cannot turn."""
+    """Lines on undetermined speeds, expectations that are not met, parts that cannot be built, and teeth that cannot
+    turn.
+    """
     whole: bool = True
-    """True if the checks of teeth, loads and closure of loops, which need numpy, are included."""
+    """True if the findings include the checks of teeth, loads and closure of loops, which need numpy."""
 
     def __bool__(self) -> bool:
         return not self.failures
 
     def lines(self, quiet: bool = False) -> Iterator[str]:
-        """Yield the lines of `geartrain check`.
+        """Yield the output lines of `geartrain check`.
 
         quiet   True to omit the remarks on a train without failures
         """
@@ -62,7 +64,9 @@ class Soundness:
 
 
 def find_soundness(train: GearTrain, file: str, whole: bool = True) -> Soundness:
-    """Check every state of a train that was read from a file. Raise `GearTrainError` for teeth that cannot be made."""
+    """Check every state of a train that was read from a file, and return the findings. Raise `GearTrainError` if
+    declared teeth cannot be made.
+    """
     answers = list(train.answers())
     failures = [line for answer in answers for line in _failures(train, answer, file)]
     failures += map(str, build_errors(train.build_findings))
@@ -78,7 +82,7 @@ def _summary(train: GearTrain, answers: Sequence[Answer]) -> str:
 
 
 def _without_findings(train: GearTrain, whole: bool) -> str:
-    """Return the equal planets and the declared teeth that were checked without any finding, as a string.
+    """Return a text that names the checks of equal planets and of declared teeth that gave no finding.
 
     whole   True if the teeth were checked
     """
@@ -93,7 +97,9 @@ def _without_findings(train: GearTrain, whole: bool) -> str:
 
 
 def _failures(train: GearTrain, answer: Answer, file: str) -> Iterator[str]:
-    """Yield the failures of one state: its verdict if another verdict is expected, otherwise each unmet expectation."""
+    """Yield the failures of one state: its verdict if another verdict is expected, or each expectation that is
+    not met.
+    """
     state = f" state {answer.state}" if answer.state is not None else ""
     if not answer.as_expected:
         wanted = "" if answer.expected == "determined" else f", where `expect` says {answer.expected}"
@@ -112,7 +118,9 @@ def _failures(train: GearTrain, answer: Answer, file: str) -> Iterator[str]:
 
 
 def _neglected(train: GearTrain) -> Iterator[str]:
-    """Yield the effects that computed torques neglect, for each loaded state; yield nothing if teeth cannot turn."""
+    """Yield lines on the effects that computed torques neglect, for each loaded state; yield nothing if teeth cannot
+    turn.
+    """
     if train.mechanics.faults:
         return
     for state in train.kinematics.usable_states:
@@ -122,7 +130,7 @@ def _neglected(train: GearTrain) -> Iterator[str]:
 
 
 def _too_fast(train: GearTrain) -> Iterator[str]:
-    """Yield the states in which the input is faster than the speed at which teeth first separate."""
+    """Yield lines on the states in which the input is faster than the speed at which teeth first separate."""
     from geartrain.report.motion_report import separation_rates
 
     for state in train.kinematics.usable_states:
@@ -141,7 +149,7 @@ def _too_fast(train: GearTrain) -> Iterator[str]:
 
 
 def _off_beat(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
-    """Yield the states in which the escape wheel's speed does not match the declared beat.
+    """Yield lines on the states in which the escape wheel's speed does not match the declared beat.
 
     The beat depends on the speed of the escape wheel relative to the link with the pallets.
     """
@@ -170,7 +178,7 @@ def _off_beat(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
 
 
 def _turns_a_second(declared: Train, answer: Answer) -> Fraction | None:
-    """Return the unit of speed of a train in turns per second; None if speeds have no unit and no rate is declared."""
+    """Return the train's unit of speed in turns per second; None if speeds have no unit and no rate is declared."""
     if declared.unit_speed is not None:
         return declared.unit_speed
     case = declared.case(answer.state)

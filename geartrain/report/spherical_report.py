@@ -102,8 +102,8 @@ def _pitch(found: GearSphere) -> Iterator[str]:
 
 
 def describe_survey(rows: Iterable[SurveyRow]) -> Document:
-    """Return a document with a table of polyhedra, which shows whether their gears turn, how many meshes must be
-    removed otherwise, and the angles between axes.
+    """Return a document with a table of polyhedra. The table states whether the gears turn, how many meshes must be
+    removed if they do not, and the angles between axes.
     """
     table = result_table(
         rows,
@@ -122,8 +122,8 @@ def describe_survey(rows: Iterable[SurveyRow]) -> Document:
 
 
 def describe_suggestions(found: ToothCountSuggestions) -> Document:
-    """Return a document on suggested tooth counts of gears on a sphere, for which loops close and tooth tips clear each
-    other, and on rejected sets. The order is the order of `found`.
+    """Return a document on suggested tooth counts of gears on a sphere, in the order of `found`, and on rejected sets.
+    With the suggested counts, loops close and tooth tips clear each other.
     """
     kinds = list(dict.fromkeys(found.configuration.kinds))
     rows = []

@@ -60,7 +60,7 @@ def _markdown(document: Document) -> Iterator[str]:
 
 
 def _list(branches: Sequence[Branch], depth: int = 0) -> Iterator[str]:
-    """Yield the lines of a nested Markdown list for a tree."""
+    """Yield the lines of a nested Markdown list that represents a tree of text lines."""
     for branch in branches:
         yield f"{'  ' * depth}- {_line(branch.text)}"
         yield from _list(branch.below, depth + 1)
@@ -79,7 +79,7 @@ def _pipes(table: Table) -> Iterator[str]:
 
 
 PIPED = 80
-"""Characters per line if the width of the output is not known."""
+"""Characters per line if the width of the terminal is not known."""
 
 
 def to_text(documents: Sequence[Document], width: int = PIPED) -> str:
@@ -116,7 +116,7 @@ def to_text(documents: Sequence[Document], width: int = PIPED) -> str:
 
 
 def to_terminal(documents: Sequence[Document], console: Console, marks: str = "") -> None:
-    """Print documents on a console, within its width.
+    """Print documents on a console, wrapped to the width of the console.
 
     marks   characters that underline headings of the first and second level if colours cannot distinguish them
     """
@@ -153,7 +153,7 @@ def _heading(title: str, style: str, console: Console, mark: str) -> None:
 
 
 def _shown(text: str, style: str = "") -> Text:
-    """Return text of a document for a terminal, without control characters."""
+    """Return text of a document for output on a terminal, without control characters."""
     from rich.text import Text
 
     return Text(printable(text), style=style)
@@ -169,7 +169,7 @@ def _rich_tree(branch: Branch) -> Tree:
 
 
 def _rich_table(table: Table, width: int) -> RenderableType:
-    """Return a terminal table without rules; cells that report a failure are red."""
+    """Return a table for a terminal, without ruled lines. Cells that report a failure are red."""
     from rich.table import Table as RichTable
 
     shown = RichTable(box=None, pad_edge=False, header_style="bold", padding=(0, gap_of(table), 0, 0))
@@ -200,6 +200,6 @@ def markdown_text(text: str) -> str:
 
 
 def _bracket(found: re.Match[str]) -> str:
-    """Return the bracket before an address; it is preceded by a backslash if the address is not allowed."""
+    """Return the bracket before an address. A backslash precedes the bracket if the address is not allowed."""
     scheme = _SCHEME.match(_IGNORED.sub("", found[1] or found[2] or ""))
     return "]" if scheme is None or scheme[1].lower() in _FOLLOWED else "]\\"

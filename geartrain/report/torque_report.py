@@ -25,15 +25,15 @@ if TYPE_CHECKING:
 
 
 class Impact(NamedTuple):
-    """Power that the impacts of a pair dissipate."""
+    """Power that is dissipated by the impacts of a pair."""
 
     impact: float
-    """Power that the impacts of the pair dissipate [W]."""
+    """Power that is dissipated by the impacts of the pair [W]."""
 
 
 @dataclass(frozen=True)
 class LossFigures:
-    """Power loss of a pair or bearing, with the power of the pair's impacts if it is known."""
+    """Power loss of a pair or bearing. The power dissipated by the pair's impacts is included if it is known."""
 
     KEYS = (Key("", "loss"), Key("", "collisions"))
 
@@ -43,7 +43,7 @@ class LossFigures:
 
 @dataclass(frozen=True)
 class DrivenFigures:
-    """Efficiency of a train that is driven in one direction, with the verdict."""
+    """Efficiency of a train that is driven in one direction, and the verdict on this direction."""
 
     KEYS = (
         *("verdict", Key("efficiency", to=as_float), Key("exact", "exact_efficiency")),
@@ -54,12 +54,12 @@ class DrivenFigures:
 
     @property
     def verdict(self) -> TorqueVerdict:
-        """Verdict on whether the train can be driven in this direction."""
+        """Verdict on whether the train can be driven in this direction of power flow."""
         return self.way.torques.verdict
 
     @property
     def efficiency(self) -> Fraction | float | None:
-        """Power output divided by power input; None if it is not determined."""
+        """Power output divided by power input; None if the efficiency is not determined."""
         return self.way.torques.efficiency if self.verdict else None
 
     @property
@@ -69,7 +69,7 @@ class DrivenFigures:
 
 
 class DrivenWays(NamedTuple):
-    """Efficiency when driven from the input (`forward`) and from the output (`backward`)."""
+    """Efficiency of a train when driven from the input (`forward`) and from the output (`backward`)."""
 
     forward: DrivenFigures
     backward: DrivenFigures
@@ -83,17 +83,19 @@ class TorqueFigures(Result):
 
     torques: Torques
     drives: DrivenWays | None
-    """Efficiencies in both directions; None unless power enters at one link and leaves at one link."""
+    """Efficiencies in both directions; None unless power enters at exactly one link and leaves at exactly one link."""
     watts_per_unit: float | None
     """Watts per unit of power (torque unit times speed unit); None if torques or speeds are numbers without a unit."""
     in_newton_metres: bool
-    """True if torques are in N m, False if they are in the unit of the loads."""
+    """True if torques are in N m, False if they are in the unit of the declared loads."""
     flow: PowerFlow
     impact_power: Mapping[str, float]
-    """Power that the impacts of each pair dissipate [W], by pair; empty unless inertias and a rate are declared."""
+    """Power that is dissipated by the impacts of each pair [W], keyed by pair; empty unless inertias and a rate are
+    declared.
+    """
     belt_pulls: Mapping[str, float]
-    """Difference between the tensions of the tight and the slack side at the driven pulley [N], by row of a belt; empty
-    unless diameters and torques have units.
+    """Difference between the tensions of the tight and the slack strand at the driven pulley [N], keyed by row of a
+    belt; empty unless diameters and torques have units.
     """
 
     @property
@@ -119,9 +121,9 @@ class TorqueReport(Result):
     states: tuple[TorqueFigures, ...]
     """Torques, power flow and losses of each state, in the requested order."""
     over_turn: TorqueCycle | None = None
-    """Torque over a run of some revolutions of the input in one state; None unless requested."""
+    """Torque over some revolutions of the input in one state; None if it was not requested."""
     friction_trials: Annotated[Any, WingResult("workshop.monte_carlo.friction_trials", "FrictionTrials")] | None = None
-    """Results of torque runs with random friction; None unless requested."""
+    """Results of torque analyses with random friction; None if they were not requested."""
 
 
 def collect_torque_report(
@@ -138,7 +140,7 @@ def collect_torque_report(
 
 
 def collect_torques(train: GearTrain, found: Torques) -> TorqueFigures:
-    """Return the torques of one state with the power flow and the efficiency in both directions."""
+    """Return the torques, the power flow, and the efficiency in both directions, of a train in one state."""
     from geartrain.dynamics.torques.power_flow import find_power_flow, watts_per_unit
     from geartrain.dynamics.torques.train_torques import drive_both_ways
 
@@ -158,8 +160,8 @@ def collect_torques(train: GearTrain, found: Torques) -> TorqueFigures:
 
 
 def _belt_pulls(declared: Train, found: Torques) -> Iterator[tuple[str, float]]:
-    """Yield the pull of each belt at the driven pulley [N], which is the torque divided by half of the pitch
-    diameter.
+    """Yield the name of each belt and its pull at the driven pulley [N], which is the torque divided by half of the
+    pitch diameter.
     """
     for belt in declared.couplings:
         if belt.kind != "belt" or any(size.unit is None for size in belt.lengths):
@@ -185,7 +187,7 @@ _SIGNS = (
 def describe_torques(found: TorqueReport) -> Document:
     """Return a document on the torques in each state: verdict, efficiency, links, pairs, power flow and losses.
 
-    If requested, the torque over a run and trials with random friction follow.
+    Sections on the torque over some revolutions and on trials with random friction follow if they were requested.
     """
     sections = [section for each in found.states for section in torque_sections(each)]
     if found.over_turn is not None:
@@ -197,7 +199,9 @@ def describe_torques(found: TorqueReport) -> Document:
 
 
 def torques_document(found: Torques | TorqueCycle) -> Document | None:
-    """Return the output of `geartrain torques` for one state; None if the train of the result is not known."""
+    """Return the output of `geartrain torques` for one state; None if the train that belongs to the result is not
+    known.
+    """
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.dynamics import Torques
 
@@ -210,14 +214,14 @@ def torques_document(found: Torques | TorqueCycle) -> Document | None:
 
 
 def loaded_sections(found: Sequence[TorqueFigures]) -> Iterator[Section]:
-    """Yield sections on the torques in each loaded state of a train; the first section explains the units."""
+    """Yield sections on the torques in each loaded state of a train. The first section explains the units."""
     sections = (section for each in found for section in torque_sections(each))
     for at, section in enumerate(sections):
         yield section if at else replace(section, paragraphs=(_units(found), *section.paragraphs))
 
 
 def torque_sections(figures: TorqueFigures) -> Iterator[Section]:
-    """Yield a section on the verdict, links and pairs of one state, then a section on its power flow and losses."""
+    """Yield two sections on one state: the verdict, links and pairs, and then the power flow and losses."""
     found, flow, state = figures.torques, figures.flow, figures.torques.state
     head = titled(state, "torques")
     lines = [f"Verdict: {found.verdict.kind}: {found.verdict.text}."]
@@ -262,7 +266,7 @@ _LOADED = "Loads of bearings follow from declared positions of axes; without axi
 
 
 class _Amounts:
-    """Conversion of powers and torques to strings, in W and N m if units are declared."""
+    """Conversion of powers and torques to strings, in W and N m if the train declares units."""
 
     def __init__(self, found: TorqueFigures) -> None:
         self.watts = found.watts_per_unit
@@ -276,7 +280,7 @@ class _Amounts:
         return self.plain(torque, True) if link in self.sliding else f"{figure(torque, 6)}{self.unit}"
 
     def plain(self, torque: Fraction, force: bool) -> str:
-        """Return a torque as a string without its unit, or a force with its unit."""
+        """Return a string with a torque without its unit, or, if `force` is True, with a force and its unit."""
         return f"{figure(torque, 6)}{self.force if force else ''}"
 
 
@@ -300,7 +304,7 @@ def _links(found: Torques, amounts: _Amounts) -> Table:
 
 
 def _held(found: Torques, amounts: _Amounts) -> Iterator[Table]:
-    """Yield a table of brakes and locks with the torques that they exert on the links they hold."""
+    """Yield a table of brakes and locks, and of the torques that they exert on the links they hold."""
     rows = []
     for held in found.held:
         by_link = dict.fromkeys(held.links, "open")
@@ -315,7 +319,7 @@ def _held(found: Torques, amounts: _Amounts) -> Iterator[Table]:
 
 
 def uncounted_words(found: Torques) -> str:
-    """Return the effects that an efficiency neglects, as a suffix to its value; "" if there are none."""
+    """Return a suffix to an efficiency that lists the effects it neglects; an empty string if it neglects none."""
     uncounted = ", ".join(map(str, found.uncounted))
     return f" without {uncounted}" if uncounted else ", mean over a turn" if found.neglected else ""
 
@@ -335,7 +339,7 @@ def _pairs(found: Torques, amounts: _Amounts) -> Table:
 
 
 def _bearings(found: Torques, amounts: _Amounts) -> Iterator[Table]:
-    """Yield a table of the bearings whose friction depends on their load."""
+    """Yield a table of the bearings whose friction depends on the bearing load."""
     loaded = [each for each in found.bearings if each.load is not None]
     rows = [(each.link, each.carrier, figure(each.load, 6), amounts.plain(abs(each.torque), False)) for each in loaded]
     if rows:
@@ -346,7 +350,7 @@ def _bearings(found: Torques, amounts: _Amounts) -> Iterator[Table]:
 
 
 def _loops(flow: PowerFlow, amounts: _Amounts) -> Iterator[str]:
-    """Yield sentences on the amount of recirculating power and the pairs and shafts that transmit it."""
+    """Yield sentences on the amount of recirculating power and on the pairs and shafts that transmit this power."""
     if flow.loops:
         yield "Here power is torque times absolute speed, so that it is balanced at every shaft and pair."
     for loop in flow.loops:
@@ -358,7 +362,9 @@ def _loops(flow: PowerFlow, amounts: _Amounts) -> Iterator[str]:
 
 
 def _losses(flow: PowerFlow, amounts: _Amounts, impact_power: Mapping[str, float]) -> Iterator[Table]:
-    """Yield a table of the losses of each pair and bearing, and their total; impacts have separate columns."""
+    """Yield a table of the losses of each pair and bearing, and of their total. Losses of impacts have separate
+    columns.
+    """
     if not flow.losses and not impact_power:
         return
     struck = {node: impact_power[node.name] for node in flow.nodes if node.kind == "pair" and node.name in impact_power}
@@ -379,8 +385,8 @@ def _losses(flow: PowerFlow, amounts: _Amounts, impact_power: Mapping[str, float
 
 
 def _loss_row(flow: PowerFlow, amounts: _Amounts, lost: Fraction, struck: float | None) -> tuple[str, ...]:
-    """Return a table row with a loss and its shares of the input power and of all losses, and the power of impacts and
-    its share.
+    """Return a table row with a loss, its fractions of the input power and of all losses, the power dissipated by
+    impacts, and the fraction of that power.
     """
     parts = (percent_text(lost / whole) if whole else "-" for whole in (flow.power_in, flow.loss))
     if struck is None:
@@ -390,7 +396,9 @@ def _loss_row(flow: PowerFlow, amounts: _Amounts, lost: Fraction, struck: float 
 
 
 def summary_text(torques: Torques) -> str:
-    """Return the efficiency and the losses by cause as a string, or why the efficiency is not determined."""
+    """Return a text with the efficiency and the losses by cause, or with the reason why the efficiency is not
+    determined.
+    """
     if not torques.verdict or not torques.power_in:
         return torques.verdict.text
     lost = {"teeth": torques.loss - torques.bearing_loss, "bearings": torques.bearing_loss}
@@ -423,7 +431,9 @@ _MINIMUM = 1e-12  # relative to all losses: smaller amounts are rounding
 
 
 def cycle_sections(found: TorqueCycle) -> Iterator[Section]:
-    """Yield sections on the crank torque over a run, on energies, and on the losses of each pair, pin and bearing."""
+    """Yield sections on the crank torque over the positions of `found`, on energies, and on the losses of each pair,
+    pin and bearing.
+    """
     head = titled(found.state, "torque over a turn")
     lines = [f"Verdict: {found.verdict.kind}: {found.verdict.text}."]
     lines += [f"Not included: {each}: {each.why}." for each in found.neglected]
@@ -440,7 +450,7 @@ def cycle_sections(found: TorqueCycle) -> Iterator[Section]:
 
 
 def turns_text(turns: float) -> str:
-    """Return a number of turns as a string, such as `1 turn` or `2.5 turns`."""
+    """Return a string with a number of turns, such as `1 turn` or `2.5 turns`."""
     return f"{turns:g} turn{'' if turns == 1 else 's'}"
 
 
@@ -457,8 +467,8 @@ def _run(found: TorqueCycle) -> str:
 
 
 def _remarks(found: TorqueCycle) -> Iterator[str]:
-    """Yield sentences on the fractions of the run in which the train locks, all energy is lost, or results are
-    ambiguous, and on efficiency, the largest loss, flank changes and recirculating power.
+    """Yield sentences on the fractions of the revolutions in which the train locks, all energy is lost, or results are
+    ambiguous. Further sentences report efficiency, largest loss, flank changes and recirculating power.
     """
     shares = {
         "no torque balances: the train locks": found.locked_share,
@@ -515,8 +525,8 @@ def _energies(found: TorqueCycle) -> Table:
 
 
 def energy_table(head: str, amounts: Mapping[str, float], whole: float, digits: int) -> Table:
-    """Return a table of energies over a run with their shares of the energy input; amounts as small as rounding errors
-    are omitted.
+    """Return a table of energies and of their fractions of the total energy input `whole`. Amounts as small as rounding
+    errors are omitted.
     """
     rows = [
         (name, figure(value, digits), _share(value, whole))
@@ -527,7 +537,7 @@ def energy_table(head: str, amounts: Mapping[str, float], whole: float, digits: 
 
 
 def _parts(found: TorqueCycle) -> Iterator[Table]:
-    """Yield a table of the lost and transmitted energy of each pair, pin and bearing, the largest loss first."""
+    """Yield a table of the lost and transmitted energy of each pair, pin and bearing, in descending order of loss."""
     assert found.energy is not None
     lost = found.energy.lost
     rows = []

@@ -37,7 +37,7 @@ class TrainAnswers(Result):
     KEYS: ClassVar[tuple[str | Key, ...]] = ("name", "title", "unit", "mobility", "states")
 
     train: GearTrain
-    """Train that was solved; not included in the JSON data."""
+    """Train that was solved. It is not included in the JSON data."""
     mobility: Mobility | None
     """Mobility of the train; None if only one output was requested, because mobility needs all circuits."""
     states: tuple[Answer, ...]
@@ -55,23 +55,23 @@ class TrainAnswers(Result):
 
     @property
     def unit(self) -> str:
-        """Unit of the speeds; "" for numbers without a unit."""
+        """Unit of the speeds; an empty string for numbers without a unit."""
         return self.train.declaration.unit_name
 
 
 def collect_answers(train: GearTrain, answers: Iterable[Answer], whole: bool = True) -> TrainAnswers:
-    """Return the data of `geartrain solve`: speeds and outputs of a train, and its mobility if all of it is solved."""
+    """Return the data of `geartrain solve`: speeds and outputs of a train, and its mobility if `whole` is True."""
     return TrainAnswers(train, train.mobility if whole else None, tuple(answers))
 
 
 @dataclass(frozen=True)
 class AdjacencyLetters:
-    """Adjacency matrix of the links, with letters for turning pairs, gear pairs and couplings."""
+    """Adjacency matrix of the links. Its cells contain letters for turning pairs, gear pairs and couplings."""
 
     links: tuple[str, ...]
-    """Names of the links, in the order of rows and columns."""
+    """Names of the links, in the order of the rows and columns of the matrix."""
     cells: list[list[str]]
-    """Connections between two links, row by row: R is a turning pair, G a gear pair, C a coupling."""
+    """Connections between two links, row by row: R denotes a turning pair, G a gear pair, C a coupling."""
 
 
 @dataclass(frozen=True)
@@ -81,9 +81,9 @@ class StateSensitivity:
     KEYS = ("state", Key("", "change"))
 
     state: str | None
-    """Name of the state; None for a train without states."""
+    """Name of the state; None if the train has no states."""
     change: Sensitivity
-    """Relative changes of the output with one tooth fewer and one tooth more."""
+    """Relative change of the output if the wheel has one tooth fewer, and if it has one tooth more."""
 
 
 @dataclass(frozen=True)
@@ -110,7 +110,7 @@ class TrainReport(TrainAnswers):
     closure: MeshPhasing | None
     """Assembly condition: whether the teeth of every loop mesh at the declared positions; None without positions."""
     sources: Mapping[str, str]
-    """Full citation of each source, by its key."""
+    """Full citation of each source, keyed by the short name of the source."""
     circuits: tuple[Circuit, ...]
     """Fundamental circuit of each gear pair and coupling."""
     adjacency: AdjacencyLetters | None
@@ -134,7 +134,9 @@ class TrainReport(TrainAnswers):
     strength: tuple[Annotated[Any, WingResult("simulation", "TrainStrength")], ...]
     """Tooth strength in every state whose loads have units, if materials of wheels are declared."""
     motion: tuple[MotionFigures | UnfollowedMotion, ...]
-    """Motion in every state of a train with tooth forms or pins; an entry with `error` if it cannot be computed."""
+    """Motion in every state of a train with tooth forms or pins. An entry contains `error` if the motion cannot be
+    computed.
+    """
     errata: tuple[Erratum, ...]
     """Declared errors in the published sources."""
 

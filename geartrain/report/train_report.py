@@ -60,7 +60,7 @@ _SIDES = ("above", "below", "behind")  # viewing sides that are written without 
 
 
 def describe_train(found: TrainReport) -> Document:
-    """Return the report on a train: outputs, speeds, torques, strength and motion; then structure, fundamental
+    """Return the report on a train: outputs, speeds, torques, strength and motion, followed by structure, fundamental
     circuits, and errata of the published sources.
     """
     train, answers = found.train, found.states
@@ -84,7 +84,7 @@ def describe_answers(found: TrainReport) -> Document:
 
 
 def describe_in_short(train: GearTrain) -> Document:
-    """Return the verdict on a train with the table of its outputs or states, for a notebook."""
+    """Return a short document for a notebook: the verdict on a train and the table of its outputs or states."""
     answers, declared = list(train.answers()), train.declaration
     name = f"{declared.name}: {declared.title}" if declared.title else declared.name
     summary = [line for line in _summary(train, answers) if "Verdict:" in line or line.startswith("Speeds are")]
@@ -94,7 +94,9 @@ def describe_in_short(train: GearTrain) -> Document:
 
 
 def _details(found: TrainReport) -> Iterator[Section]:
-    """Yield the detail sections: formulas, structure, circuits, phase closure, matrix by names, errata and sources."""
+    """Yield the detail sections: formulas, structure, circuits, phase closure, adjacency matrix with names, errata and
+    sources.
+    """
     train, declared = found.train, found.train.declaration
     explained = True  # the notation of formulas is explained once
     for answer in found.states:
@@ -119,7 +121,9 @@ def _details(found: TrainReport) -> Iterator[Section]:
 
 
 def _answers(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Section]:
-    """Yield the outputs, targets and speeds of each state, preceded by tables of all states if the train has states."""
+    """Yield the sections on outputs, targets and speeds of each state. If the train has states, tables of all states
+    come first.
+    """
     box = _gearbox(train)
     if box is not None:
         from geartrain.report.gearbox_report import gearbox_sections
@@ -146,7 +150,9 @@ def _findings(train: GearTrain) -> Iterator[Section]:
 
 
 def _loaded(found: TrainReport) -> Iterator[Section]:
-    """Yield the sections on teeth, torques, strength and motion, whose modules are imported only if needed."""
+    """Yield the sections on teeth, torques, strength and motion. The modules of these sections are imported only if
+    needed.
+    """
     if found.teeth or found.pins:
         from geartrain.report.gear_pairs import teeth_sections
 
@@ -169,7 +175,7 @@ def _loaded(found: TrainReport) -> Iterator[Section]:
 
 
 def _fusees(train: GearTrain) -> Iterator[Section]:
-    """Yield a section on the torque of each spring with a fusee over its run."""
+    """Yield a section on the torque of each spring with a fusee, from the wound to the unwound state."""
     runs: dict[FuseeSpring, str | None] = {}
     for state in train.states or (None,):
         drive = train.declaration.case(state).drive
@@ -197,7 +203,9 @@ def _fusees(train: GearTrain) -> Iterator[Section]:
 
 
 def _gearbox(train: GearTrain) -> Gearbox | None:
-    """Return the train as a gearbox; None if it has no shift elements or no states, or is not a valid gearbox."""
+    """Return the train as a gearbox; None if the train has no clutches or brakes, has no states, or is not a valid
+    gearbox.
+    """
     try:
         return train.gearbox() if train.declaration.clutches and train.states else None
     except GearTrainError:
@@ -233,7 +241,7 @@ def _summary(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
 
 
 def source_line(key: str, source: Source) -> str:
-    """Return the full reference of a source with its key as one line of text."""
+    """Return one line of text with the key and the full reference of a source."""
     return f"Source {key}: {source.cite}" + (f" ({source.note})" if source.note else "") + "."
 
 
@@ -251,7 +259,9 @@ def _structure(train: GearTrain) -> Iterator[Section]:
 
 
 def _adjacency(train: GearTrain) -> Iterator[Section]:
-    """Yield the adjacency matrix with one letter in each cell; yield nothing if it is wider than a line."""
+    """Yield a section with the adjacency matrix, one letter per cell; yield nothing if the matrix is wider than
+    a line.
+    """
     links = list(train.declaration.links)
     if len(links) > _MOST_LETTERS:
         return
@@ -267,7 +277,7 @@ def _adjacency(train: GearTrain) -> Iterator[Section]:
 
 
 def _note(link: Link) -> str:
-    """Return the number of copies of a link and its declared note as a string."""
+    """Return a text with the number of copies of a link and its declared note."""
     number = f"{link.copies} equal copies" if link.copies > 1 else ""
     return "; ".join(filter(None, (number, link.note or "")))
 
@@ -307,7 +317,9 @@ def _circuits(train: GearTrain) -> Section:
 
 
 def _abreast(declared: Train, circuits: Sequence[Circuit]) -> Table:
-    """Return a table with one column for each fundamental circuit: its links, carrier, tooth counts and ratio."""
+    """Return a table with one column for each fundamental circuit, which contains its links, carrier, tooth counts and
+    ratio.
+    """
     from geartrain.teeth.coupling import coupling_model
 
     wheels = declared.wheels
@@ -339,7 +351,9 @@ def _circuits_in_short(train: GearTrain) -> str:
 
 
 def _mobility_lines(found: Mobility, held: Sequence[str] = ()) -> Iterator[str]:
-    """Yield sentences on mobility by count and by rank, redundant circuits, locked links, and links at rest."""
+    """Yield sentences on mobility (from the numbers of joints and from the rank of the equations), redundant circuits,
+    locked links, and links at rest (`held`).
+    """
     minus = f" - {plural(found.couplings, 'coupling')}" if found.couplings else ""
     slides = f" + {plural(found.sliding_pairs, 'sliding pair')}" if found.sliding_pairs else ""
     pairs = f"{plural(found.turning_pairs, 'turning pair')}{slides} - {plural(found.gear_pairs, 'gear pair')}{minus}"
@@ -376,7 +390,7 @@ def mobility_document(found: Mobility) -> Document:
 
 
 def _phasing(closure: MeshPhasing | None) -> Iterator[Section]:
-    """Yield a section on phase closure; yield nothing if axes have no positions or the pairs form no loop."""
+    """Yield a section on phase closure; yield nothing if the axes have no positions or the pairs do not form a loop."""
     if closure is None or closure.kind == "open":
         return
     rows = [(link, f"{degrees(angle):.6f}") for link, angle in closure.angles.items()]
@@ -389,7 +403,7 @@ def _phasing(closure: MeshPhasing | None) -> Iterator[Section]:
 
 
 def adjacency_table(train: GearTrain) -> Table:
-    """Return the adjacency matrix of links as a table, with R(axis) for turning pairs and ids for gear pairs and
+    """Return a table of the adjacency matrix of links, with R(axis) for turning pairs, and names for gear pairs and
     couplings.
     """
     names = list(train.declaration.links)
@@ -398,7 +412,7 @@ def adjacency_table(train: GearTrain) -> Table:
 
 
 def describe_adjacency(train: GearTrain) -> Document:
-    """Return a document with only the adjacency matrix of a train."""
+    """Return a document that contains only the adjacency matrix of a train."""
     return Document(f"Adjacency of {train.name}", (), (Section("Matrix", (), (adjacency_table(train),)),))
 
 
@@ -414,7 +428,9 @@ def describe_edges(train: GearTrain) -> Document:
 def describe_shared_page(
     found: TrainReport, pictures: Sequence[Picture] = (), viewer: str = "", notes: Sequence[str] = ()
 ) -> Document:
-    """Return the report on a train as a document for an HTML page, with pictures, viewer, badge and linked sources."""
+    """Return the report on a train as a document for an HTML page, with pictures, viewer, verdict badge and linked
+    sources.
+    """
     document, declared = describe_train(found), found.train.declaration
     badge, sound = _badge(found)
     wheels = tuple(_wheels_with_sources(declared))
@@ -429,7 +445,7 @@ def describe_shared_page(
 
 
 def _badge(found: TrainReport) -> tuple[str, bool]:
-    """Return the worst verdict on a train in a few words, and True if it is acceptable."""
+    """Return a pair: the worst verdict on a train in a few words, and True if this verdict is acceptable."""
     train, answers = found.train, found.states
     wrong = [answer for answer in answers if not answer.as_expected]
     if wrong:
@@ -445,7 +461,9 @@ def _badge(found: TrainReport) -> tuple[str, bool]:
 
 
 def _wheels_with_sources(declared: Train) -> Iterator[Section]:
-    """Yield a table of wheels with sources, status and notes; yield nothing if only tooth counts are declared."""
+    """Yield a section with a table of wheels, their sources, status and notes; yield nothing if only tooth counts are
+    declared.
+    """
     rows = []
     for name, (link, wheel) in declared.wheels.items():
         uncertainty = wheel.teeth if not isinstance(wheel.teeth, int) else None

@@ -34,23 +34,23 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class BentWheel:
-    """Flexible wheel of a strain wave gear in a layout, with the wave generator that deforms it."""
+    """Flexible wheel of a strain wave gear in a layout, and the wave generator that deforms the wheel."""
 
     wheel: str
     link: str
-    """Link that is the wave generator."""
+    """Name of the link that is the wave generator."""
     axis: str
     """Label of the axis of the wave generator."""
     offset: Vector
-    """Vector from the generator's axis to the wheel's declared axis [mm], which gives the amplitude and the direction
-    of the wave.
+    """Vector from the wave generator's axis to the declared axis of the wheel [mm]. It gives the amplitude and the
+    direction of the wave.
     """
     lobes: int
     """Number of lobes of the wave: the tooth count of the ring minus the tooth count of the flexible wheel."""
 
 
 def bent_wheels(train: GearTrain, layout: Layout) -> Iterator[BentWheel]:
-    """Yield all flexible wheels of a train that a wave generator deforms."""
+    """Yield every flexible wheel of a train that is deformed by a wave generator."""
     declared = train.declaration
     for gear in declared.gears:
         thin = next((name for name in gear.pair if declared.wheels[name][1].flexible), None)
@@ -70,8 +70,8 @@ def bent_wheels(train: GearTrain, layout: Layout) -> Iterator[BentWheel]:
 def bend(
     stage: SceneContext, bodies: Sequence[SceneBody], wheels: Sequence[SceneWheel]
 ) -> tuple[tuple[SceneBody, ...], tuple[SceneWheel, ...], tuple[SceneWave, ...]]:
-    """Return the bodies and wheels, with flexible wheels moved to the axes of their wave generators, and strain
-    waves.
+    """Return the bodies, the wheels and the strain waves. Flexible wheels are moved to the axes of their wave
+    generators.
     """
     bent, moved, waves = list(bodies), list(wheels), []
     for each in bent_wheels(stage.train, stage.layout):
@@ -88,7 +88,7 @@ def bend(
 
 
 Points = tuple[tuple[float, float], ...]
-"""Points of a flank or of a whole tooth: radius relative to the pitch radius, and angle [rad]."""
+"""Points of a flank or of a whole tooth. Each point is a radius divided by the pitch radius, and an angle [rad]."""
 
 FORM = "likeness"
 _PRESSURE = pi / 9
@@ -103,13 +103,15 @@ _LAND = 0.08  # minimum half width of a tip, divided by half a pitch
 
 
 def spur(z: int, height: float = ADDENDUM) -> ToothProfile:
-    """Return a nominal tooth of a wheel, at most `height` [modules] above the pitch circle."""
+    """Return the profile of a nominal tooth of an external wheel with z teeth, at most `height` [modules] above the
+    pitch circle.
+    """
     return ToothProfile(FORM, _tooth(z, min(ADDENDUM, height)))
 
 
 def ring(z: int, height: float = ADDENDUM) -> ToothProfile:
-    """Return a nominal tooth of an internal gear, `height` [modules] high, shaped like an external wheel's
-    tooth space.
+    """Return the profile of a nominal tooth, `height` [modules] high, of an internal gear with z teeth. The tooth has
+    the shape of the tooth space of an external wheel.
     """
     most = 1 + 2 * DEDENDUM / z
     # a tooth space of the ring is a tooth of an external wheel, higher and slightly wider
@@ -123,7 +125,7 @@ def ring(z: int, height: float = ADDENDUM) -> ToothProfile:
 
 
 def tooth_height(z: int, mate: int, within: bool) -> float:
-    """Return the maximum height of a tooth [modules] that does not touch the roots of a mate with few teeth.
+    """Return the maximum height [modules] of a tooth that does not touch the roots of a mate with few teeth.
 
     within   True if one of the two wheels is a ring; then the tips must also clear each other outside of the mesh
     """
@@ -151,7 +153,9 @@ def bevel(z: int, cone: float) -> ToothProfile:
 
 
 def crown(z: int, mate: int, section: Sequence[tuple[float, float]]) -> ToothProfile:
-    """Return a crown wheel's tooth with spaces slightly wider than its mate's tooth `section` (radius, angle [rad])."""
+    """Return the tooth profile of a crown wheel with z teeth. Its tooth spaces are slightly wider than the tooth
+    `section` (radius, angle [rad]) of its mate.
+    """
     import numpy as np
 
     r, angle = np.array([point for point in section if point[1] >= 0]).T
@@ -164,7 +168,9 @@ def crown(z: int, mate: int, section: Sequence[tuple[float, float]]) -> ToothPro
 
 
 def worm(starts: int, height: float) -> ToothProfile:
-    """Return the axial section of a worm's thread around its axis; `height` is the addendum over the pitch radius."""
+    """Return the axial section of a worm's thread as a tooth profile around the worm's axis; `height` is the addendum
+    divided by the pitch radius.
+    """
     half = pi / starts
     low, high = max(1 - DEDENDUM * height, _MINIMUM_ROOT), 1 + height
     flanks = [(low, -0.75 * half), (high, -0.25 * half), (high, 0.25 * half), (low, 0.75 * half)]
@@ -191,8 +197,8 @@ def _spread(low: float, high: float) -> list[float]:
 
 
 def _half(z: float, r: float) -> float:
-    """Return half the angular thickness [rad] of an involute tooth, undercut by a rack, at the radius `r` [pitch
-    radii].
+    """Return half the angular thickness [rad], at the radius `r` [pitch radii], of an involute tooth that a rack
+    undercuts. The wheel has `z` teeth.
     """
     base = cos(_PRESSURE)
     inner = 0.0 if r <= base else sqrt((r / base) ** 2 - 1) - acos(base / r)
@@ -202,7 +208,7 @@ def _half(z: float, r: float) -> float:
 
 
 def _swept(z: float, r: float) -> float:
-    """Return half the angle [rad] of the tooth space that the tips of a rack cut out, at `r` pitch radii from the axis.
+    """Return half the angle [rad], at the radius `r` [pitch radii], of the tooth space that the tips of a rack cut out.
 
     The rack's tip corner is at the distance `b` from the middle of the rack's tooth and at the height `c` above the
     wheel's axis. After a rotation of the wheel by u - b, the corner is displaced by u and is at the angle atan(u / c) -
@@ -225,7 +231,7 @@ def _mirrored(flank: list[tuple[float, float]], z: float) -> Points:
 
 
 def find_bodies(stage: SceneContext) -> tuple[SceneBody, ...]:
-    """Return the bodies of all links, in the order of declaration."""
+    """Return the bodies of all links, in the order in which the links are declared."""
     return tuple(_body(stage, link) for link in stage.train.declaration.links)
 
 
@@ -262,7 +268,9 @@ def _role(stage: SceneContext, link: str) -> str:
 
 
 def find_profiles(stage: SceneContext) -> tuple[dict[str, ToothProfile], tuple[Problem, ...]]:
-    """Return the tooth profile of every wheel, nominal if it cannot be cut as declared, and notices with reasons."""
+    """Return the tooth profile of every wheel, by name, and notices with reasons. A wheel that cannot be cut as
+    declared has a nominal profile.
+    """
     toothed = find_train_teeth(stage.train.mechanics, stage.layout.wheels)
     cut = {
         wheel: ToothProfile(each.form, each.section(), each.kind == "pins")
@@ -276,7 +284,9 @@ def find_profiles(stage: SceneContext) -> tuple[dict[str, ToothProfile], tuple[P
 
 
 def _notices(stage: SceneContext, toothed: TrainTeeth) -> Iterator[Problem]:
-    """Yield a notice for each reason why planar wheels are not drawn as cut, and each flexible wheel without a wave."""
+    """Yield a notice for each reason why planar wheels are not drawn as cut, and for each flexible wheel without a wave
+    generator.
+    """
     by_reason: dict[tuple[str, str, str, bool], list[str]] = {}
     for wheel, problems in toothed.problems.items():
         if wheel in toothed.flat:
@@ -321,7 +331,7 @@ def find_wheels(
 ) -> tuple[tuple[SceneWheel, ...], tuple[ToothProfile, ...]]:
     """Return all wheels in the order of declaration, and the tooth profiles to which the wheels refer.
 
-    profiles   tooth profile by wheel
+    profiles   tooth profile of each wheel, by name
     turns      angle [rad] of the first tooth of each wheel about the direction of its body
     """
     shared: dict[ToothProfile, int] = {}
@@ -386,8 +396,8 @@ def _wheel(
 
 
 def _helix(wheel: Declared, place: WheelPlace) -> float:
-    """Return the helix angle of teeth, or of a worm's thread, relative to the axis [rad]; it is positive for a
-    right-hand helix.
+    """Return the helix angle [rad] of a wheel's teeth, or of a worm's thread, relative to the axis. It is positive for
+    a right-hand helix.
     """
     if wheel.kind != "worm":
         return wheel.helix if wheel.is_helical else 0.0
@@ -397,20 +407,20 @@ def _helix(wheel: Declared, place: WheelPlace) -> float:
 
 
 def flip(stage: SceneContext, place: WheelPlace) -> int:
-    """Return -1 if the declared axis of a wheel is opposite to the reference direction of parallel axes,
-    otherwise 1.
+    """Return -1 if the declared axis of a wheel is opposite to the reference direction of the axes parallel to it;
+    return 1 if not.
     """
     return 1 if stage.along(place.axis) == stage.reference(place.axis) else -1
 
 
 def as_placed(stage: SceneContext, wheel: str) -> float:
-    """Return the angle of a wheel's first tooth about the reference direction in the layout [rad]."""
+    """Return the angle of a wheel's first tooth in the layout, about the reference direction of its axis [rad]."""
     place = stage.layout.wheels[wheel]
     return place.turn * flip(stage, place)
 
 
 def _uncertainty(wheel: Declared) -> str:
-    """Return the tooth counts that the evidence allows, as a string; empty for a certain count."""
+    """Return the tooth counts that the evidence allows for a wheel, as text; empty if the count is certain."""
     uncertainty = wheel.uncertainty
     if uncertainty is None:
         return ""
@@ -420,7 +430,9 @@ def _uncertainty(wheel: Declared) -> str:
 
 
 def _losses(stage: SceneContext) -> dict[str, float]:
-    """Return the fraction of the input power lost at each wheel, half the loss of its pairs; empty if unknown."""
+    """Return the fraction of the input power that is lost at each wheel, which is half the loss of its gear pairs;
+    empty if the losses are unknown.
+    """
     declared = stage.train.declaration
     if not stage.answer.verdict or not declared.is_loaded(stage.answer.state):
         return {}

@@ -1,12 +1,12 @@
 """Construction of the scene of a train: positions, outlines and motion of all its elements.
 
 The rotation of each wheel on its body brings teeth into contact as their transmission function requires in the zero
-pose. The transmission function of a pair gives the angles of both wheels at the angle of its driver, so that a
-traversal from wheel to wheel determines all angles. If a wheel has several mates, one pair is exact; in each other
-pair the driven wheel is rotated until its driver does not interfere with it at any position.
+pose. The transmission function of a pair gives the angle of the driven wheel for each angle of the driver, so that a
+traversal from wheel to wheel determines all angles. If a wheel has several mates, only one of its pairs is exact. In
+each of its other pairs, the driven wheel is rotated until the driver does not interfere with it at any position.
 
-Speeds are available as exact functions of tooth counts, for pages on which counts are changed. Equal planets share one
-count.
+Speeds are available as exact functions of tooth counts, for pages on which the tooth counts can be changed. Equal
+planets share one tooth count.
 """
 
 from __future__ import annotations
@@ -62,11 +62,12 @@ _NONE = 1e-9  # mm, or relative to a unit vector: smaller differences are roundi
 
 
 def mesh_directions(stage: SceneContext, circuit: Circuit) -> tuple[tuple[Vector, Vector], int] | None:
-    """Return the directions of contact of a pair and its sense; None for screw pairs and for coaxial wheels.
+    """Return the two directions of contact of a gear pair and its sense (1 or -1); None for screw pairs and coaxial
+    wheels.
 
     The directions are the unit vectors from the centres of the wheels to the point of contact, perpendicular to their
-    axes. The sense is 1 if positive rotations of both wheels move the teeth in contact in the same direction, otherwise
-    -1.
+    axes. The sense is 1 if positive rotations of both wheels move the teeth in contact in the same direction, and -1 if
+    they move them in opposite directions.
     """
     one, other = (stage.train.declaration.wheels[name][1] for name in circuit.wheels)
     first, second = (stage.layout.wheels[name] for name in circuit.wheels)
@@ -87,10 +88,10 @@ _ROUNDS = 4
 
 
 def phase_wheels(stage: SceneContext, moved: MovementStart) -> tuple[dict[str, float], tuple[Problem, ...]]:
-    """Return the angle of the first tooth of every wheel at which its teeth mesh with its mates, and notices.
+    """Return the angle of the first tooth of every wheel, chosen so that its teeth mesh with its mates, and notices.
 
     Each angle [rad] is about the direction of the wheel's body, from the reference direction of the wheel. A wheel
-    without mates has its angle in the layout.
+    without mates keeps its angle from the layout.
     """
     found = _Mounting(stage, moved)
     # pairs with a transmission function, then pairs with a declared phase, because their angles are not free
@@ -121,7 +122,9 @@ class _Mounting:
                     self.mates.setdefault(wheel, []).append(circuit)
 
     def spread(self, first: Circuit) -> None:
-        """Place the wheels that meshes connect with a pair, by breadth-first search, unless already placed."""
+        """Rotate into mesh, by breadth-first search, all wheels that meshes connect with a given pair. Wheels that
+        already have an angle are not changed.
+        """
         if any(wheel in self.turns for wheel in first.wheels):
             return
         at, setting = self._driver(first), self.moved.driving.get(first.id)
@@ -143,7 +146,9 @@ class _Mounting:
                     queue.append(mate)
 
     def _mesh(self, circuit: Circuit, own: int) -> None:
-        """Place the mate of a wheel that is already placed."""
+        """Rotate the mate of a wheel into mesh with this wheel, which already has an angle; `own` is its index in the
+        pair.
+        """
         position = driving = self._position(circuit, own)
         if own == self._driver(circuit):
             self._set(circuit, 1 - own, position + self._ahead(circuit, position))
@@ -156,7 +161,7 @@ class _Mounting:
             self.off.append(circuit.id)
 
     def _shift(self, circuit: Circuit, position: float) -> float:
-        """Return the distance by which a driver's tooth is ahead of the phase that its transmission function requires
+        """Return the distance by which the driver's tooth is ahead of the phase that the transmission function requires
         [pitches, -1/2 to 1/2].
         """
         setting = self.moved.driving.get(circuit.id)
@@ -167,8 +172,8 @@ class _Mounting:
         return shift if abs(shift) > _NEAR else 0.0
 
     def _ahead(self, circuit: Circuit, position: float | None = None) -> float:
-        """Return the distance by which the driven wheel's tooth is ahead of the driver's, in the sense of rotation
-        [pitches].
+        """Return the distance by which the driven wheel's tooth is ahead of the driver's tooth, in the sense of
+        rotation [pitches].
 
         position   position of the driver's tooth [pitches]; if it is off the phase of the transmission function, the
                    driven tooth is advanced until the driver does not interfere with it at any position
@@ -191,7 +196,7 @@ class _Mounting:
         return phase + error / self._pitch(circuit.wheels[1 - driver])
 
     def _driver(self, circuit: Circuit) -> int:
-        """Return the index of the driving wheel, 0 or 1."""
+        """Return the index of the driving wheel in a pair, 0 or 1."""
         setting = self.moved.driving.get(circuit.id)
         if setting is not None:
             return int(setting.driver != circuit.i)
@@ -199,14 +204,14 @@ class _Mounting:
         return 0 if mesh is None else circuit.wheels.index(mesh.driver)
 
     def _position(self, circuit: Circuit, at: int) -> float:
-        """Return the initial position of a placed wheel's first tooth, counted forwards from the contact point
-        [pitches].
+        """Return the initial position of the first tooth of a wheel that already has an angle, measured forwards from
+        the contact point [pitches].
         """
         wheel = circuit.wheels[at]
         return self._way(circuit, at) * (self.turns[wheel] - self._zero(circuit, at)) / self._pitch(wheel)
 
     def _set(self, circuit: Circuit, at: int, position: float) -> None:
-        """Place a wheel with a tooth at a given position [pitches]."""
+        """Rotate a wheel so that one of its teeth is at a given position [pitches]."""
         wheel = circuit.wheels[at]
         pitch = self._pitch(wheel)
         self.turns[wheel] = (self._zero(circuit, at) + self._way(circuit, at) * (position % 1) * pitch) % (2 * pi)
@@ -219,7 +224,9 @@ class _Mounting:
         return azimuth(self.meetings[circuit.id][0][at], axis, place.reference) - rest
 
     def _way(self, circuit: Circuit, at: int) -> int:
-        """Return 1 if a wheel turns in the positive sense about its body's direction, otherwise -1."""
+        """Return 1 if a wheel turns in the positive sense about the direction of its body, and -1 if it turns in the
+        negative sense.
+        """
         driver, setting = self._driver(circuit), self.moved.driving.get(circuit.id)
         links = (circuit.i, circuit.j)[driver], circuit.carrier
         own, base = (self.stage.sense(link) * (self.stage.speed(link) or 0) for link in links)
@@ -230,7 +237,7 @@ class _Mounting:
         return 2 * pi / (self.stage.train.declaration.wheels[wheel][1].count or 1)
 
     def notices(self) -> Iterator[Problem]:
-        """Yield notices on teeth that are drawn out of phase."""
+        """Yield notices on pairs whose teeth are drawn out of phase."""
         if self.off:
             yield Problem(
                 f"the teeth of {', '.join(self.off)} are drawn out of phase",
@@ -253,8 +260,8 @@ def find_count_formulas(
     wheels: Sequence[SceneWheel],
     pointers: Sequence[Pointer],
 ) -> SceneFormulas | None:
-    """Return speeds as functions of tooth counts; None if no link is driven or no wheel has a count, or if the formulas
-    would be too large.
+    """Return the speeds as functions of tooth counts. The result is None if no link is driven, if no wheel has a tooth
+    count, or if the formulas would be too large.
     """
     declared, unfolded = train.declaration, train.unfolded
     case = declared.case(state)
@@ -293,7 +300,9 @@ def _name(requested: tuple[str, str]) -> str:
 
 
 def _with_outputs(train: Train, state: str | None, requested: Sequence[tuple[str, str]]) -> Train:
-    """Return the train with its outputs replaced by speeds of links relative to other links."""
+    """Return the train with its outputs replaced by the speeds of links, each relative to another link. `requested`
+    contains pairs of names (link, reference link).
+    """
     outputs = FrozenDict({_name(each): Output(of=each[0], relative_to=each[1]) for each in requested})
     states = {
         name: each.changed(outputs=FrozenDict({})) if name == state else each for name, each in train.states.items()
@@ -319,7 +328,7 @@ def _parent(train: Train) -> str:
 
 
 class _Table:
-    """Distinct formulas of a scene, each with its index."""
+    """Table of the distinct formulas of a scene, in which each formula has an index."""
 
     def __init__(self, place: Mapping[str, int]) -> None:
         self.place = place  # index of the count of each wheel

@@ -1,4 +1,4 @@
-"""Context of a scene: a train in one state, its layout, and the indices of its bodies and wheels."""
+"""Context of a scene: a train in one state, the layout of the train, and the indices of its bodies and wheels."""
 
 from __future__ import annotations
 
@@ -29,13 +29,17 @@ _MOST_LINKS = 100  # maximum number of links used as outputs
 
 @dataclass(frozen=True)
 class SceneContext:
-    """Train in one state with its layout, as the input of all parts of a scene, with indices of bodies and wheels."""
+    """Train in one state with its layout and the indices of its bodies and wheels. It is the input for all parts of a
+    scene.
+    """
 
     train: GearTrain
     answer: Answer
     layout: Layout
     set_angles: Mapping[str, float] = field(default_factory=dict)
-    """Angles of links at 0 turns that follow from the epoch [rad]; they replace the declared starting angles."""
+    """Angles of links at 0 turns of the driving link that follow from the epoch [rad]. They replace the declared
+    starting angles.
+    """
 
     @cached_property
     def case(self) -> StateCase:
@@ -44,7 +48,7 @@ class SceneContext:
 
     @cached_property
     def outputs(self) -> Mapping[str, Output]:
-        """Outputs declared in the state, or the first 100 links of a train without declared outputs."""
+        """Outputs declared in the state; for a train without declared outputs, the speeds of its first 100 links."""
         from geartrain.train import Output
 
         declared = self.train.declaration
@@ -73,13 +77,13 @@ class SceneContext:
         return None if link in self.train.declaration.sliding else link
 
     def speed(self, link: str) -> Fraction | None:
-        """Return the exact speed of a link at the declared inputs; None if it is not determined."""
+        """Return the exact speed of a link at the declared input speeds; None if the speed is not determined."""
         found = self.answer.speeds.get(link)
         return None if found is None else Fraction(found)
 
     def ratio(self, link: str) -> Fraction | None:
-        """Return the exact speed of a link divided by the speed of the driving link; None if it is not determined or if
-        no link is driven.
+        """Return the exact speed of a link divided by the speed of the driving link; None if the speed is not
+        determined, or if no link is driven.
         """
         found = self.speed(link)
         if found is None or self.driving_link is None:
@@ -87,8 +91,8 @@ class SceneContext:
         return found / self.case.inputs[self.driving_link]
 
     def shown(self, speed: Fraction | None, link: str) -> str | None:
-        """Return the speed of a link as a string with its unit if the link slides, exact if the inputs are exact and
-        otherwise rounded; None if the speed is None.
+        """Return a speed of a link as text, exact if the inputs are exact, and rounded if not. The unit is included if
+        the link slides. The result is None if the speed is None.
         """
         if speed is None:
             return None
@@ -96,8 +100,8 @@ class SceneContext:
         return text + self._unit(link)
 
     def rounded(self, speed: Fraction | None, link: str) -> str:
-        """Return the speed of a link as a decimal string, with its unit if the link slides; empty if the speed
-        is None.
+        """Return a speed of a link as a decimal number in text form. The unit is included if the link slides. The text
+        is empty if the speed is None.
         """
         return "" if speed is None else decimal(speed) + self._unit(link)
 
@@ -105,22 +109,24 @@ class SceneContext:
         return " mm" if link in self.train.kinematics.tree.lines else ""
 
     def sense(self, link: str) -> int:
-        """Return -1 if a link's axis is opposite to the reference direction of its parallel axes, otherwise 1."""
+        """Return the sense of a link's axis: -1 if it is opposite to the reference direction of the axes parallel to
+        it, 1 if not.
+        """
         return self.train.kinematics.signs.get(link, 1)
 
     def start(self, link: str) -> float:
-        """Return the starting angle of a link [rad], which follows from the epoch or is declared; the default is 0."""
+        """Return the starting angle of a link [rad], which follows from the epoch or is declared; 0 by default."""
         angle = self.train.declaration.links[link].angle
         return self.set_angles.get(link, 0.0 if angle is None else angle.si)
 
     def along(self, axis: str | None) -> Vector:
-        """Return the declared unit direction of an axis; z if the axis is not in the layout."""
+        """Return the declared unit direction of an axis; z if the axis is None or not in the layout."""
         place = self.layout.axes.get(axis or "")
         return _Z if place is None else unit_or_z(place.direction)
 
     def line(self, axis: str) -> Vector:
-        """Return the unit direction in which links slide on an axis. It is the declared direction, the axis of a screw,
-        the vertical for the weight of a drum, which falls as the train runs, or otherwise x.
+        """Return the unit direction in which links slide on an axis. It is the declared direction, or the axis of a
+        screw, or vertical for the weight of a drum, which falls as the train turns. In all other cases it is x.
         """
         declared = self.train.declaration.axes.get(axis)
         if declared is not None and "direction" in declared.model_fields_set:
@@ -141,8 +147,8 @@ class SceneContext:
         return (0.0, 1.0 if (self.speed(drum.slides) or 0) < 0 else -1.0, 0.0)
 
     def reference(self, axis: str | None) -> Vector:
-        """Return the unit direction of an axis, reversed if opposite to z or to the first declared axis
-        parallel to it.
+        """Return the unit direction of an axis. It is reversed if it is opposite to z or to the first declared axis
+        that is parallel to it.
         """
         own = self.along(axis)
         # the frame (z) first, so that signs are relative to it where possible
@@ -155,7 +161,7 @@ class SceneContext:
 
     @cached_property
     def step(self) -> Fraction:
-        """Turns of the driving link per time unit of the input (one minute for `100 rpm`); 1 if none is driven."""
+        """Turns of the driving link per time unit of the input (one minute for `100 rpm`); 1 if no link is driven."""
         if self.driving_link is None:
             return Fraction(1)
         declared = self.train.declaration
@@ -164,14 +170,12 @@ class SceneContext:
 
     @cached_property
     def meshes(self) -> tuple[GearMesh, ...]:
-        """Gear pairs with their computed tooth geometry; empty if it cannot be computed, for the reasons in
-        `unbuilt`.
-        """
+        """Gear pairs with their computed tooth geometry; empty if the geometry cannot be computed (see `unbuilt`)."""
         return self._built[0]
 
     @property
     def unbuilt(self) -> tuple[Problem, ...]:
-        """Reasons why the tooth geometry cannot be computed; empty if it can."""
+        """Reasons why the tooth geometry cannot be computed; empty if it can be computed."""
         return self._built[1]
 
     @cached_property
@@ -188,10 +192,10 @@ class SceneContext:
 
 
 def exact(value: Fraction | None) -> str | None:
-    """Return a ratio as an exact string; None if the ratio is None."""
+    """Return a ratio as exact text, such as `-254/19`; None if the ratio is None."""
     return None if value is None else fraction_text(value)
 
 
 def packed_key(name: str, kind: Literal["<f8", "<f4", "<u4"] = "<f8") -> Key:
-    """Return the key of an array that is stored as base64 text of little-endian numbers of the given type."""
+    """Return the key of an array of little-endian numbers of the given type, which is stored as base64 text."""
     return Key(name, ".", to=lambda result: packed(getattr(result, name), kind))

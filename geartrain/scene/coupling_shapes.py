@@ -1,8 +1,9 @@
 """Shapes of couplings other than pins: belts on pulleys, boxes, non-circular wheels, cams, Geneva drives, stars, racks,
 screws, drums and universal joints.
 
-Each shape is a flat or turned part of one body in the zero pose, in which all angles are 0. The outlines of wheels that
-roll, and of cams, follow from the transmission function of the coupling. Undeclared sizes are chosen for the picture.
+Each shape is a flat or turned part of one body in the zero pose, in which all angles are 0. The outlines of
+non-circular wheels and of cams follow from the transmission function of the coupling. Undeclared sizes are chosen for
+the picture.
 """
 
 from __future__ import annotations
@@ -32,15 +33,17 @@ _GAP = 1.5  # distance between shapes and wheels along the axis [mm]
 
 @dataclass(frozen=True)
 class _CouplingPlace:
-    """Coupling with one of its circuits, placed between two axes of the layout."""
+    """Coupling with one of its circuits, positioned between two axes of the layout."""
 
     stage: SceneContext
     declared: Any
     circuit: Circuit
     axis: Vector
-    """Unit vector of the reference direction of both axes."""
+    """Unit vector along both axes, in their reference direction."""
     driver_at: Vector
-    """Point on the axis of the driver at the height of the shapes [mm]; `driven_at` is the point of the driven side."""
+    """Point on the driver's axis at the height of the shapes [mm]; `driven_at` is the corresponding point on the driven
+    link's axis.
+    """
     driven_at: Vector
 
     @property
@@ -50,18 +53,20 @@ class _CouplingPlace:
 
     @property
     def towards(self) -> Vector:
-        """Unit vector from the driver's axis to the driven axis."""
+        """Unit vector from the driver's axis to the driven link's axis."""
         return unit_or_z(minus(self.driven_at, self.driver_at)) if self.apart > _NONE else beside_axis(self.axis)
 
     @property
     def sense(self) -> int:
-        """1 if driver and driven side turn in the same sense on average, -1 if not."""
+        """1 if the driver and the driven link turn in the same sense on average, -1 if in opposite senses."""
         return -1 if self.circuit.ratio < 0 else 1
 
     def flat(
         self, link: str, kind: str, at: Vector, towards: Vector, *outlines: Sequence[Point], height: float = _THICK
     ) -> ScenePart:
-        """Return a flat part of a link, with its outlines about `at` and the x axis `towards`."""
+        """Return a flat part of a link. Its outlines are relative to the point `at`, and its x axis has the direction
+        `towards`.
+        """
         lines = [[value for point in line for value in point] for line in outlines]
         name, body = f"{self.circuit.id} {kind}", self.stage.body[link]
         return ScenePart(body, name, kind, at, self.axis, across(towards, self.axis), (), lines, height)
@@ -69,18 +74,22 @@ class _CouplingPlace:
     def turned(
         self, link: str, kind: str, at: Vector, radius: float, low: float, high: float, way: Vector | None = None
     ) -> ScenePart:
-        """Return a cylinder of a link along the axis, or along `way`, from `low` to `high` relative to `at`."""
+        """Return a cylindrical part of a link, from `low` to `high` [mm] relative to the point `at`, along the axis or
+        along `way` if it is given.
+        """
         direction = self.axis if way is None else way
         name, body = f"{self.circuit.id} {kind}", self.stage.body[link]
         return ScenePart(body, name, kind, at, direction, beside_axis(direction), ((low, high, radius, 0.0),))
 
     def rod(self, link: str, to: str, at: Vector, way: Vector, length: float, radius: float) -> SceneHanger:
-        """Return a rod or a rope from a point of one link along `way` to a point of another link."""
+        """Return a rod or rope that extends along `way` from the point `at` of one link to a point of the link `to`."""
         body = self.stage.body
         return SceneHanger("rod", body[link], at, self.axis, way, length, 0.0, radius, to=body[to])
 
     def guides(self, at: Vector, way: Vector, aside: float, reach: float) -> Iterator[ScenePart]:
-        """Yield two bars on the carrier along a slide, on both sides of its line and at the distance `aside` [mm]."""
+        """Yield two guide bars on the carrier, parallel to a slide, at the distance `aside` [mm] on both sides of its
+        line.
+        """
         up, high = cross(self.axis, way), 0.15 * aside
         for side in (1, -1):
             bar = _bar((-reach, 0.0), (reach, 0.0), 2 * high)
@@ -94,7 +103,9 @@ def beside_axis(axis: Vector) -> Vector:
 
 
 def find_shapes(stage: SceneContext) -> tuple[tuple[ScenePart, ...], tuple[SceneHanger, ...]]:
-    """Return the shapes of all couplings other than pins, in the order of declaration, and their rods and ropes."""
+    """Return the shapes of all couplings other than pins in slots or holes, in the order of declaration, and their rods
+    and ropes.
+    """
     circuits = {circuit.id: circuit for circuit in stage.train.circuits}
     found: list[ScenePart] = []
     rods: list[SceneHanger] = []
@@ -111,7 +122,9 @@ def find_shapes(stage: SceneContext) -> tuple[tuple[ScenePart, ...], tuple[Scene
 
 
 def _placed(stage: SceneContext, coupling: Coupling, circuit: Circuit, level: int) -> _CouplingPlace:
-    """Return a coupling with points on both axes at one height, above all wheels of the scene."""
+    """Return a coupling with one point on each of its axes. Both points are at one height, above all wheels of the
+    scene.
+    """
     tree = stage.train.kinematics.tree
     labels = tree.axis_seen_from(circuit.carrier, circuit.j), tree.axis_seen_from(circuit.carrier, circuit.i)
     axis = stage.reference(labels[0])
@@ -130,7 +143,9 @@ def _placed(stage: SceneContext, coupling: Coupling, circuit: Circuit, level: in
 
 
 def circle(radius: float, centre: Point = (0.0, 0.0), start: float = 0.0, sweep: float = 2 * pi) -> list[Point]:
-    """Return points on a circle, or on an arc of `sweep` from `start` [rad] including both ends."""
+    """Return points on a circle, or on an arc that begins at the angle `start` and spans `sweep` [rad], including both
+    ends.
+    """
     whole = abs(abs(sweep) - 2 * pi) < _NONE
     count = max(ceil(abs(sweep) / _ARC), 2)
     angles = [start + sweep * at / count for at in range(count + (not whole))]
@@ -151,7 +166,7 @@ def _bar(start: Point, end: Point, width: float) -> list[Point]:
 
 
 def toothed(teeth: int, module: float) -> list[Point]:
-    """Return the outline of a wheel with trapezoidal teeth; a tooth is at angle 0."""
+    """Return the outline of a wheel with trapezoidal teeth, one of which is at angle 0."""
     radius, found = teeth * module / 2, []
     tip, root, pitch = radius + module, max(radius - 1.25 * module, 0.3 * radius), 2 * pi / teeth
     for at in range(teeth):
@@ -165,7 +180,7 @@ def _polar(radii: Sequence[float], angles: Sequence[float]) -> list[Point]:
 
 
 def millimetres_of(length: Quantity | None, default: float) -> float:
-    """Return a declared length [mm], or the default for a length that is not declared or has no unit."""
+    """Return a declared length [mm], or `default` if the length is not declared or has no unit."""
     return default if length is None or length.unit is None else 1000 * length.si
 
 
@@ -173,7 +188,7 @@ def millimetres_of(length: Quantity | None, default: float) -> float:
 
 
 def _box(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
-    """Yield the housing of a coupling that is known by its ratio, and its two shafts with flanges."""
+    """Yield the housing of a coupling for which only the ratio is known, and its two shafts with flanges."""
     place = places[0]
     half = 8.0 + 0.2 * place.apart
     holes = [circle(0.09 * half, (0.38 * half * x, 0.38 * half * y)) for x, y in ((1, 0), (0, 1), (-1, 0), (0, -1))]
@@ -188,8 +203,8 @@ def _box(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
 
 
 def _belt(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
-    """Yield the pulleys of a belt, and the straight parts and arcs of the belt, which are fixed to the carrier; the
-    belt is omitted if a pulley idles.
+    """Yield the pulleys of a belt, and the straight parts and arcs of the belt, which are fixed to the carrier. The
+    belt is omitted if one of its pulleys idles.
     """
     first = places[0]
     ends = (first.circuit.j, *(place.circuit.i for place in places))
@@ -213,7 +228,9 @@ def _belt(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
 
 
 def _is_idle(stage: SceneContext, link: str) -> bool:
-    """Return True if a link turns with one coupling only, and the clutches that could lock it are open in the state."""
+    """Return True if a link turns with only one coupling, and every clutch that could lock the link is open in the
+    state.
+    """
     declared, case = stage.train.declaration, stage.case
     clutches = {name: each for name, each in declared.clutches.items() if link in (*(each.locks or ()), each.fixes)}
     locked = any(name in case.engaged or each.one_way for name, each in clutches.items())
@@ -240,10 +257,12 @@ def _pulley_radii(stage: SceneContext, declared: Any, ends: Sequence[str], flat:
 def belt_outlines(
     centres: Sequence[Point], radii: Sequence[float], senses: Sequence[int], width: float
 ) -> Iterator[list[Point]]:
-    """Yield the outlines of the parts of a closed belt: for each pulley its arc, then the straight part to the next.
+    """Yield the outlines of the parts of a closed belt: for each pulley, its arc and the straight part to the next
+    pulley.
 
-    The belt passes the pulleys in the order given. `senses` is 1 for pulleys that turn in the sense of the first
-    pulley, and -1 for pulleys touched by the other side of the belt. Straight parts are common tangents of two circles.
+    The belt passes the pulleys in the given order. `senses` is 1 for pulleys that turn in the sense of the first
+    pulley, and -1 for pulleys that the outer face of the belt touches. Straight parts are common tangents of two
+    circles.
     """
     count = len(centres)
     # centres in order of a positive turn about the first pulley, otherwise the belt would run round them backwards
@@ -276,7 +295,7 @@ def belt_outlines(
 
 
 def _rolling(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
-    """Yield two non-circular wheels that roll on each other without slip, from their transmission function.
+    """Yield two non-circular wheels that roll on each other without slip, computed from their transmission function.
 
     At the driver's angle S, the radii are C q'/(1 + q') and C/(1 + q'), with the axis distance C and the speed ratio
     q'.
@@ -306,7 +325,7 @@ def _drilled(
 
 
 def _cam(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
-    """Yield a cam and its follower arm with a roller, whose angle follows the transmission function."""
+    """Yield a cam and its follower arm with a roller. The angle of the arm follows the transmission function."""
     import numpy as np
 
     place = places[0]
@@ -338,7 +357,7 @@ def _cam(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
 
 
 def _geneva(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
-    """Yield the cross or star of a Geneva drive with its slots, and the driver with pins and locking disc."""
+    """Yield the slotted cross or star of a Geneva drive, and the driver with its pins and locking disc."""
     place = places[0]
     n, C, internal = place.declared.slots, place.apart, place.declared.internal
     r, pin = C * sin(pi / n), 0.035 * C
@@ -362,13 +381,17 @@ def _geneva(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
 
 
 def _slot(angle: float, far: float, near: float, half: float) -> list[Point]:
-    """Return the outline of a radial slot of width 2 `half` with its opening at radius `near`, as points in order."""
+    """Return the points, in order, of the outline of a radial slot of half width `half`, from its closed end at radius
+    `far` to its opening at radius `near`.
+    """
     corners = ((near, -half), (far, -half), (far, half), (near, half))
     return [(x * cos(angle) - y * sin(angle), x * sin(angle) + y * cos(angle)) for x, y in corners]
 
 
 def _cross(n: int, C: float, r: float, pin: float) -> list[Point]:
-    """Return the outline of a Geneva cross with a slot at angle 0; locking arcs are between its slots."""
+    """Return the outline of a Geneva cross with `n` slots of half width `pin`, one of them at angle 0, and with locking
+    arcs between the slots. `C` is the axis distance and `r` the radius of the driving pin's path [mm].
+    """
     rim, bottom, lock = C * cos(pi / n), C - r - 1.5 * pin, r - 2.0 * pin
     found: list[Point] = []
     for at in range(n):
@@ -390,7 +413,9 @@ def _cross(n: int, C: float, r: float, pin: float) -> list[Point]:
 
 
 def _star(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
-    """Yield a star with its teeth, and fingers on the driver that move it; teeth that engage are drawn as points."""
+    """Yield a star wheel with its teeth, and the driver with the fingers that move the star; teeth that engage are
+    drawn pointed.
+    """
     place = places[0]
     z, C = place.declared.teeth, place.apart
     reach = 0.62 * C
@@ -408,13 +433,13 @@ def _star(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
 
 
 def _along_slide(place: _CouplingPlace) -> Vector:
-    """Return the unit vector along which the sliding link of a coupling travels."""
+    """Return the unit vector of the direction in which the sliding link of a coupling travels."""
     circuit, tree = place.circuit, place.stage.train.kinematics.tree
     return place.stage.line(tree.axis_seen_from(circuit.carrier, circuit.i))
 
 
 def _rack(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
-    """Yield a pinion, and a rack on the sliding link that is tangent to its pitch circle."""
+    """Yield a pinion, and a rack on the sliding link. The rack is tangent to the pitch circle of the pinion."""
     place = places[0]
     declared, way = place.declared, _along_slide(place)
     z = declared.teeth or 18
@@ -438,7 +463,7 @@ def _rack(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
 
 
 def _screw(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
-    """Yield a threaded rod on the turning link, as collars one lead apart, and a nut on the sliding link."""
+    """Yield a threaded rod on the turning link, drawn as collars one lead apart, and a nut on the sliding link."""
     place = places[0]
     declared = place.declared
     lead = millimetres_of(declared.lead, 4.0)
@@ -462,8 +487,8 @@ def _screw(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
 
 
 def _drum(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart | SceneHanger]:
-    """Yield a drum, the falls of rope that leave it, and the weight of the sliding link, with its pulley if there are
-    several falls.
+    """Yield a drum, the falls of rope that leave it, and the weight of the sliding link. If there are several falls,
+    the weight has a pulley.
     """
     place = places[0]
     declared, way = place.declared, _along_slide(place)
@@ -485,7 +510,9 @@ def _drum(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart | SceneHanger]
 
 
 def _slider(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart | SceneHanger]:
-    """Yield the crank of a crank slider with its pin, its rod, and the block of the sliding link between its guides."""
+    """Yield the crank of a slider-crank with its pin, the connecting rod, and the block of the sliding link between its
+    guides.
+    """
     place = places[0]
     declared, way = place.declared, _along_slide(place)
     radius, rod = (millimetres_of(length, 10.0) for length in (declared.radius, declared.rod))
@@ -504,7 +531,9 @@ def _slider(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart | SceneHange
 
 
 def _universal(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
-    """Yield two shafts with forks at the point where their axes meet, with the pins of the forks at right angles."""
+    """Yield two shafts with forks at the point where their axes intersect. The pins of the two forks are at right
+    angles.
+    """
     place = places[0]
     stage, circuit = place.stage, place.circuit
     tree = stage.train.kinematics.tree
@@ -539,7 +568,7 @@ def _universal(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
 def _fork(
     stage: SceneContext, name: str, link: str, centre: Vector, way: Vector, pin: Vector, wide: float
 ) -> ScenePart:
-    """Return a fork with two prongs, which hold the ends of the pin on both sides of the centre."""
+    """Return a fork with two prongs, which hold the ends of the pin on the two sides of the centre."""
     a, b = 0.7 * wide, 0.45 * wide
     outline = [(-0.2 * wide, b), (0.7 * wide, b), (0.7 * wide, -b), (-0.2 * wide, -b)]
     outline += [(-0.2 * wide, -a), (1.1 * wide, -a), (1.1 * wide, a), (-0.2 * wide, a)]
@@ -561,4 +590,4 @@ _SHAPES: Mapping[str, Callable[[Sequence[_CouplingPlace]], Iterator[Any]]] = {
     "crank_slider": _slider,
     "universal_joint": _universal,
 }
-"""Function that yields the shapes of each kind of coupling."""
+"""Function that yields the shapes of a coupling, for each kind of coupling."""

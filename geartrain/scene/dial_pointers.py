@@ -1,5 +1,5 @@
-"""Dials with the position and direction of their scales, and pointers with their readings and the pairs on which they
-depend.
+"""Dials with the positions and directions of their scales, and pointers with their readings and the gear pairs on which
+each reading depends.
 
 An output depends on the pairs whose errors would change it; this dependence is computed exactly. An error in one pair
 is a right-hand side in the row of that pair. Its effect on an output is the weight of that row in the only combination
@@ -7,7 +7,8 @@ of rows that gives the output, so that one elimination of the transposed system 
 mean speed of a pin follower, which oscillates, does not depend on the speed of its pin, but its position does: the
 pairs that turn the pin are included too.
 
-The module also gives dates of the driving link's turns, and the mean motions that pointers should show.
+The module also computes the date for a number of turns of the driving link, and the mean motions that pointers should
+show.
 """
 
 from __future__ import annotations
@@ -50,8 +51,8 @@ _BUDGET = 4_000_000  # maximum number of operations of the elimination
 def find_dependence(stage: SceneContext) -> Mapping[str, tuple[str, ...]]:
     """Return the names of the pairs and couplings on which each output depends, in order from the input.
 
-    All meshes in parallel, such as several planets between two wheels, are included. The result is empty for a train
-    that does not move, or whose system is too dense to be eliminated.
+    All parallel meshes, such as those of several planets between two wheels, are included. The result is empty for a
+    train that does not move, or whose system is too dense to be eliminated.
     """
     if not stage.answer.verdict:
         return {}
@@ -73,7 +74,9 @@ def find_dependence(stage: SceneContext) -> Mapping[str, tuple[str, ...]]:
 
 
 def _with_swings(used: set[str], swings: Mapping[str, set[str]]) -> set[str]:
-    """Return the pairs on which an output depends, with the pairs that turn the pins of its pin followers."""
+    """Return the names of the pairs on which an output depends, extended by the pairs that turn the pins of its pin
+    followers.
+    """
     found, left = set(used), set(swings)
     # repeated, because another follower may turn the link of a pin
     while met := found & left:
@@ -83,14 +86,16 @@ def _with_swings(used: set[str], swings: Mapping[str, set[str]]) -> set[str]:
 
 
 def _seen(stage: SceneContext, of: str, base: str) -> dict[str, int]:
-    """Return the speed of a link relative to another as a linear combination of declared speeds."""
+    """Return the speed of the link `of` relative to the link `base`: coefficients of declared speeds, by name."""
     found, base = {of: 1}, stage.train.kinematics.tree.reference(of, base)
     found[base] = found.get(base, 0) - axis_sense(of, base, stage.train.kinematics.signs)
     return found
 
 
 def _weights(system: WillisSystem, outputs: Sequence[Mapping[str, int]]) -> list[set[str]]:
-    """Return for each output the labels of the equations on which it depends; redundant equations are omitted."""
+    """Return, for each output, the labels of the equations on which the output depends; redundant equations are
+    omitted.
+    """
     columns: dict[str, LinearForm] = {link: {} for link in system.links}
     for at, row in enumerate(system.equations):
         for link, coefficient in row.terms:
@@ -110,7 +115,7 @@ def _weights(system: WillisSystem, outputs: Sequence[Mapping[str, int]]) -> list
 
 
 def _ordered(stage: SceneContext, circuits: Mapping[str, Circuit], used: Iterable[str]) -> tuple[str, ...]:
-    """Return the pairs on which an output depends, and the pairs of loops that contain them, in breadth-first order
+    """Return the pairs on which an output depends, and all pairs of the loops that contain them, in breadth-first order
     from the inputs.
     """
     left = dict.fromkeys(name for name in circuits if name in set(used))
@@ -140,7 +145,7 @@ def _ordered(stage: SceneContext, circuits: Mapping[str, Circuit], used: Iterabl
 
 
 Key = tuple[str, str, str]
-"""Key of a dial: its name, the link on which it is mounted, and the axis of the pointer that is read on it."""
+"""Key of a dial: name of the dial, link on which it is mounted, and axis of the pointer that is read on it."""
 
 _APART = 0.96  # maximum sum of the radii of two neighbours, divided by their distance
 _SPIRAL = 1.8  # radius of a spiral divided by that of a circle next to it
@@ -156,7 +161,7 @@ _GAP = 0.04  # gap between wheels and dials, and between dials, divided by the t
 
 
 def find_dials(stage: SceneContext) -> Mapping[Key, DialFace]:
-    """Return each declared dial with outputs, once for each link that carries it and each pointer axis."""
+    """Return the faces of all declared dials that show an output: one face for each carrying link and pointer axis."""
     declared = stage.train.declaration
     faces: dict[Key, DialFace] = {}
     width = train_width(stage)
@@ -199,8 +204,8 @@ def _is_placed(dial: Dial, axis: AxisPlace | None, right: Vector, up: Vector) ->
 
 @lru_cache(maxsize=64)
 def _engraving(scale: DialScale) -> tuple[tuple[str, float, tuple[tuple[int, ...], ...]], ...]:
-    """Return the engraved lines of a scale as integer steps from point to point, in 1/4,000 parts of the dial's
-    radius.
+    """Return the engraved lines of a scale. The points of a line are given as integer steps from point to point, in
+    units of 1/4,000 of the dial's radius.
     """
     return tuple((each.kind, round(each.width, 4), tuple(map(_differences, each.lines))) for each in engrave(scale))
 
@@ -216,14 +221,18 @@ def _differences(line: Stroke) -> tuple[int, ...]:
 
 
 def _ball(stage: SceneContext, key: Key, face: DialFace) -> DialFace:
-    """Return the dial as a ball next to its pointer's axis, where it stays unless another pointer carries it."""
+    """Return the dial as a ball next to the axis of its pointer; the ball stays there unless another pointer carries
+    it.
+    """
     place = stage.layout.axes.get(key[2])
     foot = (0.0, 0.0, 0.0) if place is None else place.point
     return replace(face, centre=plus(foot, face.normal, _OUT * face.radius), radius=_BALL * face.radius)
 
 
 def with_balls(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tuple[DialFace, ...]:
-    """Return the dials, with each ball moved into the pointer of the link that carries it, if there is one."""
+    """Return the dials after moving each ball into the pointer of the link that carries the ball, if such a pointer
+    exists.
+    """
     return tuple(_in_pointer(face, dials, pointers) if face.look == "ball" else face for face in dials)
 
 
@@ -237,7 +246,9 @@ def _in_pointer(face: DialFace, dials: Sequence[DialFace], pointers: Sequence[Po
 
 
 def with_titles(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tuple[DialFace, ...]:
-    """Return the dials with titles. Dials of the same name about different axes are distinguished by their outputs."""
+    """Return the dials with titles. If dials about different axes have the same name, their titles include their
+    outputs.
+    """
     often = Counter(face.id for face in dials)
     read = [", ".join(each.output for each in pointers if each.dial == at) for at in range(len(dials))]
     return tuple(
@@ -247,7 +258,7 @@ def with_titles(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tuple
 
 
 def dial_key(stage: SceneContext, name: str) -> Key | None:
-    """Return the key of the dial of an output; None if the output has no dial."""
+    """Return the key of the dial on which an output is shown; None if the output has no dial."""
     output = stage.outputs[name]
     if output.dial is None:
         return None
@@ -256,7 +267,7 @@ def dial_key(stage: SceneContext, name: str) -> Key | None:
 
 
 def facing(stage: SceneContext, name: str) -> Vector:
-    """Return the unit vector along an output's axis towards its reader, on the side that its dial faces."""
+    """Return the unit vector along an output's axis towards the reader of its dial, on the side that the dial faces."""
     declared = stage.train.declaration
     output = stage.outputs[name]
     along = stage.along(stage.train.kinematics.tree.axis(output.of or name))
@@ -269,7 +280,7 @@ def facing(stage: SceneContext, name: str) -> Vector:
 
 
 def train_width(stage: SceneContext) -> float:
-    """Return the maximum minus the minimum of all x and y coordinates of the wheels [mm]."""
+    """Return the largest minus the smallest of all x and y coordinates of the wheels [mm]."""
     places = stage.layout.wheels.values()
     if not places:
         return 1.0
@@ -300,7 +311,7 @@ def _extent(stage: SceneContext, way: Vector) -> float:
 
 
 def _beyond_wheels(stage: SceneContext, axis: str, normal: Vector, gap: float) -> Vector:
-    """Return the point of an axis that is `gap` [mm] beyond all wheels in the direction of a normal."""
+    """Return the point on an axis that is `gap` [mm] beyond all wheels in the direction `normal`."""
     place = stage.layout.axes.get(axis)
     point = (0.0, 0.0, 0.0) if place is None else place.point
     wheels = stage.layout.wheels.values()
@@ -309,14 +320,16 @@ def _beyond_wheels(stage: SceneContext, axis: str, normal: Vector, gap: float) -
 
 
 def _faces(stage: SceneContext, wheel: WheelPlace, way: Vector) -> tuple[float, float]:
-    """Return the lower and upper position, along a direction, of the centres of a wheel's faces [mm]."""
+    """Return the lower and the upper position of the face centres of a wheel, measured along a direction [mm]."""
     along = dot(stage.layout.axes[wheel.axis].direction, way)
     low, high = sorted(dot(wheel.centre, way) + at * along for at in wheel.span)
     return low, high
 
 
 def _fitted(faces: dict[Key, DialFace], gap: float) -> dict[Key, DialFace]:
-    """Return the dials in the same order, with radii reduced to avoid overlaps; dials about one axis are nested."""
+    """Return the dials in the same order, with radii reduced to avoid overlaps. Dials about the same axis are
+    nested.
+    """
     about: dict[tuple[Vector, Vector], list[Key]] = {}
     for key, face in faces.items():
         about.setdefault((_rounded(face.centre), _rounded(face.normal)), []).append(key)
@@ -342,8 +355,8 @@ def _rounded(u: Vector) -> Vector:
 
 
 def find_pointers(stage: SceneContext, dials: Mapping[Key, DialFace]) -> tuple[Pointer, ...]:
-    """Return a pointer for every output of the state, in the order of declaration, with the hands on one dial stacked
-    in that order.
+    """Return a pointer for every output of the state, in the order of declaration. The hands on one dial are stacked in
+    the same order.
     """
     paths, keys, taken = find_dependence(stage), tuple(dials), Counter[str]()
     found, spheres = [], 0
@@ -366,7 +379,8 @@ def find_pointers(stage: SceneContext, dials: Mapping[Key, DialFace]) -> tuple[P
 
 
 def _orbit(stage: SceneContext, name: str, face: DialFace) -> tuple[float, float]:
-    """Return the outer reach and the radius of a bead, relative to the radius of the scale.
+    """Return the distance of the bead's outermost point from the dial centre, and the radius of the bead, both divided
+    by the radius of the scale.
 
     The beads of a dial move on equidistant rings within the scale; the ring of the first output is innermost.
     """
@@ -422,8 +436,8 @@ def _as_read(sense: int, speed: Fraction | None) -> str:
 
 
 def find_epoch(stage: SceneContext, pointers: Sequence[Pointer], dials: Sequence[DialFace]) -> SceneEpoch | None:
-    """Return the declared date in turns of the driving link, with the angles of the pointers at that date; None if the
-    date, the time unit or the driven link is missing.
+    """Return the declared date, converted to turns of the driving link, with the angles of the pointers at that date;
+    None if the date, the time unit or the driven link is missing.
     """
     declared = stage.train.declaration
     epoch, unit = declared.epoch, declared.unit_days
@@ -474,7 +488,9 @@ def angles_at_start(
 
 
 def _slots_at_pins(stage: SceneContext, angles: Mapping[str, float]) -> Iterator[tuple[str, float]]:
-    """Yield the angle at 0 turns [rad] of each slot that has no angle of its own although its pin has one."""
+    """Yield the name and the angle at 0 turns [rad] of each slot for which no angle is set although an angle of its pin
+    is set.
+    """
     for coupling in stage.train.declaration.pin_couplings:
         pin, slot = coupling.pin, coupling.slot
         if coupling.kind == "pin_and_slot" and pin in angles and slot not in angles:
@@ -482,8 +498,8 @@ def _slots_at_pins(stage: SceneContext, angles: Mapping[str, float]) -> Iterator
 
 
 def find_targets(stage: SceneContext, output: Output, speed: Fraction | None) -> tuple[PointerTarget, ...]:
-    """Return the target speeds of an output relative to the driving link; a target without a sense of rotation takes
-    the sense of `speed`.
+    """Return the target speeds of an output relative to the driving link. A target without a sense of rotation has the
+    sense of `speed`.
     """
     if stage.driving_link is None or speed is None:
         return ()

@@ -1,4 +1,5 @@
-"""Scale of a dial: cells along a circle or a spiral, their names, readings of a pointer, and the engraving.
+"""Scale of a dial: divisions (cells) along a circle or a spiral, names of the cells, readings of a pointer, and
+engraving.
 
 Turns are counted from the zero mark along the scale, in the direction of counting of that scale. Rims, borders of
 cells, names, numerals and glyphs are engraved as lines, with lengths relative to the radius of the dial. The zero mark
@@ -30,7 +31,9 @@ _ROMAN |= {4: "IV", 1: "I"}
 
 
 def clock_point(radius: float, turn: float | Fraction) -> Point:
-    """Return the point of a circle about the origin, given its radius and its angle [turns] clockwise from the top."""
+    """Return the point on a circle about the origin, for a given radius and an angle [turns] measured clockwise from
+    the top.
+    """
     angle = 2 * pi * float(turn)
     return radius * sin(angle), radius * cos(angle)
 
@@ -50,10 +53,10 @@ def roman(number: int) -> str:
 
 @dataclass(frozen=True, slots=True)
 class ScaleReading:
-    """Reading of a pointer: the turn of the spiral and the cell, both counted from 1, the name of the group that
-    contains the cell, and the number of the cell within this group.
+    """Reading of a pointer: number of the spiral turn and number of the cell, both counted from 1, name of the group
+    that contains the cell, and number of the cell within this group.
 
-    The name is empty, and `within` is 0, at cells without a name.
+    For a cell without a group name, the name is empty and `within` is 0.
     """
 
     turn: int
@@ -64,48 +67,52 @@ class ScaleReading:
 
 @dataclass(frozen=True, slots=True)
 class DialScale:
-    """Scale of a dial, divided into cells along a circle, or along a spiral from its inner end outwards."""
+    """Scale of a dial, divided into cells along a circle, or along a spiral that starts at its inner end."""
 
     turns: int
-    """Turns of the spiral; 1 for a circle."""
+    """Number of turns of the spiral; 1 for a circle."""
     divisions: int
-    """Number of cells along all turns."""
+    """Total number of cells on all turns."""
     inner: float = 1.0
-    """Radius of the inner end, relative to the radius of the dial."""
+    """Radius of the inner end of the scale, divided by the radius of the dial."""
     outer: float = 1.0
-    """Radius of the outer end, relative to the radius of the dial; equal to `inner` for a circle."""
+    """Radius of the outer end of the scale, divided by the radius of the dial; equal to `inner` for a circle."""
     way: int = 1
-    """Direction of counting: 1 if clockwise as read, -1 if counter-clockwise."""
+    """Direction of counting, as seen by the reader: 1 for clockwise, -1 for counter-clockwise."""
     cell: str = _CELL
     """Name of one division, such as `cell` or `degree`."""
     names: tuple[tuple[str, Fraction, Fraction], ...] = ()
     """Groups of divisions: name of the group, number of divisions before it, and number of divisions in it."""
     numerals: tuple[tuple[str, int], ...] = ()
-    """Numerals at division lines, each with the number of divisions before its line."""
+    """Numerals at division lines. Each entry is a numeral and the number of divisions before its line."""
     glyphs: tuple[tuple[int, str], ...] = ()
-    """Glyphs in cells: the number of the cell, from 1, and the glyph."""
+    """Glyphs in cells. Each entry is the number of a cell, counted from 1, and its glyph."""
     around: DialScale | None = None
-    """Second scale, which surrounds this scale; None if there is none."""
+    """Second scale, which surrounds this scale; None if there is only one scale."""
     radial: bool = False
-    """True if the feet of all numerals point to the centre, as for Roman numerals, which have no 0."""
+    """True if the feet of all numerals point to the centre of the dial, as is usual for Roman numerals."""
     cells: tuple[str, ...] = ()
-    """Name of every division; empty if divisions have no names of their own."""
+    """Name of every cell; empty if the cells have no individual names."""
     inscriptions: tuple[tuple[str, str], ...] = ()
-    """Pairs of a name and a different text that is engraved for it."""
+    """Names that are engraved differently. Each entry is a name and the text that is engraved instead."""
     counted: int = 0
-    """Number of divisions after which declared numerals restart; 0 if cells are counted from 1 without numerals."""
+    """Number of divisions after which the declared numerals start again; 0 if cells are counted from 1 because no
+    numerals are declared.
+    """
 
     def radius(self, turned: float) -> float:
-        """Return the relative radius of the scale after a number of turns from its inner end; `outer` for a circle."""
+        """Return the radius of the scale after a number of turns from its inner end, divided by the radius of the dial.
+        For a circle, it is `outer`.
+        """
         return self.inner + (self.outer - self.inner) * turned / self.turns
 
     def turn_of(self, cells: Fraction | int) -> Fraction:
-        """Return the exact number of turns of the scale that a number of divisions occupies."""
+        """Return the exact number of turns of the scale that the given number of cells occupies."""
         return Fraction(cells) * self.turns / self.divisions
 
     def read(self, turned: Fraction) -> ScaleReading:
-        """Return the reading of a pointer after a number of turns; a pointer on a division line reads the cell after
-        it.
+        """Return the reading of a pointer after a number of turns. On a division line, the pointer reads the cell that
+        follows the line.
         """
         along = turned % self.turns
         done = along / self.turns * self.divisions
@@ -115,16 +122,16 @@ class DialScale:
         return ScaleReading(floor(along) + 1, floor(done) + 1, "", 0)
 
     def number(self, cell: int) -> int:
-        """Return the number by which a cell is read: its own number, or the number of the numbered division line before
-        the cell.
+        """Return the number by which a cell is read: the cell's own number, or the number of the last numbered division
+        line before the cell.
         """
         if not self.counted:
             return cell
         return (cell - 2) % self.counted + 1 if self.radial else (cell - 1) % self.counted
 
     def reading_text(self, turned: Fraction) -> str:
-        """Return the reading as a string such as `Leo, degree 14`, with the glyph of the cell; empty if the circle has
-        no divisions.
+        """Return the reading as text, such as `Leo, degree 14`, with the glyph of the cell; empty if the circle has no
+        divisions.
         """
         read, parts = self.read(turned), []
         if self.turns > 1:
@@ -142,7 +149,7 @@ class DialScale:
 
 
 def scale_of(dial: Dial) -> DialScale:
-    """Return the scale of a declared dial, with its surrounding scale if one is declared."""
+    """Return the scale of a declared dial, including its surrounding scale if one is declared."""
     way = 1 if dial.counted == "clockwise" else -1
     outer = 1.0 if dial.around is None else 1.0 - RING
     inner = outer * INNER if dial.turns > 1 else outer
@@ -176,7 +183,9 @@ def plain_circle() -> DialScale:
 
 
 def _numerals(graduation: Graduation, turns: int) -> list[tuple[str, int]]:
-    """Return the declared numerals with their division lines, or up to twelve from 0 on a circle without names."""
+    """Return the declared numerals, each with the number of divisions before its line. A circle without names and
+    numerals gets up to twelve numerals, from 0.
+    """
     count, declared = graduation.divisions, graduation.numerals
     if declared is None:
         if turns > 1 or graduation.names or count == 1:
@@ -213,18 +222,18 @@ _PEN = 0.12  # line width divided by the height of letters
 
 @dataclass(frozen=True, slots=True)
 class Engraving:
-    """Engraved lines of one kind and one width."""
+    """Engraved lines of one kind and one line width."""
 
     kind: Kind
     """Kind of the lines: rim, fine or bold borders, or letters."""
     width: float
-    """Width relative to the radius of the dial."""
+    """Width of the lines, divided by the radius of the dial."""
     lines: Sequence[Stroke]
-    """Points of the lines, relative to the radius of the dial."""
+    """Points of each line, in units of the radius of the dial."""
 
 
 def engrave(scale: DialScale) -> list[Engraving]:
-    """Return all lines of a scale, and of the scale around it."""
+    """Return all engraved lines of a scale, including those of the scale that surrounds it."""
     found = [*(_spiral(scale) if scale.turns > 1 else _circle(scale))]
     if scale.around is not None:
         found += engrave(scale.around)
@@ -248,7 +257,7 @@ def _border(scale: DialScale, radius: float, depth: float, turn: Fraction) -> St
 
 
 def _line(scale: DialScale, height: float, turns: float, off: float = 0.0) -> Stroke:
-    """Return a polyline along the scale, offset inwards by `off` radii of the dial."""
+    """Return a polyline along the scale, offset inwards by `off` times the radius of the dial."""
     steps = max(1, round(_CHORDS * turns))
     turned = (turns * each / steps for each in range(steps + 1))
     return tuple(_point(scale, scale.radius(each) - off, each) for each in turned)
@@ -258,7 +267,9 @@ def _line(scale: DialScale, height: float, turns: float, off: float = 0.0) -> St
 
 
 def _circle(scale: DialScale) -> Iterator[Engraving]:
-    """Yield the rim, the borders that extend inwards from the rim, and the text inside the borders."""
+    """Yield the engraving of a circular scale: the rim, the cell borders that extend inwards from the rim, and the text
+    inside the borders.
+    """
     at = {line for _, line in scale.numerals}
     starts = {first for _, first, _ in scale.names}
     every = -(-scale.divisions // _MARKS)
@@ -277,8 +288,8 @@ def _circle(scale: DialScale) -> Iterator[Engraving]:
 
 
 def _names(scale: DialScale) -> Iterator[Engraving]:
-    """Yield the names in the middles of their groups of divisions; if space is short, every second to sixth name, or
-    none.
+    """Yield the names, each centred on its group of divisions. If space is limited, yield only every nth name (n = 2 to
+    6), or none.
     """
     radius = scale.outer - _BAND
     named = [(_engraved(scale, name), first, span) for name, first, span in scale.names if name]
@@ -297,20 +308,22 @@ def _names(scale: DialScale) -> Iterator[Engraving]:
 
 
 def _fitting(text: str, radius: float, turn: Fraction) -> float:
-    """Return the maximum height of a string's letters along a part of a circle, relative to the dial's radius."""
+    """Return the maximum letter height of a text along a part of a circle, divided by the dial's radius."""
     return _FULL * 2 * pi * radius * float(turn) / max(text_length(text), 0.5)
 
 
 def _written(
     scale: DialScale, text: str, radius: float, turn: Fraction, height: float, turned: bool = True
 ) -> Iterator[Stroke]:
-    """Yield a string's strokes along a circle; if `turned`, text below the centre is inverted to be readable."""
+    """Yield the strokes of a text along a circle. If `turned` is True, text below the centre is inverted to be
+    readable.
+    """
     angle = 2 * pi * float(scale.way * turn)
     return curved_text(text, height, radius, angle, turned and cos(angle) < -0.01)
 
 
 def _engraved_numerals(scale: DialScale) -> Iterator[Engraving]:
-    """Yield numerals at their lines, inside the borders and inside any names."""
+    """Yield the numerals at their division lines, inside the cell borders and inside any names."""
     if not scale.numerals:
         return
     inside = 0.5 * _TALL + 0.075 if scale.names else 0.0
@@ -327,7 +340,7 @@ def _engraved_numerals(scale: DialScale) -> Iterator[Engraving]:
 
 
 def _glyphs(scale: DialScale, radius: float) -> Iterator[Engraving]:
-    """Yield the glyphs or names of the cells in a common size that fits in all cells; names that would be too small are
+    """Yield the glyphs or the names of the cells in one size that fits in all cells. Names that would be too small are
     omitted.
     """
     texts = scale.glyphs or tuple((cell, _engraved(scale, name)) for cell, name in enumerate(scale.cells, 1))
@@ -341,7 +354,9 @@ def _glyphs(scale: DialScale, radius: float) -> Iterator[Engraving]:
 
 
 def _spiral(scale: DialScale) -> Iterator[Engraving]:
-    """Yield the spiral groove and the cells on its inner side; the first whole cell of each turn shows its number."""
+    """Yield the groove of a spiral scale and the cells on its inner side. The first whole cell of each turn shows its
+    number.
+    """
     pitch = (scale.outer - scale.inner) / scale.turns
     every = -(-scale.divisions // (scale.turns * _MARKS))
     starts = {first for _, first, _ in scale.names}
@@ -372,7 +387,9 @@ def _spiral(scale: DialScale) -> Iterator[Engraving]:
 
 
 def _cell_names(scale: DialScale, pitch: float) -> Iterator[Engraving]:
-    """Yield the name of every cell of a spiral on up to three lines, below the name of the group that it begins."""
+    """Yield the name of every cell of a spiral on up to three lines. The first cell of a group also shows the group
+    name above its own name.
+    """
     starts = {first: name for name, first, _ in scale.names}
     glyphs = dict(scale.glyphs)
     for cell, name in enumerate(scale.cells):
@@ -392,17 +409,17 @@ def _cell_names(scale: DialScale, pitch: float) -> Iterator[Engraving]:
 
 
 def _engraved(scale: DialScale, name: str) -> str:
-    """Return the text that is engraved for a name."""
+    """Return the text that is engraved on the dial for a name."""
     return dict(scale.inscriptions).get(name, name)
 
 
 def _split(text: str, rows: int) -> list[str]:
-    """Return a word in a number of parts of nearly equal numbers of letters."""
+    """Return a word split into `rows` parts of nearly equal length."""
     ends = [round(row * len(text) / rows) for row in range(rows + 1)]
     return [text[first:last] for first, last in pairwise(ends) if last > first]
 
 
 def _stacked(scale: DialScale, lines: Sequence[str], radius: float, pitch: float) -> float:
-    """Return the maximum letter height at which lines fit in a cell of a spiral scale, relative to the dial radius."""
+    """Return the maximum letter height at which `lines` fit in a cell of a spiral scale, divided by the dial radius."""
     deep = _FULL * pitch / (1 + _LEADING * (len(lines) - 1))
     return min(_TALL, deep, *(_fitting(text, radius - pitch / 2, scale.turn_of(1)) for text in lines))

@@ -1,7 +1,7 @@
 """Road wheels, a pointing figure, and the kind of drive of a train.
 
-Figures and road wheels are parts of the link of an output. Their sizes are chosen for the picture: two road wheels on
-one axis have a track equal to their diameter, and a single one reaches below all wheels.
+A figure or a road wheel is part of the link of an output. Its size is chosen for the picture: two road wheels on one
+axis have a track equal to their diameter, and a single road wheel extends below all gear wheels.
 """
 
 from __future__ import annotations
@@ -37,7 +37,9 @@ _TYRE = 0.1  # thickness of a road wheel divided by its radius
 
 
 def drive_kind(stage: SceneContext) -> Literal["hand", "motor", "spring", "weight"]:
-    """Return the declared drive of a train; by default, a motor for a speed in real time, and a hand otherwise."""
+    """Return the kind of the declared drive of a train. Without a declared drive, return `motor` if the input speed is
+    in real time, and `hand` if not.
+    """
     drive = stage.case.drive
     declared = stage.train.declaration
     if drive is None:
@@ -46,7 +48,9 @@ def drive_kind(stage: SceneContext) -> Literal["hand", "motor", "spring", "weigh
 
 
 def fusee_radii(stage: SceneContext) -> tuple[float, ...]:
-    """Return radii of the fusee of the drive [mm] at equal angles from its start to its end; empty without a fusee."""
+    """Return the radii of the fusee of the drive [mm] at equally spaced angles from its start to its end; empty if
+    there is no fusee.
+    """
     spring = stage.case.drive.spring if stage.case.drive is not None else None
     chained = None if spring is None else spring.chained
     if chained is None:
@@ -56,12 +60,14 @@ def fusee_radii(stage: SceneContext) -> tuple[float, ...]:
 
 
 def upwards(stage: SceneContext) -> Vector:
-    """Return the upward unit vector of the picture: y, or towards an observer who looks from above."""
+    """Return the unit vector that points up, in picture coordinates: y, or the direction towards the observer in a view
+    from above.
+    """
     return stage.near if stage.train.declaration.view.from_ in _ABOVE else (0.0, 1.0, 0.0)
 
 
 def find_displays(stage: SceneContext) -> Iterator[ScenePart]:
-    """Yield the figures and the road wheels of all outputs."""
+    """Yield the parts of the pointing figures and of the road wheels of all outputs."""
     frame = stage.train.declaration.frame
     for name, output in stage.outputs.items():
         if output.hand == "figure":
@@ -76,8 +82,8 @@ def _part(stage: SceneContext, link: str, name: str, at: Vector, way: Vector, **
 
 
 def _figure(stage: SceneContext, name: str, link: str) -> Iterator[ScenePart]:
-    """Yield a standing figure in a robe, its outstretched arm, which points like a hand, and the rod below the
-    figure.
+    """Yield the parts of a standing figure: the robed body, the outstretched arm, which points like a hand of a dial,
+    and the rod below the figure.
     """
     up, point = facing(stage, name), _origin(stage, link)
     feet = _reach(stage, point, up)[0] + _STAND
@@ -91,7 +97,7 @@ def _figure(stage: SceneContext, name: str, link: str) -> Iterator[ScenePart]:
 
 
 def _road_wheel(stage: SceneContext, name: str, link: str) -> Iterator[ScenePart]:
-    """Yield a spoked road wheel outside the train, its hub and its axle."""
+    """Yield the parts of a spoked road wheel outside the train: the wheel, its hub and its axle."""
     point, axis = _origin(stage, link), stage.reference(_axis(stage, link))
     own = [place for place in stage.layout.wheels.values() if place.axis == _axis(stage, link) and place.link == link]
     mine = sum(dot(minus(place.centre, point), axis) for place in own)
@@ -135,13 +141,15 @@ def _origin(stage: SceneContext, link: str) -> Vector:
 
 
 def _has_mate(stage: SceneContext, link: str) -> bool:
-    """Return True if another road wheel is on the axis of a link."""
+    """Return True if there is another road wheel on the axis of the link."""
     outputs = [output.links(name, "")[0] for name, output in stage.outputs.items() if output.hand == "wheel"]
     return sum(_axis(stage, other) == _axis(stage, link) for other in outputs) > 1
 
 
 def _reach(stage: SceneContext, point: Vector, way: Vector) -> tuple[float, float]:
-    """Return the extent of all wheels from a point along a direction, and their distance from this line [mm]."""
+    """Return the extent of all wheels along a direction from a point, and their maximum distance from the line through
+    the point in this direction [mm].
+    """
     places = stage.layout.wheels.values()
     along = max((_extent(stage, place, point, way) for place in places), default=0.0)
     aside = max((size(across(minus(place.centre, point), way)) + place.radius for place in places), default=10.0)
@@ -149,6 +157,6 @@ def _reach(stage: SceneContext, point: Vector, way: Vector) -> tuple[float, floa
 
 
 def _extent(stage: SceneContext, place: WheelPlace, point: Vector, way: Vector) -> float:
-    """Return the maximum coordinate of a wheel along a direction from a point [mm]."""
+    """Return the maximum coordinate of a wheel along a direction, measured from a point [mm]."""
     slope = size(across(stage.along(place.axis), way))
     return dot(minus(place.centre, point), way) + place.radius * slope + place.thickness / 2

@@ -1,4 +1,4 @@
-"""Joints of a scene: equations of gear pairs, pairs that prevent the train from turning, and pins in slots."""
+"""Joints of a scene: equations of gear pairs, gear pairs that prevent the train from turning, and pins in slots."""
 
 from __future__ import annotations
 
@@ -19,7 +19,9 @@ if TYPE_CHECKING:
 
 
 def find_pairs(stage: SceneContext, faults: Mapping[str, str]) -> tuple[ScenePair, ...]:
-    """Return all gear pairs in the order of declaration; `faults` maps names of pairs to descriptions of faults."""
+    """Return all gear pairs in the order of declaration; `faults` maps the names of faulty pairs to descriptions of the
+    faults.
+    """
     forms = {mesh.name: mesh.form for mesh in stage.meshes}
     return tuple(
         ScenePair(
@@ -38,7 +40,7 @@ def find_pairs(stage: SceneContext, faults: Mapping[str, str]) -> tuple[ScenePai
 
 
 def in_words(circuit: Circuit, signs: Mapping[str, int]) -> str:
-    """Return a circuit's equation in declared speeds, such as `64 (b - frame) + 38 (c - frame) = 0`."""
+    """Return the equation of a circuit in terms of declared speeds, such as `64 (b - frame) + 38 (c - frame) = 0`."""
     i, j, k = (f"-{link}" if signs.get(link, 1) < 0 else link for link in (circuit.i, circuit.j, circuit.carrier))
     minus = "+" if k.startswith("-") and signs.get(circuit.carrier, 1) < 0 else "-"
     k = k.removeprefix("-") if minus == "+" else k
@@ -53,7 +55,9 @@ def _term(factor: int, what: str) -> str:
 
 
 def find_verdict(stage: SceneContext) -> tuple[dict[str, Any], dict[str, str]]:
-    """Return the verdict and its faulty loops as plain data, and the fault of each faulty pair by name."""
+    """Return the verdict with its faulty loops as plain data, and a description of the fault of each faulty pair, by
+    name of the pair.
+    """
     verdict = stage.answer.verdict
     faults: dict[str, str] = {}
     loops = {loop.pairs: _loop_data(loop) for loop in verdict.loops}
@@ -80,7 +84,9 @@ def _loop_data(loop: Loop) -> dict[str, Any]:
 
 
 def _unusable_pairs(stage: SceneContext) -> Iterator[dict[str, Any]]:
-    """Yield pairs whose tooth forms cannot run together, as faulty loops (`_loop_data`), with reason and remedy."""
+    """Yield each pair whose tooth forms cannot run together, in the format of a faulty loop (`_loop_data`), with the
+    reason and a remedy.
+    """
     for mesh in stage.meshes:
         if (fault := mesh.fault) is not None:
             links = [stage.train.declaration.wheels[wheel][0] for wheel in mesh.gear.pair]
@@ -114,7 +120,7 @@ _NONE = 1e-9  # mm: smaller distances are rounding errors
 
 
 def find_couplings(stage: SceneContext, moved: MovementStart) -> tuple[SceneCoupling, ...]:
-    """Return all couplings by pins in the order of declaration."""
+    """Return all couplings by pins, in the order of declaration."""
     circuits = {circuit.id: circuit for circuit in stage.train.circuits}
     drawn = (each for each in stage.train.declaration.pin_couplings if not isinstance(each, Parallel))
     return tuple(_coupling(stage, moved, circuits[each.name], each) for each in drawn)
@@ -152,7 +158,9 @@ def _coupling(stage: SceneContext, moved: MovementStart, circuit: Circuit, decla
 
 
 def _clear_of_carried(stage: SceneContext, declared: Declared, middle: Vector, axis: Vector, towards: Vector) -> Vector:
-    """Return the unit vector from the axis of the pin's link to its first pin; pins in holes avoid carried axes."""
+    """Return the unit vector from the axis of the pin's link to the first pin. Pins in holes are placed clear of the
+    axes that their link carries.
+    """
     if isinstance(declared, PinsInHoles):
         tree = stage.train.kinematics.tree
         same = (each for each in stage.train.declaration.pin_couplings if isinstance(each, PinsInHoles))
@@ -167,13 +175,15 @@ def _clear_of_carried(stage: SceneContext, declared: Declared, middle: Vector, a
 
 
 def _around(declared: Declared, middle: Vector, towards: Vector, radius: float, axis: Vector) -> tuple[Vector, ...]:
-    """Return equally spaced points on a circle, the first in a given direction; empty for a pin in a slot."""
+    """Return equally spaced points on a circle, the first of them in the direction `towards`; empty for a pin in a
+    slot.
+    """
     number = declared.pins if isinstance(declared, PinsInHoles) else 0
     return tuple(plus(middle, turned(towards, axis, 2 * pi * at / number), radius) for at in range(number))
 
 
 def pin_and_hole(declared: Declared, radius: float, offset: float) -> tuple[float, float]:
-    """Return the diameters of pins and of their round holes [mm]; both are 0 for a pin in a slot."""
+    """Return the diameter of the pins and the diameter of their round holes [mm]; both are 0 for a pin in a slot."""
     if not isinstance(declared, PinsInHoles):
         return 0.0, 0.0
     apart = 2 * radius * sin(pi / declared.pins)
@@ -186,8 +196,8 @@ def pin_and_hole(declared: Declared, radius: float, offset: float) -> tuple[floa
 
 
 def _slot_angle(stage: SceneContext, moved: MovementStart, circuit: Circuit) -> float:
-    """Return the angle [rad] between a slot and the line to its pin in the zero pose, which follows from starting
-    angles.
+    """Return the angle in the zero pose between a slot and the line from the slot's axis to its pin [rad], which
+    follows from the starting angles.
     """
     setting = moved.driving.get(circuit.id)
     if setting is None:
@@ -197,8 +207,8 @@ def _slot_angle(stage: SceneContext, moved: MovementStart, circuit: Circuit) -> 
 
 
 def coupling_sizes(declared: Declared, apart: float) -> tuple[float, float]:
-    """Return the pin radius and the offset [mm] as declared, scaled to axes that are `apart` [mm], or in default
-    proportions.
+    """Return the pin radius and the offset [mm]: as declared, or scaled to an axis distance of `apart` [mm], or in
+    default proportions.
     """
     if declared.pin_radius is not None and declared.offset is not None:
         radius, offset = declared.pin_radius.si * 1000, declared.offset.si * 1000
@@ -219,9 +229,10 @@ def _point(stage: SceneContext, label: str | None) -> Vector:
 
 
 def _height(stage: SceneContext, declared: Declared, axis: Vector) -> float:
-    """Return the height midway between the nearest wheels of two coupled links [mm].
+    """Return the height along the axis midway between the nearest wheels of two coupled links [mm].
 
-    If only one of the links has wheels, it is the height of its first wheel; otherwise, the height of the pin's axis.
+    If only one of the links has wheels, return the height of its first wheel. If neither has wheels, return the height
+    of the pin's axis.
     """
     levels = [
         [dot(stage.layout.wheels[wheel].centre, axis) for wheel in stage.train.declaration.links[link].wheels]

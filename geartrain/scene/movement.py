@@ -1,7 +1,8 @@
-"""Motion of a scene: exact speeds, and errors of teeth and pins as tables and steps that are stored in a page.
+"""Motion of a scene: exact speeds, and transmission errors of teeth and pins as tables and steps that are stored in a
+page.
 
-Angles differ from their exact mean values by transmission errors. The module gives tables of the errors of gear pairs
-and pins, and the steps that compose them.
+Angles differ from their exact mean values because of transmission errors. The module computes tables of the
+transmission errors of gear pairs and pins, and the steps that combine them.
 """
 
 from __future__ import annotations
@@ -35,15 +36,15 @@ class ErrorTable(Result):
     KEYS = ("pair", "period", packed_key("breaks"), packed_key("coefficients"), "uncertainty")
 
     pair: str
-    """Name of the first gear pair or coupling with this transmission function."""
+    """Name of the first gear pair or coupling that has this transmission error."""
     period: float
-    """Period of the transmission error in the driver's angle [rad]."""
+    """Period of the transmission error, as an angle of the driver [rad]."""
     breaks: Floats
-    """Breakpoints in the driver's angle, from 0 to the period [rad]. Shape (n + 1,)."""
+    """Breakpoints of the polynomials, as angles of the driver from 0 to the period [rad]. Shape (n + 1,)."""
     coefficients: Floats
-    """Coefficients of the driven side's error [rad]. Shape (n, degree + 1).
+    """Coefficients of the polynomials that give the angular error of the driven link [rad]. Shape (n, degree + 1).
 
-    The coefficients multiply the powers of the difference between the driver's angle and the middle of its interval.
+    The coefficients multiply powers of the driver's angle minus the middle of the interval that contains it.
     """
     uncertainty: float
     """Maximum deviation of the table from the transmission error that it represents [rad]."""
@@ -58,7 +59,8 @@ class ErrorSource(Shown):
         S = start + period frac(cycles t) + from_known delta[known] + own delta[sources]
 
     with the coefficients of the step that contains the source (`ErrorStep`). The error of the pair is delta = sense
-    e(S), where e is the error table, and every body in `bodies` has this error times its weight.
+    e(S), where e is the transmission error of the table, and every body in `bodies` has this error multiplied by its
+    weight.
     """
 
     pair: str
@@ -68,9 +70,9 @@ class ErrorSource(Shown):
     cycles: str
     """Exact number of error periods per turn of the driving link; negative if the driver turns backwards."""
     start: float
-    """Forward angle S of the driver at the start, with all errors 0 [rad]."""
+    """Forward angle S of the driver at the start if all errors are 0 [rad]."""
     sense: int
-    """Sense of the driven side's mean motion relative to the carrier, 1 or -1."""
+    """Sense of the driven link's mean motion relative to the carrier, 1 or -1."""
     bodies: Sequence[int]
     """Indices of the bodies that the error of the pair moves."""
     weights: Sequence[float]
@@ -79,18 +81,23 @@ class ErrorSource(Shown):
 
 @dataclass(frozen=True, slots=True)
 class ErrorStep(Shown):
-    """Step in the composition of errors: the errors of some sources follow from the errors of earlier sources."""
+    """Step in the combination of errors, in which the errors of some sources are computed from the errors of earlier
+    sources.
+    """
 
     sources: Sequence[int]
     """Indices of the sources whose errors are computed in this step."""
     known: Sequence[int]
     """Indices of the earlier sources whose errors move the drivers of this step."""
     from_known: Sequence[Sequence[float]]
-    """Derivative of each source's driver angle S with respect to each known error [rad/rad], one row per source."""
+    """Derivatives of the driver angles S with respect to the known errors [rad/rad]; one row per source, one column per
+    known error.
+    """
     own: Sequence[Sequence[float]]
-    """Derivative of each source's driver angle S with respect to each error of this step [rad/rad], one row per source.
+    """Derivatives of the driver angles S with respect to the errors of this step [rad/rad], one row per source.
 
-    It is empty if the errors of this step do not move its drivers; otherwise, the errors are computed by iteration.
+    It is empty if the errors of this step do not move its drivers. If it is not empty, the errors are computed by
+    iteration.
     """
 
 
@@ -102,23 +109,23 @@ class Movement(Shown):
     """
 
     kind: str
-    """Kind of motion: with or without transmission errors.
+    """Kind of motion: `exact`, `real`, `mean` or `still`.
 
     `exact`: ratios are constant. `real`: teeth or pins have transmission errors. `mean`: the mean motion is shown,
-    because these errors cannot be computed. `still`: no speed is determined.
+    because transmission errors cannot be computed. `still`: no speed is determined.
     """
     why: str = ""
-    """Reason why the motion has the kind `mean` or `still`; otherwise empty."""
+    """Reason why the kind of motion is `mean` or `still`; empty for the other kinds."""
     period: str | None = None
     """Exact number of turns of the driving link after which the pose repeats; None if it does not repeat."""
     transmissions: Sequence[ErrorTable] = ()
-    """Transmission-error tables; identical pairs share one table."""
+    """Tables of transmission errors; identical pairs share one table."""
     sources: Sequence[ErrorSource] = ()
     """Gear pairs and couplings with transmission errors, to which `steps` refer by index."""
     steps: Sequence[ErrorStep] = ()
     """Steps that compute the angular errors, in the order of their evaluation."""
     offsets: Mapping[str, float] = field(default_factory=dict)
-    """Link -> constant error of its angle [rad]."""
+    """Constant error of the angle of a link [rad], by link."""
 
 
 TOLERANCE = 1e-9  # maximum error of a table in driven pitches; the page displays hundredths of a degree
@@ -126,7 +133,7 @@ _DEGREES = (3, 5, 7, 9, 11, 14)  # degrees of polynomials, of which the smallest
 
 
 def step_of(step: Composed) -> ErrorStep:
-    """Return a step of an error composition as an `ErrorStep`, with lists instead of arrays."""
+    """Return a step of an error composition as an `ErrorStep`, which has lists instead of arrays."""
     own = step.own.tolist() if step.coupled else []
     return ErrorStep(step.sources, step.known, step.from_known.tolist(), own)
 
@@ -134,10 +141,11 @@ def step_of(step: Composed) -> ErrorStep:
 def tables_and_sources(
     composition: ErrorComposition, way: int = 1
 ) -> tuple[tuple[ErrorTable, ...], tuple[ErrorSource, ...]]:
-    """Return the error tables and the sources that refer to them; pairs with equal transmission functions share a
-    table.
+    """Return the error tables, and the error sources that refer to the tables. Pairs with equal transmission functions
+    share a table.
 
-    way   -1 if the driving link turns backwards: a composition counts angles in the sense of the driving link, and
+    way   1, or -1 if the driving link turns backwards: a composition counts angles in the sense of the driving link,
+    and
           a scene counts them about declared axes
     """
     transmissions: dict[tuple[float, bytes, bytes], ErrorTable] = {}
@@ -164,8 +172,8 @@ def tables_and_sources(
 
 
 def tabulated(pair: str, transmission: ToothTransmission) -> ErrorTable:
-    """Return the transmission error as piecewise polynomials, in the smallest table within `TOLERANCE` [driven
-    pitch].
+    """Return the transmission error as piecewise polynomials, in the smallest table that is accurate to `TOLERANCE`
+    [driven pitches].
     """
     import numpy as np
 
@@ -203,20 +211,21 @@ class InitialPosition:
     """Initial position of a gear pair or coupling with a transmission error."""
 
     driver: str
-    """Driving link; `forward` is 1, or -1 if it turns against the direction of its body."""
+    """Name of the driving link. `forward` is 1, or -1 if the link turns against the direction of its body."""
     forward: int
     S: float
     """Forward angle of the driver [rad]."""
     error: float
-    """Transmission error of the driven side at S [rad]."""
+    """Transmission error of the driven link at the driver's angle S [rad]."""
     transmission: ToothTransmission
 
     def error_past(self, shift: float) -> float:
-        """Return the minimum error of the driven side [rad] at which its teeth are clear of a driver that is out of
-        phase.
+        """Return the minimum angular error of the driven link [rad] at which its teeth do not interfere with a driver
+        that is out of phase.
 
-        The driver's teeth are `shift` [rad] ahead of their phase. The driven side follows e(S) + c and its mate
-        requires e(S + shift), so c is the maximum of the difference e(S + shift) - e(S).
+        The driver's teeth are `shift` [rad] ahead of their phase. With the transmission error e, the driven link has
+        the error e(S) + c, and the driver requires e(S + shift), so c is the maximum of the difference e(S + shift) -
+        e(S).
         """
         import numpy as np
 
@@ -232,14 +241,16 @@ class MovementStart:
     rest: Mapping[str, float]
     """Initial angle A of each link about the direction of its body [rad]."""
     driving: Mapping[str, InitialPosition] = field(default_factory=dict)
-    """Initial positions, by pair or coupling with a transmission error."""
+    """Initial position of each pair or coupling that has a transmission error, by name."""
     notices: tuple[Problem, ...] = ()
     back: Movement | None = None
-    """Movement on the coast flanks, against the driving link's sense; None if it equals the forward movement."""
+    """Movement on the coast flanks, when the driving link is reversed; None if it equals the forward movement."""
 
 
 def find_movement(stage: SceneContext) -> MovementStart:
-    """Return the movement in a state: `still` if no speed is determined, `mean` if errors cannot be computed."""
+    """Return the movement in a state. Its kind is `still` if no speed is determined, and `mean` if errors cannot be
+    computed.
+    """
     if not stage.answer.verdict or stage.driving_link is None:
         why = stage.answer.verdict.text if not stage.answer.verdict else "nothing drives it"
         return MovementStart(Movement("still", why, period=None), _starting_angles(stage))
@@ -290,9 +301,9 @@ def _check_positions(composition: ErrorComposition, turns: float) -> None:
 
 
 def _backward(stage: SceneContext, motion: Motion, ahead: Movement) -> tuple[Movement | None, tuple[Problem, ...]]:
-    """Return the movement with the driving link reversed, and notices.
+    """Return the movement when the driving link is reversed, and notices.
 
-    It is None if it equals `ahead`, and the mean motion if it cannot be computed.
+    The movement is None if it equals `ahead`, and the mean motion if the reversed movement cannot be computed.
     """
     try:
         composition = motion._backward
@@ -305,7 +316,9 @@ def _backward(stage: SceneContext, motion: Motion, ahead: Movement) -> tuple[Mov
 
 
 def _movement(stage: SceneContext, composition: ErrorComposition, way: int) -> Movement:
-    """Return the movement of a composition: `exact` if ratios are constant, even if backlash causes offsets."""
+    """Return the movement that follows from a composition of errors. Its kind is `exact` if ratios are constant, even
+    if backlash causes offsets.
+    """
     transmissions, sources = tables_and_sources(composition, way)
     links = tuple(stage.train.declaration.links)
     return Movement(
@@ -329,7 +342,9 @@ def _settings(composition: ErrorComposition, way: int) -> Iterator[tuple[str, In
 
 
 def _period(stage: SceneContext, cycles: Iterable[Fraction]) -> Fraction | None:
-    """Return the turns of the driving link after which all angles and errors repeat; None if nothing moves."""
+    """Return the number of turns of the driving link after which all angles and errors repeat; None if no link
+    moves.
+    """
     ratios = [ratio for link in stage.train.declaration.links if (ratio := stage.ratio(link))]
     rates = [abs(rate) for rate in (*ratios, *cycles) if rate]
     if not rates:

@@ -32,9 +32,9 @@ class Theme:
     """Theme of drawings and pages: a colour, as #rrggbb, for each purpose."""
 
     desk: str
-    """Colour of the background of a page, behind cards."""
+    """Background colour of a page, behind its cards."""
     paper: str
-    """Colour of the background of drawings and text."""
+    """Background colour of drawings and text."""
     ink: str
     """Colour of lines and text."""
     quiet: str
@@ -46,15 +46,17 @@ class Theme:
     fault: str
     """Colour of errors and faulty parts."""
     fill: str
-    """Colour of faces in a picture; `shade` is for faces that are turned away, `band` for flows and marks."""
+    """Colour of faces in a picture. `shade` is the colour of faces that are turned away, and `band` the colour of flows
+    and marks.
+    """
     shade: str
     band: str
     scale: tuple[str, str, str]
-    """Colours of the minimum, middle and maximum of a value; colours in between are interpolated."""
+    """Colours of the minimum, the middle and the maximum of a scale of values; colours in between are interpolated."""
     series: tuple[str, ...]
     """Ten colours of curves and areas, in the order in which they are used."""
     areas: tuple[tuple[str, str], ...] = ()
-    """Colour and matplotlib hatch of the areas of each series, if they are not filled with the colour of the series."""
+    """Colour and matplotlib hatch of the area of each series; empty if areas have the colours of the series."""
 
     @property
     def css(self) -> str:
@@ -130,14 +132,14 @@ THEMES: dict[ThemeName, Theme] = {
 
 
 def series_colour(at: int, theme: ThemeName = "light") -> str:
-    """Return the colour of the series with an index, from 0; colours repeat after ten series."""
+    """Return the colour of the series with index `at`, counted from 0. Colours repeat after ten series."""
     series = THEMES[theme].series
     return series[at % len(series)]
 
 
 def series_dash(at: int) -> Dash:
-    """Return the dash pattern [line widths] of the series with an index.
+    """Return the dash pattern [line widths] of the series with index `at`, counted from 0.
 
-    Together with the colours there are 70 distinct combinations, and 10 in print.
+    There are 70 distinct combinations of colour and dash pattern, and 10 in the print theme.
     """
     return _DASHES[(at + at // len(THEMES["light"].series)) % len(_DASHES)]

@@ -25,7 +25,8 @@ _ROUNDS, _CONVERGED = 500, 1e-14  # maximum number of fixed-point iterations, an
 
 @dataclass(frozen=True, slots=True)
 class ScenePose:
-    """Pose of a scene: angles A of the bodies about their directions [rad, modulo a turn], and rigid motions.
+    """Pose of a scene: angles A of the bodies about their directions [rad], modulo one turn, and rigid motions of the
+    bodies.
 
     The angle of a body that slides is 2 pi times its travel in mm.
     """
@@ -40,16 +41,22 @@ class ScenePose:
     moved: Floats
 
     def point(self, body: int, point: object) -> Floats:
-        """Return the positions in this pose of points (..., 3) of a body, which are given in the zero pose [mm]."""
+        """Return the positions in this pose [mm] of points of a body, shape (..., 3), which are given at their
+        positions in the zero pose [mm].
+        """
         return np.asarray(np.asarray(point, dtype=float) @ self.turned[body].T + self.moved[body])
 
     def way(self, body: int, way: object) -> Floats:
-        """Return the directions in this pose of vectors (..., 3) of a body, which are given in the zero pose."""
+        """Return the directions in this pose of vectors of a body, shape (..., 3), which are given by their directions
+        in the zero pose.
+        """
         return np.asarray(np.asarray(way, dtype=float) @ self.turned[body].T)
 
 
 def turns_of(speed: str | None, turns: Fraction) -> Fraction:
-    """Return the exact turns of a body at a relative speed (None counts as 0) after `turns` of the driving link."""
+    """Return the exact number of turns of a body after `turns` of the driving link, given its speed relative to the
+    driving link; 0 if the speed is None.
+    """
     return read_fraction(speed) * turns if speed is not None else Fraction(0)
 
 
@@ -58,7 +65,7 @@ def scene_pose(scene: Scene, turns: Fraction = Fraction(0)) -> ScenePose:
 
     Mean angles are exact, and errors of teeth and pins are computed from the scene's tables.
 
-    Raise `RangeError` if the iteration of pairs that depend on each other does not converge.
+    Raise `RangeError` if the iteration for pairs that depend on each other does not converge.
     """
     error = body_errors(scene, turns)
     angles = np.array(
@@ -88,7 +95,7 @@ def scene_pose(scene: Scene, turns: Fraction = Fraction(0)) -> ScenePose:
 
 
 def _kept(body: SceneBody, turns: Fraction) -> Fraction:
-    """Return the turns of a body modulo one turn; the travel of a link that slides is not reduced."""
+    """Return the turns of a body modulo one turn. For a link that slides, the travel is returned unchanged."""
     return turns if body.travels else turns % 1
 
 
@@ -103,7 +110,9 @@ def _rotation(axis: tuple[float, float, float], angle: float) -> Floats:
 
 
 def body_errors(scene: Scene, turns: Fraction) -> Floats:
-    """Return the error of each body's angle relative to its mean motion [rad]; 0 for constant ratios."""
+    """Return the angular error of each body relative to its mean motion [rad], shape (bodies,); 0 if ratios are
+    constant.
+    """
     movement = scene.movement
     delta = np.zeros(len(movement.sources))
     for step in movement.steps:
@@ -118,7 +127,9 @@ def body_errors(scene: Scene, turns: Fraction) -> Floats:
 
 
 def _evaluate_step(scene: Scene, step: ErrorStep, turns: Fraction, delta: Floats) -> None:
-    """Compute a step's errors in `delta` in place, directly if all drivers are known, otherwise by iteration."""
+    """Compute the errors of a step and store them in `delta`: directly if all drivers are known, by iteration if they
+    are not.
+    """
     sources, known = list(step.sources), list(step.known)
     base = np.array(step.from_known).reshape(len(sources), len(known)) @ delta[known]
     # fixed-point iteration, which converges if transmission errors vary slowly with the angle
@@ -135,7 +146,7 @@ def _evaluate_step(scene: Scene, step: ErrorStep, turns: Fraction, delta: Floats
 
 
 def _delta(scene: Scene, source: ErrorSource, turns: Fraction, shift: float) -> float:
-    """Return the error of a pair [rad] if the errors of other pairs move its driver by `shift` [rad]."""
+    """Return the error of a pair [rad] when the errors of other pairs move its driver by `shift` [rad]."""
     transmission = scene.movement.transmissions[source.transmission]
     # reduced to one period as a fraction, for the same reason as in `scene_pose`
     mean = transmission.period * float(read_fraction(source.cycles) * turns % 1)

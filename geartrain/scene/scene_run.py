@@ -1,6 +1,6 @@
-"""Simulated motion of a train as stored in a page: angles at few samples, contacts, and impacts.
+"""Simulated motion of a train as stored in a page: angles at selected samples, contacts, and impacts.
 
-Sample n is `n step` seconds after the start of the replayed part. The angle of a link is
+The time of sample n is n `step` seconds after the start of the replayed part. The angle of a link at the time t is
 
     turned(t) = rate t + line(t)
 
@@ -37,7 +37,7 @@ TimeRun: TypeAlias = Any
 
 @dataclass(frozen=True, slots=True)
 class LinkCourse(Result):
-    """Angle of a link as a function of time, stored as a mean speed and the deviations from uniform motion."""
+    """Angle of a link as a function of time, stored as a mean speed and deviations from uniform motion."""
 
     KEYS = ("rate", packed_key("samples", "<u4"), packed_key("angles", "<f4"))
 
@@ -67,13 +67,13 @@ class SceneContact(Result):
     at: Vector
     """Position of the contact point in the zero pose [mm]."""
     apart: float
-    """Fraction of the time in which no flank is in contact."""
+    """Fraction of the replayed time during which no flank is in contact."""
     coast: float
-    """Fraction of the time in which the coast flank is in contact."""
+    """Fraction of the replayed time during which the coast flank is in contact."""
     impact_rate: float
     """Mean number of impacts per second [1/s]."""
     hardest: float
-    """Maximum closing speed over all impacts, referred to the driven side [rad/s]."""
+    """Maximum closing speed of all impacts, referred to the driven link [rad/s]."""
     changes: Ints
     """Indices of the samples at which the contact changes to the corresponding entry of `states`. Shape (n,)."""
     states: str
@@ -83,7 +83,7 @@ class SceneContact(Result):
     impact_times: Floats
     """Times of impacts since the start of the replayed part [s]. Shape (m,)."""
     impact_speeds: Floats
-    """Closing speeds at the impacts, referred to the driven side [rad/s]. Shape (m,)."""
+    """Closing speeds at the impacts, referred to the driven link [rad/s]. Shape (m,)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,13 +91,15 @@ class SceneRun(Result):
     """Simulated motion of a train, ready to be replayed; angles in rad, times in s."""
 
     driven: str
-    """Drive that supplies power to the train."""
+    """Kind of drive that supplies power to the train."""
     link: str
     """Link at which power enters."""
     rate: float
     """Mean speed of the driving link [rad/s]."""
     period: float
-    """Time of one turn of the driving link at its mean speed [s], or the duration if the mean speed is 0."""
+    """Duration of one turn of the driving link at its mean speed [s]; if the mean speed is 0, the duration of the
+    replayed part.
+    """
     skip: float
     """Simulated time before the replayed part [s]."""
     duration: float
@@ -105,19 +107,19 @@ class SceneRun(Result):
     step: float
     """Time between samples of the replayed part [s]."""
     tolerance: float
-    """Maximum difference between stored and simulated angles [rad]; it is smaller for the driving link."""
+    """Maximum difference between stored and simulated angles [rad]; for the driving link, the difference is smaller."""
     torque: float
     """Mean torque at the link where power enters [N m]."""
     complete: bool
-    """True if the simulation ran to its end, False if it was stopped earlier."""
+    """True if the simulation ran to its end, False if it stopped earlier."""
     links: Sequence[LinkCourse]
     """Angles of the links, in the order of the scene's bodies."""
     contacts: Sequence[SceneContact]
     """Contacts of teeth, pins and the escapement."""
     deviations: Sequence[Annotated[Any, WingResult("simulation.time.time_run", "OutputDeviation")]]
-    """Maximum angles by which each output is ahead of and behind the motion with all drive flanks in contact [rad]."""
+    """Maximum angles by which each output leads and lags the motion with all drive flanks in contact [rad]."""
     notes: Sequence[str]
-    """Simplifications of the simulation and its replay: omitted effects, and links that are drawn as one."""
+    """Simplifications of the simulation and of its replay: neglected effects, and links that are drawn as one link."""
 
 
 # ------------------------------------------------------------------------------------------------- from a simulated run
@@ -131,7 +133,7 @@ _FLAT = 1e6  # ratio of the scales of time and angle, so that deviations from a 
 
 @dataclass(frozen=True)
 class ShownSamples:
-    """Samples of the evaluated part of a run, including the sample at time 0, which is not stored in the run."""
+    """Samples of the evaluated part of a run, including the sample at time 0, which the run does not store."""
 
     run: TimeRun
 
@@ -140,7 +142,7 @@ class ShownSamples:
         return np.asarray(self.run.time > self.run.skip - self.run.step / 2)
 
     def of(self, values: Floats, first: float = 0.0) -> Floats:
-        """Return the values at the replayed samples, preceded by `first` if the replay starts at time 0."""
+        """Return the values at the replayed samples. If the replay starts at time 0, `first` is prepended."""
         picked = values[self._picked]
         return np.concatenate(([first], picked)) if self.run.skip == 0 else picked
 
@@ -151,7 +153,7 @@ class ShownSamples:
 
     @cached_property
     def time(self) -> Floats:
-        """Times of the replayed samples since the first of them [s]."""
+        """Times of the replayed samples, measured from the first replayed sample [s]."""
         return self.of(self.run.time) - self.start
 
     @property
@@ -160,7 +162,8 @@ class ShownSamples:
         return float(self.time[-1]) / (len(self.time) - 1)
 
     def link(self, turned: Floats, tolerance: float) -> LinkCourse:
-        """Return the mean speed of a link and its simplified deviations, from its angles at all samples [rad].
+        """Return the mean speed of a link and its simplified deviations, computed from the angles `turned` at all
+        samples [rad].
 
         tolerance   maximum error of the simplified angles [rad]
         """
@@ -172,8 +175,8 @@ class ShownSamples:
         return LinkCourse(rate, np.array(kept), line[kept])
 
     def states(self, contact: str) -> tuple[Ints, str]:
-        """Return indices of samples at which a contact changes, and its new states as letters; empty for a contact
-        without flanks.
+        """Return the indices of the samples at which the state of a contact changes, and the new states as letters;
+        empty for a contact without flanks.
         """
         if contact not in self.run.gaps.labels[0]:
             return np.zeros(0, dtype=np.int64), ""
@@ -185,7 +188,9 @@ class ShownSamples:
         return changes, "".join("dca"[each] for each in code[changes])
 
     def impacts(self, contact: str) -> tuple[Floats, Floats]:
-        """Return a contact's impact times [s] and closing speeds [rad/s], with the impacts of one sample merged."""
+        """Return the times [s] and closing speeds [rad/s] of the impacts of a contact. Impacts within one sample are
+        merged.
+        """
         own = np.array([name == contact for name in self.run.impacts.contact], dtype=bool)
         times, speeds = self.run.impacts.time[own] - self.start, self.run.impacts.speed[own]
         if not len(times):
@@ -207,7 +212,7 @@ def find_run(
 
     Raise `QuestionError` if the run is of another train or state.
 
-    moves   link -> the link of the run that has the same motion
+    moves   for each link, the link of the run that has the same motion
     """
     if (run.train, run.state) != (stage.train.name, stage.answer.state):
         what = f"the run of {run.train}{f', state {run.state}' if run.state else ''} does not belong to this scene"
@@ -251,7 +256,9 @@ def find_run(
 
 
 def _tolerance(stage: SceneContext, link: str) -> float:
-    """Return the tolerance of stored angles [rad], smaller for the driving link, which gives all ideal angles."""
+    """Return the tolerance of stored angles of a link [rad]. It is smaller for the driving link, from which all ideal
+    angles follow.
+    """
     if link != stage.driving_link:
         return TOLERANCE
     ratios = (stage.ratio(each) for each in stage.train.declaration.links)
@@ -270,7 +277,9 @@ def _omissions(run: TimeRun, movement: Movement) -> Iterator[str]:
 def _places(
     stage: SceneContext, wheels: Sequence[SceneWheel], pairs: Sequence[ScenePair], couplings: Sequence[SceneCoupling]
 ) -> Iterator[tuple[str, tuple[str, int, Vector]]]:
-    """Yield each contact with its kind, the body that carries its point, and the point in the zero pose [mm]."""
+    """Yield the name of each contact with its kind, the body that carries its contact point, and the position of this
+    point in the zero pose [mm].
+    """
     if (escapement := stage.train.declaration.escapement) is not None:
         link = escapement.link
         own = [wheel for wheel in wheels if wheel.body == stage.body[link]]
@@ -282,8 +291,8 @@ def _places(
 
 
 def _rim(wheels: Sequence[SceneWheel]) -> Vector:
-    """Return the point where pallets touch the largest wheel of a link, preferably one without mates [mm]; the origin
-    if the link has no wheels.
+    """Return the point at which pallets touch the largest wheel of a link [mm]; wheels without mates are preferred.
+    Return the origin if the link has no wheels.
     """
     if not wheels:
         return (0.0, 0.0, 0.0)
@@ -294,10 +303,10 @@ def _rim(wheels: Sequence[SceneWheel]) -> Vector:
 
 
 def pitch_point(one: SceneWheel, other: SceneWheel) -> Vector:
-    """Return the pitch point of two wheels in the zero pose [mm], on the pitch circle of one towards the axis of the
-    other.
+    """Return the pitch point of two wheels in the zero pose [mm], which is on the pitch circle of `one`, in the
+    direction of the axis of `other`.
 
-    If one wheel is a ring, it is on the pitch circle of the ring.
+    If one of the wheels is a ring, the point is on the pitch circle of the ring.
     """
     if other.kind == "ring":
         one, other = other, one

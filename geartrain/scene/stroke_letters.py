@@ -1,7 +1,7 @@
 """Letters as single strokes for engraving, and outlines of hands.
 
-Letters are capitals of the Latin and Greek alphabets, digits and a few signs. The outline of a hand is relative to the
-length of the hand, which is given relative to the radius of a scale.
+Letters are capitals of the Latin and Greek alphabets, digits and a few signs. The unit of the outline of a hand is the
+length of the hand, which is given as a multiple of the radius of a scale.
 """
 
 from __future__ import annotations
@@ -21,9 +21,9 @@ class HandOutline:
     """Outline of a hand along x from its axis, with the tip at x = 1."""
 
     reach: float
-    """Length of the hand relative to the radius of the scale on which it is read."""
+    """Length of the hand divided by the radius of the scale on which it is read."""
     stations: tuple[tuple[float, float], ...]
-    """Pairs (x, half the width at x) from the tail to the tip, relative to the length."""
+    """Pairs (x, half the width at x) from the tail to the tip, in units of the length of the hand."""
 
 
 # reach, distances from the axis, half the width at each of them
@@ -47,14 +47,14 @@ def _hand(reach: float, places: str, halves: str) -> HandOutline:
 
 
 HANDS: Mapping[str, HandOutline] = {name: _hand(*drawn) for name, drawn in _HANDS.items()}
-"""Outlines of hands by the name used in a declaration; other hands are needles or `hand_with_ball`."""
+"""Outlines of hands, by the name used in a declaration. All other hands are needles or made by `hand_with_ball`."""
 
 
 def hand_with_ball(reach: float, ball: float) -> HandOutline:
     """Return the outline of an arm with a round end.
 
-    reach   distance of the far side of the round end from the axis; `ball` is the radius of the end, and both are
-            relative to the radius of the scale
+    reach   distance from the axis to the far side of the round end, divided by the radius of the scale
+    ball    radius of the round end, divided by the radius of the scale
     """
     arm, radius = 0.12 * ball / reach, ball / reach
     steps = [pi * at / 12 for at in range(1, 13)]
@@ -143,7 +143,9 @@ _SMALL, _SIMPLE = 0.025, 6  # relative height of letters whose strokes of over s
 
 @cache
 def letter_strokes(letter: str) -> tuple[tuple[Stroke, ...], float]:
-    """Return the strokes of a capital of height 1 on the line y = 0, and its width; a box for an unknown character."""
+    """Return the strokes of a capital letter of height 1 whose baseline is y = 0, and its width. An unknown character
+    is drawn as a box.
+    """
     drawn = _LETTERS.get(_SAME.get(letter, letter), _UNKNOWN)
     strokes = tuple(_stroke(each) for each in drawn.split())
     return strokes, max(x for stroke in strokes for x, _ in stroke)
@@ -156,7 +158,9 @@ def _stroke(drawn: str) -> Stroke:
 
 
 def _rounded(corners: list[Point]) -> Iterator[Point]:
-    """Yield a stroke's points with corners cut at a quarter of their sides (Chaikin); open ends are kept."""
+    """Yield the points of a stroke after cutting its corners at a quarter of their sides (Chaikin's algorithm); open
+    ends are kept.
+    """
     closed = corners[0] == corners[-1]
     found = [] if closed else corners[:1]
     for (x, y), (u, v) in pairwise(corners):
@@ -166,23 +170,26 @@ def _rounded(corners: list[Point]) -> Iterator[Point]:
 
 
 def capitals(text: str) -> str:
-    """Return a string as it is engraved: in capitals without accents."""
+    """Return a text as it is engraved, in capitals without accents."""
     return "".join(each for each in unicodedata.normalize("NFD", text.upper()) if not unicodedata.combining(each))
 
 
 def _advances(text: str) -> list[tuple[str, float]]:
-    """Return the letters of a string, each with the sum of its width and the gap after it, relative to the height."""
+    """Return the letters of a text. Each has its advance, which is its width plus the gap after it, divided by the
+    letter height.
+    """
     gap = _APART / _HIGH
     return [(each, (_SPACE / _HIGH if each.isspace() else letter_strokes(each)[1]) + gap) for each in capitals(text)]
 
 
 def text_length(text: str) -> float:
-    """Return the length of a string relative to the height of its letters."""
+    """Return the length of a text divided by the height of its letters."""
     return max(0.0, sum(wide for _, wide in _advances(text)) - _APART / _HIGH)
 
 
 def curved_text(text: str, height: float, radius: float, angle: float, inwards: bool = False) -> Iterator[Stroke]:
-    """Yield the strokes of a string along a circular arc, centred at an angle [rad] clockwise from the top.
+    """Yield the strokes of a text along a circular arc. The text is centred at an angle measured clockwise from the top
+    [rad].
 
     inwards   True if the feet of letters point outwards, so that text below the centre is readable
     """

@@ -1,20 +1,20 @@
 """Searches for tooth counts, reconstruction of gear trains, and posterior distributions of tooth counts.
 
-Input is a ratio, a train with unknown tooth counts, a type of epicyclic gear set, the periods of an orrery, surviving
-wheels, or uncertain tooth counts. Output is a ranked list of the tooth counts that satisfy the conditions, with a
-statement whether the search was complete, or their posterior probabilities. Tooth counts are compared as integers and
-ratios as `Fraction`s, so rounding errors cannot change a result.
+The input is a ratio, a train with unknown tooth counts, a type of epicyclic gear set, the periods of an orrery,
+surviving wheels, or uncertain tooth counts. The output is either a ranked list of tooth counts that satisfy the
+conditions, with a flag that states whether the search was complete, or the posterior probabilities of the tooth counts.
+Tooth counts are compared as integers and ratios as `Fraction`s, so rounding errors cannot change a result.
 
-ratio          one ratio by stages of gear pairs: meet in the middle on sorted products (`find_stages`)
-train          the wheels of a declared train whose tooth counts are varied: an exact weighted join (`search_train`)
-epicyclic      sets of sun, planets and ring: the Willis equation over all coaxial sets (`find_sets`)
-orrery         many periods with shared wheels: branch and bound, beam search (`find_orrery`)
-reconstruct    every train that explains surviving wheels and pointers (`reconstruct.reconstruct`)
-posterior      the posterior of uncertain counts by Bayes' theorem, exact or from a sample (`infer_counts`)
+ratio          tooth counts of gear stages for one ratio: meet in the middle on sorted products (`find_stages`)
+train          tooth counts of varied wheels of a declared train: an exact weighted join (`search_train`)
+epicyclic      sets of sun, planets and ring: the Willis equation for all coaxial sets (`find_sets`)
+orrery         trains for many periods with shared wheels: branch and bound, beam search (`find_orrery`)
+reconstruct    all trains that explain surviving wheels and pointers (`reconstruct.reconstruct`)
+posterior      posterior of uncertain tooth counts by Bayes' theorem, exact or sampled (`infer_counts`)
 join           the exact join used by `train` and `posterior`: bucket elimination on lists of products
 constraints    further conditions on tooth counts: assembly, planets, limits of wheels
 
-target_ratio, tooth_count_ranges   parsers of ratios and of ranges of tooth counts (`read_ratio`, `read_counts`)
+target_ratio, tooth_count_ranges   parsers for ratios and for ranges of tooth counts (`read_ratio`, `read_counts`)
 search_outcome          results common to all searches: tooth counts of stages, numbers of rejected candidates
 stern_brocot            fractions near a number: the Stern-Brocot tree (`approximants`)
 weighted_alternatives   totals and marginals by the inside-outside algorithm; information in bits

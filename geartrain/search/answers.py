@@ -1,4 +1,4 @@
-"""Result types of the searches that commands print as JSON."""
+"""Result types of the search commands that print their results as JSON."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import Any
 
 
 def answers() -> dict[str, Any]:
-    """Return a mapping from the words of each search command to its result type.
+    """Return the result type of each search command, keyed by the words of the command.
 
     An option that changes the result type has its own entry, such as `teeth set --kind list`.
     """

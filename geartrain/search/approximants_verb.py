@@ -1,4 +1,4 @@
-"""Command `geartrain teeth approximants RATIO`: fractions that approximate a ratio."""
+"""Command `geartrain teeth approximants RATIO`: list fractions that approximate a ratio."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """List fractions that approximate a ratio: convergents of its continued fraction and intermediate fractions.
+    """List fractions that approximate a ratio: the convergents of its continued fraction and intermediate fractions.
 
     Example: `geartrain teeth approximants 13.368267`.
     """

@@ -1,4 +1,4 @@
-"""Ranges of integers as arrays, in one piece or in blocks, and the distinct quotients of two integer arrays."""
+"""Conversion of ranges of integers to arrays, at once or in blocks, and distinct quotients of two integer arrays."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from numpy.typing import NDArray
 from geartrain.numerics.arrays import Ints
 
 Integers = NDArray[Any]
-"""Array of int64, or of Python integers (dtype object) where values may exceed int64."""
+"""Array of int64, or of Python integers (dtype object) if values may exceed the range of int64."""
 
 
 def spread(starts: Ints, ends: Ints) -> tuple[Ints, Ints]:
-    """Return the integers of half-open ranges as two arrays: the index of the range of each integer, and the
-    integer.
+    """Return all integers of several half-open ranges as two arrays: the index of the range to which each integer
+    belongs, and the integer.
 
-    No range may have an end below its start.
+    The end of a range must not be below its start.
     """
     sizes = ends - starts
     owner = np.repeat(np.arange(len(sizes)), sizes)
@@ -29,7 +29,7 @@ def spread(starts: Ints, ends: Ints) -> tuple[Ints, Ints]:
 
 
 def spread_in_blocks(starts: Ints, ends: Ints, most: int) -> Iterator[tuple[Ints, Ints]]:
-    """Yield the arrays of `spread` in blocks of at most `most` integers."""
+    """Yield the arrays returned by `spread` in blocks of at most `most` integers."""
     upto = np.cumsum(ends - starts)
     total = int(upto[-1]) if len(upto) else 0
     for begin in range(0, total, most):

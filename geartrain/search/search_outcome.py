@@ -1,4 +1,4 @@
-"""Results of a search for tooth counts, and the reasons for which candidates were rejected."""
+"""Results of a search for tooth counts, and the reasons why candidates were rejected."""
 
 from __future__ import annotations
 
@@ -13,32 +13,36 @@ from geartrain.numerics.results import Key, Result, brief
 
 @dataclass(frozen=True, slots=True)
 class Shortfall(Result):
-    """Numbers of candidates that a search rejected, by reason. They explain an empty or short list of solutions."""
+    """Number of candidates rejected by a search, for each reason. These numbers explain an empty or short list of
+    solutions.
+    """
 
     KEYS = ("considered", Key("removed", "removals"), "nearest", "advice")
 
     considered: int = 0
     """Number of candidates before any constraint is applied."""
     removed: Mapping[str, int] | None = None
-    """Number of rejected candidates by reason. A candidate is counted under the constraint at which the search
-    rejected it.
+    """Number of rejected candidates, keyed by reason. A candidate is counted under the first constraint that rejected
+    it. None if rejected candidates were not counted.
     """
     nearest: str = ""
-    """Description of the rejected candidate with the smallest violation of a constraint, with its tooth counts and
-    ratio error, or of a constraint that no candidate satisfies. It is "" if there is a solution or the search was
-    interrupted.
+    """Description of the nearest miss: the rejected candidate with the smallest violation of a constraint, with its
+    tooth counts and ratio error, or a constraint that no candidate satisfies. Empty if there is a solution or if the
+    search was interrupted.
     """
     advice: str = ""
-    """Suggestions of constraints to relax, with the effect of each; "" if there is a solution."""
+    """Suggestions of constraints to be relaxed, with the effect of each suggestion; empty if there is a solution."""
 
     @property
     def removals(self) -> Mapping[str, int]:
-        """Number of rejected candidates by reason, as in `removed`; an empty mapping if they were not counted."""
+        """Number of rejected candidates, keyed by reason, as in `removed`; empty if rejected candidates were not
+        counted.
+        """
         return self.removed or {}  # None means that rejected candidates were not counted
 
 
 class CountSizes(ABC):
-    """Base class of results with tooth counts. It provides the sum, the maximum, and the number of distinct tooth
+    """Base class of results with tooth counts. It provides their sum, their maximum, and the number of distinct tooth
     counts.
     """
 
@@ -67,7 +71,7 @@ class CountSizes(ABC):
 
 @dataclass(frozen=True, slots=True)
 class GearStages(CountSizes, Result):
-    """Gear pairs in series that approximate a ratio: the tooth counts of the numerator (`top`) and of the denominator
+    """Gear pairs in series that approximate a ratio: tooth counts of the numerator (`top`) and of the denominator
     (`beneath`).
     """
 
@@ -84,15 +88,17 @@ class GearStages(CountSizes, Result):
     )
 
     top: tuple[int, ...]
-    """Tooth counts of the numerator, ascending, one for each stage."""
+    """Tooth counts of the numerator in ascending order, one for each stage."""
     beneath: tuple[int, ...]
-    """Tooth counts of the denominator, ascending, one for each stage."""
+    """Tooth counts of the denominator in ascending order, one for each stage."""
     ratio: Fraction
-    """Product of `top` divided by product of `beneath`, exact and positive."""
+    """Exact ratio: product of the tooth counts in `top` divided by product of the tooth counts in `beneath`."""
     error: Fraction
-    """Relative error: `ratio` divided by the magnitude of the requested ratio, minus 1; exact."""
+    """Exact relative error: `ratio` divided by the magnitude of the requested ratio, minus 1."""
     pairs: tuple[tuple[int, int], ...]
-    """Tooth counts (numerator, denominator) of each stage, in the feasible pairing with the most coprime stages."""
+    """Pairs of tooth counts (numerator, denominator), one for each stage. The pairing is the feasible pairing with the
+    maximum number of stages with coprime tooth counts.
+    """
 
     def _summary(self) -> str:
         teeth = " ".join(f"{top}/{beneath}" for top, beneath in self.pairs)
@@ -100,15 +106,15 @@ class GearStages(CountSizes, Result):
 
     @property
     def teeth(self) -> tuple[int, ...]:
-        """All tooth counts: the numerator, then the denominator."""
+        """All tooth counts: those of the numerator, followed by those of the denominator."""
         return self.top + self.beneath
 
     @property
     def counts(self) -> tuple[int, ...]:
-        """All tooth counts: the numerator, then the denominator."""
+        """All tooth counts: those of the numerator, followed by those of the denominator."""
         return self.teeth
 
     @property
     def sides(self) -> tuple[tuple[int, ...], tuple[int, ...]]:
-        """Tooth counts of the two sides of the ratio: numerator, denominator."""
+        """Two tuples: the tooth counts of the numerator and the tooth counts of the denominator."""
         return self.top, self.beneath

@@ -1,10 +1,10 @@
 """Fractions near a number by exact traversal of the Stern-Brocot tree.
 
 Sources: M. A. Stern, Ueber eine zahlentheoretische Funktion, J. reine angew. Math. 55 (1858); A. Brocot, Calcul des
-rouages par approximation, Revue chronometrique 3 (1861). The tree contains every positive reduced fraction once, as
-the mediant (a + c)/(b + d) of two neighbours a/b < c/d with bc - ad = 1. The path to a number descends left and right.
-The lengths of its straight runs are the terms of the continued fraction of the number, so a run is skipped in one
-step.
+rouages par approximation, Revue chronometrique 3 (1861). The tree contains every positive reduced fraction once, as the
+mediant (a + c)/(b + d) of two neighbours a/b < c/d with bc - ad = 1. The path from the root of the tree to a number
+consists of straight runs of steps to the left or to the right. The lengths of these runs are the terms of the continued
+fraction of the number, so a run is processed in one step.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from geartrain.search.target_ratio import TargetRatio
 
 ApproximantKind = Literal["convergent", "best", "intermediate"]
 IntegerPair = tuple[int, int]
-"""Numerator and denominator; (1, 0) represents infinity."""
+"""Numerator and denominator of a fraction; (1, 0) represents infinity."""
 
 _MOST_LISTED = 10**5  # a single run may have as many fractions as the bound
 
@@ -33,7 +33,7 @@ class Approximant(Result):
     KEYS = ("value", "kind", Key("error", to=float), Key("exact_error", "error"))
 
     value: Fraction
-    """Value of the fraction, positive."""
+    """Positive value of the fraction."""
     error: Fraction
     """Exact relative error of the fraction: `value` divided by the approximated number, minus 1."""
     kind: ApproximantKind
@@ -59,9 +59,9 @@ class Approximants(Tabular, Result):
     wanted: TargetRatio
     """Requested ratio."""
     most: int
-    """Maximum numerator and denominator of a fraction."""
+    """Maximum value of the numerator and of the denominator of a fraction."""
     solutions: tuple[Approximant, ...]
-    """Fractions in the order of the path of the Stern-Brocot tree to the ratio."""
+    """Fractions in the order of the path to the ratio in the Stern-Brocot tree."""
 
     def _summary(self) -> str:
         label = self.wanted.label or self.wanted.value
@@ -71,34 +71,42 @@ class Approximants(Tabular, Result):
 
 @dataclass(frozen=True, slots=True)
 class SternBrocotRun:
-    """Straight run of the path: the fractions (p + k P)/(q + k Q) for k from 1 to `length`, from p/q towards P/Q."""
+    """Straight run of a path in the Stern-Brocot tree: the fractions (p + k P)/(q + k Q) for k from 1 to `length`,
+    which lead from p/q towards P/Q.
+    """
 
     near: IntegerPair
-    """Numerator and denominator (p, q) of the end on the same side of the number as the fractions of the run."""
+    """Numerator and denominator (p, q) of the fraction before the run. It is on the same side of the approximated
+    number as the fractions in the run.
+    """
     far: IntegerPair
-    """Numerator and denominator (P, Q) of the end on the opposite side of the number."""
+    """Numerator and denominator (P, Q) of the fraction on the opposite side of the approximated number."""
     whole: int
-    """Length of the run without bounds, which is a term of the continued fraction. The fraction at this index is a
-    convergent.
+    """Partial quotient of the continued fraction: the number of fractions in the run without bounds on the numerator
+    and the denominator. The fraction with this index k is a convergent.
     """
     length: int
-    """Number of fractions of the run within the bounds."""
+    """Number of fractions in the run that are within the bounds."""
     best: int
-    """Minimum k from which on the fractions are best approximations of the first kind; `length` + 1 if none is."""
+    """Minimum index k from which all fractions in the run are best approximations of the first kind; `length` + 1 if no
+    fraction in the run is one.
+    """
 
     def at(self, k: int) -> Fraction:
-        """Return the fraction (p + k P)/(q + k Q)."""
+        """Return the fraction with index k in the run, (p + k P)/(q + k Q)."""
         return coprime(self.near[0] + k * self.far[0], self.near[1] + k * self.far[1])
 
     def kind(self, k: int) -> ApproximantKind:
-        """Return the type of the fraction at index k."""
+        """Return the type of the fraction with index k in the run."""
         if k == self.whole:
             return "convergent"
         return "best" if k >= self.best else "intermediate"
 
 
 def runs(value: Fraction, most: IntegerPair) -> Iterator[SternBrocotRun]:
-    """Yield the straight runs of the path to `value` > 0, with numerator and denominator up to `most`."""
+    """Yield the straight runs of the path to `value` > 0 in the Stern-Brocot tree. `most` contains the maximum
+    numerator and the maximum denominator of a fraction.
+    """
     if value <= 0 or min(most) < 1:
         raise QuestionError(
             Problem(
@@ -133,14 +141,15 @@ def approximants(value: Fraction, most: int, minimum: ApproximantKind = "interme
     most : int
         Maximum numerator and denominator.
     minimum : {"convergent", "best", "intermediate"}
-        "convergent" lists only the convergents of the continued fraction, "best" also the best approximations of the
-        first kind, "intermediate" all fractions.
+        Kinds of fractions to be listed. "convergent": only the convergents of the continued fraction; "best": also the
+        best approximations of the first kind; "intermediate": all fractions on the path.
 
     Returns
     -------
     tuple of Approximant
-        Fractions. The last fraction is `value` if it is within the bound. Otherwise, with "intermediate", the last
-        fraction below and the last fraction above `value` are the nearest fractions within the bound on their sides.
+        Fractions. The last fraction is `value` if it is within the bound. If it is not, and `minimum` is
+        "intermediate", the last fraction below `value` and the last fraction above it are the nearest fractions within
+        the bound.
 
     Raises
     ------
@@ -177,9 +186,10 @@ def approximants(value: Fraction, most: int, minimum: ApproximantKind = "interme
 
 
 def farey_neighbours(value: Fraction, most: int) -> tuple[Fraction, Fraction]:
-    """Return the largest fraction <= `value` and the smallest fraction >= `value` with denominators up to `most`.
+    """Return the largest fraction <= `value` and the smallest fraction >= `value` whose denominators do not exceed
+    `most`.
 
-    `value` must be 0 or more, and `most` 1 or more.
+    The argument `value` must be at least 0, and `most` must be at least 1.
 
     >>> farey_neighbours(Fraction(314159, 100000), 100)
     (Fraction(311, 99), Fraction(22, 7))
@@ -194,12 +204,13 @@ def farey_neighbours(value: Fraction, most: int) -> tuple[Fraction, Fraction]:
 
 
 def _first_best(value: Fraction, near: IntegerPair, far: IntegerPair, length: int) -> int:
-    """Return the minimum k for which (p + k P)/(q + k Q) is nearer to `value` than P/Q, at most `length` + 1.
+    """Return the minimum index k for which (p + k P)/(q + k Q) is nearer to `value` than P/Q, where `near` is (p, q)
+    and `far` is (P, Q). The result is at most `length` + 1.
 
-    The fractions of a run approach the number monotonically, and all fractions between them and the number have larger
-    denominators. It is therefore sufficient to compare each with the end on the opposite side. Zero and infinity are
-    excluded, because they are not gear ratios. An integer is compared with the next integer, which has the same
-    denominator.
+    The fractions in a run approach `value` monotonically, and all fractions between them and `value` have larger
+    denominators. It is therefore sufficient to compare each of them with P/Q, which is on the opposite side. Zero and
+    infinity are excluded, because they are not gear ratios. An integer is compared with the next integer, which has the
+    same denominator.
     """
     # towards infinity the fractions are the integers up to `value`, of which only the last can be nearest
     if not far[1]:

@@ -1,4 +1,4 @@
-"""Parser of a requested ratio: a number, a fraction, a pair of counts, a quotient of periods, or a name."""
+"""Parser of a requested ratio: a number, a fraction, a pair of tooth counts, a quotient of periods, or a name."""
 
 from __future__ import annotations
 
@@ -53,16 +53,16 @@ class TargetRatio(Result):
     KEYS = ("label", Key("ratio", "value"), Key("value", to=as_float), "sense", "note")
 
     value: Fraction
-    """Magnitude of the ratio, exact and positive: product of the tooth counts of the numerator divided by the product
-    of the tooth counts of the denominator.
+    """Exact magnitude of the ratio: product of the tooth counts in the numerator divided by the product of the tooth
+    counts in the denominator.
     """
     sense: Literal[-1, 0, 1] = 0
     """Requested sense of rotation of the output: 1 for the sense of the input, -1 for the opposite sense, 0 for either.
     """
     label: str = ""
-    """String from which the ratio was parsed, with the second period if there is one."""
+    """Text from which the ratio was parsed, with the second period if there is one."""
     note: str = ""
-    """Derivation of the ratio, with the source of its data."""
+    """Derivation of the ratio, and the source of its data."""
 
     def __post_init__(self) -> None:
         if self.value <= 0:
@@ -81,8 +81,8 @@ class TargetRatio(Result):
 
 @dataclass(frozen=True, slots=True)
 class _Term:
-    """One term of a ratio: kind, exact value (times in days), unit or name of counted objects, and note on its
-    origin.
+    """Term of a ratio: its kind, its exact value (times are in days), its unit or the name of the counted objects, and
+    a note on its origin.
     """
 
     kind: TargetKind
@@ -154,7 +154,9 @@ def read_ratio(text: str, per: str | None = None) -> TargetRatio:
 
 
 def _parts(text: str, label: str) -> list[str]:
-    """Split a string at its division sign into one or two parts. A division sign between blanks takes precedence."""
+    """Divide a text at its division sign, and return one or two parts. A division sign between spaces takes
+    precedence.
+    """
     # a term such as '1/3 d' may contain a division sign itself
     for division in (_WIDE_DIVISION, _DIVISION):
         parts = division.split(text)
@@ -192,7 +194,7 @@ def _term(text: str, label: str) -> _Term:
 
 
 def _with_word(number: str, word: str) -> _Term:
-    """Parse a number with a word, which is a unit of time or names counted objects."""
+    """Parse a number that is followed by a word. The word is a unit of time or the name of counted objects."""
     shown = f"{number} {word}"
     if word in period_table():
         raise _problem(
@@ -264,7 +266,7 @@ def _single_term(term: _Term, label: str, per: str | None) -> tuple[Fraction, st
 
 
 def _per_period(per: str, term: _Term) -> tuple[Fraction, str]:
-    """Return the number of periods `term` in one period `per`, and a note on the origin of both values."""
+    """Return the exact number of periods `term` in one period `per`, and a note on the origin of both periods."""
     whole = _term(" ".join(per.split()), per)
     if whole.kind != "time":
         raise _problem(
@@ -297,7 +299,7 @@ def _quotient(first: _Term, second: _Term, label: str) -> tuple[Fraction, str]:
 
 
 def _counted(term: _Term) -> bool:
-    """Return whether the word of a term may name counted objects, as in '27759 days / 940 months'."""
+    """Return whether the word of a term may be the name of counted objects, as in '27759 days / 940 months'."""
     return term.kind == "things" or term.word in _COUNTED_TIMES
 
 

@@ -1,7 +1,8 @@
-"""Command `geartrain teeth`: search for tooth counts for a ratio, a train, an epicyclic set or an orrery.
+"""Command `geartrain teeth`: search for the tooth counts of gear stages with a given ratio, of a train, of an epicyclic
+set or of an orrery.
 
-Each search is a command in a module that `SearchGroup` names. This module contains the options and output formats that
-the searches share.
+Each search is a command in a separate module, which is listed in `SearchGroup`. This module contains the options and
+output formats common to the searches.
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ from geartrain.numerics.results import imported_function
 
 
 class SearchGroup(LazyGroup):
-    """Group of the commands of `geartrain teeth`, one for each kind of search."""
+    """Command group `geartrain teeth`, with one command for each kind of search."""
 
     verbs = Verbs(
         {
@@ -48,8 +49,8 @@ class SearchGroup(LazyGroup):
     )
 
     def resolve_command(self, ctx: Any, args: list[str]) -> tuple[str | None, Any, list[str]]:
-        """Return the command of a search. If the name of the search is missing, raise `QuestionError` with a
-        suggestion.
+        """Return the name of the search command, its function, and the remaining arguments. If the name of the search
+        is missing, `QuestionError` is raised with a suggestion.
         """
         if args[0] not in self.verbs and not ctx.resilient_parsing and not get_close_matches(args[0], self.verbs):
             word, rest = _word(args)
@@ -60,7 +61,7 @@ class SearchGroup(LazyGroup):
 
 
 def _word(args: list[str]) -> tuple[str, list[str]]:
-    """Guess the intended search if its name is missing, and return its name and the arguments."""
+    """Return the name of the search that was probably intended if its name is missing, and the arguments."""
     from geartrain.train.declaration_files import shipped
 
     if args[0] == "epicyclic":
@@ -142,21 +143,21 @@ Pick = Annotated[
 
 ANY_COUNT = "12:120"
 NEGATIVE_NUMBERS = {"ignore_unknown_options": True}
-"""Settings of a command whose argument may be a negative number, which must not be parsed as an option."""
+"""Settings of a command that takes a number as argument, so that a negative number is not parsed as an option."""
 _YAML = (".yaml", ".yml")
 _FORMS = (".md", ".html", ".json", ".csv", *_YAML)
 _WIDEST = 10**12
 
 
 def check_number(ctx: typer.Context, text: str) -> str:
-    """Return an argument unchanged; raise `QuestionError` if it begins with a minus sign but is not a number."""
+    """Return an argument unchanged. `QuestionError` is raised if it begins with a minus sign but is not a number."""
     if text.startswith("-") and not text[1:2].isdigit() and text[1:2] != ".":
         raise option_error(text, "unknown option", f"`{ctx.command_path} --help` lists the options")
     return text
 
 
 def read_tolerance(text: str | None) -> Fraction | None:
-    """Return the maximum relative error, parsed from the value of `--tolerance`; None if the option is not given."""
+    """Parse the value of `--tolerance` and return it as a maximum relative error; None if the option is not given."""
     if text is None:
         return None
     found = read_share(text, "--tolerance")
@@ -167,24 +168,27 @@ def read_tolerance(text: str | None) -> Fraction | None:
 
 @dataclass(frozen=True)
 class SearchAnswer:
-    """Destination and format of the solutions of a search."""
+    """Destination and output format of the solutions of a search."""
 
     json: bool
-    """True to print JSON."""
+    """True to print the solutions as JSON."""
     out: Sink
     pick: int = 1
-    """Number of the listed solution that is written as a declaration, from 1."""
+    """Number of the listed solution that is written as a declaration, starting with 1."""
 
     @classmethod
     def of(cls, json: bool, out: Path | None, force: bool, pick: int = 1) -> SearchAnswer:
-        """Build the destination from the options; a file that cannot be written is rejected before the search."""
+        """Build the destination from the command-line options. A file that cannot be written is rejected before the
+        search.
+        """
         return cls(json, sink(out, force, _FORMS), pick)
 
     def give(self, found: Any, declared: Callable[[int], Mapping[str, Any]] | None = None) -> None:
-        """Print or write the solutions and exit: code 0 if there are solutions, 1 if not, 130 after an interruption.
+        """Print or write the solutions and exit. The exit code is 0 if there are solutions, 1 if there are none, and
+        130 after an interruption.
 
-        found      result of a search, which names the functions that build its table and its document
-        declared   function from the index of a solution to its declaration
+        found      result of a search; its class names the functions that build its table and its document
+        declared   function that returns the declaration of the solution with a given index
         """
         table, describe = (imported_function(*name.split(":")) for name in (found.ROWS, found.PAGE))
         rows = table(found)

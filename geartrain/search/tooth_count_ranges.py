@@ -16,7 +16,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 Counts = Sequence[int]
-"""Admissible tooth counts, ascending and distinct, each from 1 to 10^12: a tuple, a range or `CountRuns`."""
+"""Admissible tooth counts: a tuple, a range or `CountRuns`. They are distinct, in ascending order, and from 1 to
+10^12.
+"""
 
 MOST_TEETH = 10**12
 _MOST_LISTED = 10**6
@@ -25,11 +27,11 @@ _PART = re.compile(r"\s*(\d+)\s*(?::\s*(\d+)\s*)?", re.ASCII)
 
 @dataclass(frozen=True, slots=True)
 class CountRuns(Sequence[int]):
-    """Set of tooth counts, stored as runs of consecutive integers. Memory use does not depend on the length of the
-    runs.
+    """Set of tooth counts, stored as runs of consecutive integers. The memory requirement does not depend on the length
+    of the runs.
 
-    The object is a sequence of integers in ascending order, with a length and indices. `read_counts` parses such an
-    object from text, and `CountRuns.of` builds one from any counts.
+    The object is a sequence of integers in ascending order, with a length and indices. `read_counts` parses it from
+    text, and `CountRuns.of` builds it from an iterable.
 
     Examples
     --------
@@ -39,8 +41,8 @@ class CountRuns(Sequence[int]):
     """
 
     spans: tuple[tuple[int, int], ...]
-    """First and last count of each run, both inclusive. The runs are in ascending order, with a gap between any two of
-    them.
+    """First and last tooth count of each run, both inclusive. The runs are in ascending order, and there is a gap
+    between consecutive runs.
     """
 
     @classmethod
@@ -50,7 +52,7 @@ class CountRuns(Sequence[int]):
         Parameters
         ----------
         counts : iterable of int
-            One or more tooth counts, each from 1 to 10^12. Other values raise `QuestionError`.
+            One or more tooth counts, each from 1 to 10^12. `QuestionError` is raised for other values.
         """
         if isinstance(counts, CountRuns):
             return counts
@@ -96,7 +98,9 @@ class CountRuns(Sequence[int]):
         return self.spans[-1][1]
 
     def as_array(self) -> NDArray[np.int64]:
-        """Return the counts as an ascending array. Raise `RangeError` if there are more than a million counts."""
+        """Return the tooth counts as an array in ascending order. `RangeError` is raised if there are more than a
+        million tooth counts.
+        """
         import numpy as np
 
         if len(self) > _MOST_LISTED:
@@ -136,28 +140,29 @@ class CountRuns(Sequence[int]):
         return ",".join(f"{first}:{last}" if last > first else f"{first}" for first, last in self.spans)
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the counts as plain data for JSON."""
+        """Return the tooth counts as plain data for JSON."""
         return {"counts": str(self), "minimum": self.minimum, "most": self.most, "number": len(self)}
 
 
 def read_counts(text: str) -> CountRuns:
-    """Parse tooth counts from a string.
+    """Parse tooth counts from a text.
 
     Parameters
     ----------
     text : str
-        Ranges `first:last`, both inclusive, single counts, and names of construction sets such as `meccano`,
-        separated by commas.
+        Ranges `first:last`, where both ends are inclusive, single tooth counts, and names of construction sets such as
+        `meccano`, separated by commas.
 
     Returns
     -------
     CountRuns
-        Distinct counts in ascending order.
+        Distinct tooth counts in ascending order.
 
     Raises
     ------
     QuestionError
-        If the string is empty, a part is not a count from 1 to 10^12, or the first count of a range exceeds the last.
+        If the text is empty, if a part is not an integer from 1 to 10^12, or if the first tooth count of a range
+        exceeds the last.
 
     Examples
     --------
@@ -170,7 +175,9 @@ def read_counts(text: str) -> CountRuns:
 
 
 def _spans(part: str) -> Iterator[tuple[int, int]]:
-    """Yield the spans of a count, a range or the name of a construction set."""
+    """Yield the first and the last tooth count of each span in `part`, which is a single tooth count, a range, or the
+    name of a construction set.
+    """
     if any(letter.isalpha() for letter in part):
         from geartrain.train.mechanism import wheel_sets
 

@@ -1,4 +1,4 @@
-"""Documents and flat tables of tooth counts for a ratio, a train, an epicyclic set and an orrery."""
+"""Documents and flat tables for the results of searches for tooth counts."""
 
 from __future__ import annotations
 
@@ -21,14 +21,16 @@ _MANY = 3  # with more outputs a table of assignments shows only the maximum err
 
 
 def error_text(value: Fraction) -> str:
-    """Format a relative error: in ppm below 0.1 %, otherwise in per cent; "0" if it is exactly zero."""
+    """Format a relative error: in ppm if it is below 0.1 %, in per cent if it is larger, and as "0" if it is exactly
+    zero.
+    """
     if abs(value) < Fraction(1, 1000):
         return "0" if not value else f"{float(value) * 1e6:+.6g} ppm"
     return f"{float(value) * 100:+.6g} %"
 
 
 def stage_rows(found: StageFindings) -> list[dict[str, Any]]:
-    """Return the solutions for a ratio as rows of a table."""
+    """Return the rows of a table of the gear stages found for a ratio."""
     return [
         {
             "top": _product(one.top),
@@ -50,7 +52,7 @@ def _product(counts: Sequence[int]) -> str:
 
 
 def describe_stages(found: StageFindings) -> Document:
-    """Build the document of the solutions for a ratio by stages of gear pairs."""
+    """Return the document on the gear stages found for a ratio."""
     summary = [_wanted(found.wanted), *([f"{found.note[0].upper()}{found.note[1:]}."] if found.note else [])]
     within = "exact" if not found.tolerance else f"within {figure(float(found.tolerance), 4)}"
     search = "exhaustive search" if found.complete else "interrupted search"
@@ -86,12 +88,12 @@ def _solutions(solutions: Sequence[GearStages]) -> Section:
 
 
 def approximant_rows(found: Approximants) -> list[dict[str, Any]]:
-    """Return the fractions that approximate a ratio as rows of a table."""
+    """Return the rows of a table of the fractions that approximate a ratio."""
     return [each.to_dict() for each in found.solutions]
 
 
 def describe_approximants(found: Approximants) -> Document:
-    """Build the document of the fractions that approximate a ratio."""
+    """Return the document on the fractions that approximate a ratio."""
     wanted = found.wanted
     rows = [(exact(one.value), figure(one.value, 12), one.kind, error_text(one.error)) for one in found.solutions]
     table = Table(("fraction", "decimal", "kind", "error"), cut(rows))
@@ -100,8 +102,8 @@ def describe_approximants(found: Approximants) -> Document:
 
 
 def _shortfall(shortfall: Shortfall) -> list[Section]:
-    """Return a list with one section on rejected candidates, nearest miss and suggestions; empty if there is
-    nothing to report.
+    """Return a list with one section on rejected candidates, the nearest miss and suggestions; an empty list if there
+    is nothing to report.
     """
     lines = [f"Nearest: {shortfall.nearest}."] if shortfall.nearest else []
     lines += [f"Suggestions: {shortfall.advice}."] if shortfall.advice else []
@@ -116,7 +118,7 @@ def _shortfall(shortfall: Shortfall) -> list[Section]:
 
 
 def assignment_rows(found: TrainFindings) -> list[dict[str, Any]]:
-    """Return the solutions for a train as rows of a table: the tooth counts and the error of each output."""
+    """Return the rows of a table of the solutions for a train, with the tooth counts and the error of each output."""
     return [
         {**one.teeth, **{f"error of {name}": float(each.error) for name, each in one.outputs.items()}}
         for one in found.solutions
@@ -124,7 +126,7 @@ def assignment_rows(found: TrainFindings) -> list[dict[str, Any]]:
 
 
 def describe_assignments(found: TrainFindings) -> Document:
-    """Build the document of the tooth counts of a train, with a section for each independent part."""
+    """Return the document on the tooth counts found for a train, with a section for each independent part."""
     summary = [f"{figure(float(found.count), 6)} assignments of {', '.join(found.wheels)} satisfy all requirements."]
     summary += [f"{remark[0].upper()}{remark[1:]}." for remark in found.remarks]
     sections = [section for part in found.parts for section in _part(part)]
@@ -134,8 +136,8 @@ def describe_assignments(found: TrainFindings) -> Document:
 
 
 def _part(part: PartFindings) -> list[Section]:
-    """Return the sections on one independent part: its requirements, its number of solutions, and the best
-    solutions or, if there are none, the rejected candidates.
+    """Return the sections on one independent part: its requirements, its number of solutions, and its best solutions.
+    If there are no solutions, the rejected candidates are described instead.
     """
     requested = "; ".join([*part.demands, *part.rules])
     lines = [f"Required: {requested}." if requested else "No requirements."]
@@ -186,7 +188,7 @@ def _ranks(standings: Sequence[Standing]) -> Section:
 
 
 def set_rows(found: SetFindings) -> list[dict[str, Any]]:
-    """Return the epicyclic sets of a result as rows of a table."""
+    """Return the rows of a table of the epicyclic sets found by a search."""
     return [
         {
             "mode": one.mode.key,
@@ -201,7 +203,7 @@ def set_rows(found: SetFindings) -> list[dict[str, Any]]:
 
 
 def describe_sets(found: SetFindings) -> Document:
-    """Build the document of the epicyclic sets for a ratio."""
+    """Return the document on the epicyclic sets found for a ratio."""
     summary = [
         f"Wanted: {found.ratio_is} = {exact(found.wanted)} = {figure(found.wanted, 10)}, in either sense by default.",
         f"{found.count} combinations of set and mode run"
@@ -226,7 +228,7 @@ def describe_sets(found: SetFindings) -> Document:
 
 
 def describe_set_kinds(kinds: Mapping[str, EpicyclicKind]) -> Document:
-    """Build the document of the types of epicyclic sets."""
+    """Return the document on the types of epicyclic sets."""
     rows = [
         (kind.name, kind.title, ", ".join(kind.wheels), str(len(kind.modes)), kind.modes[0].key)
         for kind in kinds.values()
@@ -239,12 +241,12 @@ def describe_set_kinds(kinds: Mapping[str, EpicyclicKind]) -> Document:
 
 
 def orrery_rows(found: Orrery) -> list[dict[str, Any]]:
-    """Return the gear pairs of an orrery as rows of a table."""
+    """Return the rows of a table of the gear pairs of an orrery."""
     return [pair.to_dict() for pair in found.pairs]
 
 
 def describe_orrery(found: Orrery) -> Document:
-    """Build the document of an orrery: its gear pairs, the period of each arbor, and the proved lower bounds."""
+    """Return the report on an orrery: its gear pairs, the periods of its arbors, and proved bounds of its size."""
     proof = "proved minimum" if found.complete else f"lower bound {found.minimum_wheels}"
     limits = {"proved": "proof of the minimum", "effort": "effort limit"}
     summary = [

@@ -1,13 +1,14 @@
 """Totals and marginals of weighted derivations by the inside-outside algorithm, for tables of nodes.
 
-A derivation chooses one alternative at a node, and again one at each node that this alternative refers to. Its weight
-is the product of the weights of all chosen alternatives. The inside sum of a node is the total weight of all ways to
-complete a derivation from it. The outside sum is the total weight of all contexts in which the node occurs. Their
-product is the weight of all derivations that include the node. With integer weights all sums are exact. Sources: Baker
-1979; for chains the forward-backward algorithm, Baum 1970.
+A derivation chooses one alternative at a node, and then one alternative at each node to which the chosen alternative
+refers. The weight of a derivation is the product of the weights of all chosen alternatives. The inside sum of a node is
+the total weight of all derivations that start at the node. The outside sum of a node is the total weight of all
+contexts in which the node occurs. The product of the two sums is the total weight of all derivations that include the
+node. If the weights are integers, all sums are exact. Sources: Baker 1979; for chains, the forward-backward algorithm
+of Baum 1970.
 
 Each row of a table is a node, and the alternatives of all rows are arrays, so that millions of nodes are summed at
-once. `relative_entropy` and `entropy` measure the information in probabilities in bits.
+once. `relative_entropy` and `entropy` return the information in probabilities [bit].
 """
 
 from __future__ import annotations
@@ -32,19 +33,26 @@ class AlternativeRows(Generic[Table]):
     """Alternatives of all rows of a table, stored as arrays with one entry for each of m alternatives."""
 
     weight: Any
-    """Weights of the alternatives, of either sign: an array of shape (m,), or one number for all."""
+    """Weights of the alternatives, which may be negative: an array of shape (m,), or one number for all
+    alternatives.
+    """
     size: int
     """Number of rows of the table."""
     owners: Ints | None
-    """Row of the table that each alternative belongs to, shape (m,); None if alternative i belongs to row i."""
+    """Row of the table to which each alternative belongs, shape (m,); None if alternative i belongs to row i."""
     leads: tuple[tuple[Table, Ints], ...] = ()
-    """Parts of the alternatives: pairs of a table and the row in it, shape (m,)."""
+    """Nodes to which the alternatives refer. Each entry contains a table, and the row in this table to which each
+    alternative refers, shape (m,).
+    """
     facts: tuple[tuple[Hashable, int, Ints], ...] = ()
-    """Variables, each with its number of values and the index of the value that each alternative assigns, shape (m,).
+    """Variables to which the alternatives assign values. Each entry contains a variable, its number of values, and the
+    index of the value that each alternative assigns, shape (m,).
     """
 
     def below(self, inside: Mapping[Table, NDArray[Any]]) -> list[NDArray[Any]]:
-        """Return the inside sums of each part, shape (m,) each."""
+        """Return, for each entry of `leads`, the inside sum of the node to which each alternative refers, shape
+        (m,).
+        """
         return [inside[part][rows] for part, rows in self.leads]
 
 
@@ -52,7 +60,7 @@ class WeightedAlternatives(Generic[Table]):
     """Weighted derivations from the rows of a root table, with their total weight and marginals.
 
     root           table at whose rows the derivations begin
-    alternatives   function that returns the alternatives of a table. The graph of tables must be acyclic.
+    alternatives   function that returns the alternatives of a table; the graph of tables must be acyclic
     """
 
     def __init__(self, root: Table, alternatives: Callable[[Table], AlternativeRows[Table]]) -> None:
@@ -76,12 +84,14 @@ class WeightedAlternatives(Generic[Table]):
 
     @property
     def total(self) -> NDArray[Any]:
-        """Total weight of all derivations from each row of the root."""
+        """Total weight of all derivations that start at each row of the root table."""
         return self._inside[self.root]
 
     @cached_property
     def marginals(self) -> dict[Hashable, NDArray[Any]]:
-        """Array for each variable, with the total weight of all derivations that assign each of its values."""
+        """Array for each variable, which contains the total weight of the derivations that assign each value to the
+        variable.
+        """
         outside: dict[Table, Any] = dict.fromkeys(self._inside, 0)
         outside[self.root] = self._inside[self.root] ** 0  # 1 for each row
         found: dict[Hashable, Any] = {}
@@ -98,7 +108,7 @@ class WeightedAlternatives(Generic[Table]):
 
 
 def sums_by(owners: Ints, values: NDArray[Any], size: int) -> NDArray[Any]:
-    """Return the sum of the values of each owner, shape (size,). Python integers are added exactly."""
+    """Return the sum of the values that belong to each owner, shape (size,). Python integers are added exactly."""
     found: NDArray[Any] = np.zeros(size, dtype=values.dtype)
     np.add.at(found, owners, values)
     return found
@@ -115,9 +125,11 @@ def relative_entropy(after: Iterable[float], before: Iterable[float | Fraction])
 
 
 def entropy(probabilities: Iterable[float]) -> float:
-    """Return the Shannon entropy of a distribution [bit], the expected information of observing its outcome.
+    """Return the Shannon entropy of a distribution [bit], which is the expected information of an observation of its
+    outcome.
 
-    It is the mean relative entropy of the distributions after and before the observation.
+    The entropy equals the mean relative entropy of the distribution after the observation with respect to the
+    distribution before it.
     """
     return sum(
         (probability * relative_entropy((1.0,), (probability,)) for probability in probabilities if probability), 0.0

@@ -5,7 +5,7 @@ tooth contact is first lost, motion in time with impacts and an energy balance, 
 stress and wear, and a co-simulation unit.
 
 contacts   moments of inertia, input speeds at which teeth separate, and the contact model for time integration
-steps      the equations of one time step, the search for closed contacts, the energy balance
+steps      equations of one time step, the search for closed contacts, the energy balance
 time       runs and their results, spectra, modes, step-by-step simulation
 strength   pressures, stresses and wear of a loaded train: ISO 6336, Hertz, Lewis and Archard
 fmu        co-simulation units (FMI)

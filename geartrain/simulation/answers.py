@@ -6,7 +6,7 @@ from typing import Any
 
 
 def answers() -> dict[str, Any]:
-    """Return the result type of each simulation command that prints JSON, by name of the command."""
+    """Return a mapping from the name of each simulation command that prints JSON to its result type."""
     from geartrain.simulation.strength.strength_report import StrengthReport
     from geartrain.simulation.time.time_report import TimeReport
 

@@ -53,7 +53,7 @@ def _no_packing(residual: float) -> RangeError:
     return RangeError(
         Problem(
             f"no circle packing was found: the residual of the angles is {residual:.2g} rad",
-            "the radii differ by more than double precision resolves, or the graph is not 3-connected",
+            "the range of radii is too large for double precision, or the graph is not 3-connected",
             "split the graph into smaller graphs",
         )
     )

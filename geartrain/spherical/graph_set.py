@@ -281,7 +281,7 @@ def from_graph(
 
     if aim not in ("pitch", "phases"):
         raise QuestionError(
-            Problem(f"the aim {aim!r} is unknown", "the aim is 'pitch' or 'phases'", "pass aim='pitch'")
+            Problem(f"unknown aim {aim!r}", "`aim` is 'pitch' or 'phases'", "pass aim='pitch' or aim='phases'")
         )
     named = checked_graph(graph)
     names = list(named)

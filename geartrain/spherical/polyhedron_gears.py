@@ -396,7 +396,7 @@ def without_gears(
         if len(rest) == len(left):
             raise QuestionError(
                 Problem(
-                    f"no mesh '{word}' exists that could be dropped",
+                    f"unknown mesh '{word}'",
                     f"{first} and {second} do not mesh",
                     "give the names of two gears that mesh",
                 )

@@ -25,7 +25,9 @@ TOOTH_FORMS = {
     "pin_ring": "PinRing",
     "table": "GivenError",
 }
-"""Class name of each tooth form by its name in declarations, which is also the name of its module."""
+"""Class name of each tooth form, keyed by the name of the form in declarations, which is also the name of
+its module.
+"""
 
 
 _GROUP, _PREFIX = "geartrain.wings", "tooth_form."
@@ -33,9 +35,10 @@ _GROUP, _PREFIX = "geartrain.wings", "tooth_form."
 
 @cache
 def added_forms() -> Mapping[str, EntryPoint]:
-    """Return the tooth forms of other distributions by name: entry points `tooth_form.NAME` in `geartrain.wings`.
+    """Return the tooth forms of other distributions, keyed by name. They are the entry points `tooth_form.NAME` in
+    `geartrain.wings`.
 
-    They are read only for names that are not in `TOOTH_FORMS`, and where all names are listed, because a scan of the
+    Entry points are read only if a name is not in `TOOTH_FORMS` or if all names are listed, because a scan of the
     installed distributions takes longer than most commands.
     """
     from importlib.metadata import entry_points
@@ -53,7 +56,7 @@ def form_names(name: object = None) -> tuple[str, ...]:
 
 
 def tooth_form(name: str) -> type[ToothForm]:
-    """Import a tooth form by its name, one of `form_names`, and return its class."""
+    """Import the tooth form with the given name, one of `form_names`, and return its class."""
     if name not in TOOTH_FORMS:
         found: type[ToothForm] = added_forms()[name].load()
         return found
@@ -62,5 +65,5 @@ def tooth_form(name: str) -> type[ToothForm]:
 
 
 def tooth_forms() -> dict[str, type[ToothForm]]:
-    """Import all tooth forms and return their classes by name."""
+    """Import all tooth forms and return their classes, keyed by name of the form."""
     return {name: tooth_form(name) for name in form_names()}

@@ -64,7 +64,7 @@ _SCOPE = "circular-arc teeth are for external pairs of spur wheels; a contrate w
 
 def addendum_factor(z: int, ratio: float) -> float:
     """Return the factor f_a of a wheel's addendum [module]: the height above the pitch circle at which the epicycloid
-    meets its mirror image.
+    intersects its mirror image.
 
     The wheel drives a pinion of `z` leaves; `ratio` is the wheel's tooth count divided by the pinion's. The equations
     in the module's docstring are solved by fixed-point iteration. It converges, because 2 u b increases more slowly
@@ -278,8 +278,8 @@ class CircularArc(ToothForm):
 
 @lru_cache(maxsize=256)
 def _gears(first: ArcTooth, second: ArcTooth, distance: float) -> OutlineGears:
-    """Return the outlines of a pair at its centre distance [module], cached so that equal pairs of a train are computed
-    once.
+    """Return the outlines of a pair at its centre distance [module]. The result is cached so that equal pairs of a
+    train are computed only once.
     """
     from geartrain.teeth.contact.outline_transmission import OutlineGears
 
@@ -293,7 +293,9 @@ def _gears(first: ArcTooth, second: ArcTooth, distance: float) -> OutlineGears:
 
 @dataclass(frozen=True, slots=True)
 class ArcTooth:
-    """Sizes of one circular-arc tooth: radial flanks, and a tip of two equal arcs. Lengths are in modules."""
+    """Sizes of one circular-arc tooth with radial flanks and a tip that consists of two equal arcs. Lengths are in
+    modules.
+    """
 
     z: int
     """Number of teeth of the wheel."""
@@ -308,20 +310,19 @@ class ArcTooth:
 
     @property
     def tip(self) -> float:
-        """Radius of the tip circle [module]."""
+        """Radius of the tip circle of the wheel [module]."""
         return self.z / 2 + self.addendum
 
     @property
     def root(self) -> float:
-        """Radius of the root circle [module]."""
+        """Radius of the root circle of the wheel [module]."""
         return self.z / 2 - self.dedendum
 
     @property
     def centre(self) -> tuple[float, float]:
-        """Centre (x, y) of the arc on the side of positive x [module].
+        """Centre (x, y) of the arc on the half of the tooth with positive x [module].
 
-        The centre line of the tooth is the y axis. For a pointed tip the centre is on the other side of this line, at
-        negative x.
+        The centre line of the tooth is the y axis. For a pointed tip the centre has a negative x.
         """
         half = self.thickness / self.z
         x, y = self.z / 2 * sin(half), self.z / 2 * cos(half)
@@ -348,8 +349,8 @@ class ArcTooth:
 
     @property
     def flank(self) -> tuple[float, float]:
-        """Radius at which the flank ends and the arc begins [module], and angle of the flank from the tooth's centre
-        line [rad].
+        """Radius at which the radial flank ends and the arc begins [module], and angle of the flank from the tooth's
+        centre line [rad].
         """
         x, y = self.centre
         far = hypot(x, y)
@@ -357,7 +358,7 @@ class ArcTooth:
         return sqrt(far**2 - self.radius**2), atan2(x, y) + asin(self.radius / far)
 
     def outline(self) -> GearOutline:
-        """Return the outline of the whole wheel, as used to compute contact."""
+        """Return the outline of the whole wheel that is used to compute contact."""
         import numpy as np
 
         from geartrain.teeth.contact.gear_outline import GearOutline, OutlineCurve, ToothFlanks
@@ -374,10 +375,10 @@ class ArcTooth:
         return GearOutline((ToothFlanks.symmetric(side),), self.z)
 
     def vertices(self) -> Iterator[Vertex]:
-        """Yield the vertices (x, y, bulge) of one tooth from root to root [module]; the tooth's centre line is the x
+        """Yield the vertices (x, y, bulge) of one tooth from root to root [module]. The tooth's centre line is the x
         axis.
 
-        The bulge of an edge is the tangent of a quarter of its arc's angle, so that circular arcs are exact.
+        The bulge of an edge is the tangent of a quarter of the angle of its arc, so that circular arcs are exact.
         """
         (start, lean), (cx, cy) = self.flank, self.centre
         sweep = atan2(self.tip - cy, -cx) - atan2(start * cos(lean) - cy, start * sin(lean) - cx)

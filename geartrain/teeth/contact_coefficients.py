@@ -1,8 +1,8 @@
 """Coefficients of Coulomb friction and of restitution as a train declares them.
 
-Restitution is Newton's law of impact: two sides that approach each other at a speed u separate at the speed e u. The
-coefficient e is from 0 (they stay together) to 1 (no energy is lost), and the fraction 1 - e^2 of the kinetic energy of
-the approach is lost.
+Restitution follows Newton's law of impact: two bodies that approach each other at a speed u separate at the speed e u.
+The coefficient e is from 0 (the bodies stay together) to 1 (no energy is lost), and the fraction 1 - e^2 of the kinetic
+energy of the approach is lost.
 """
 
 from __future__ import annotations
@@ -24,13 +24,13 @@ from geartrain.numerics.quantity import Figure, Friction, Quantity, Share, bad, 
 
 
 class NumberOrKeys(BaseModel):
-    """Base class of parts that may be declared by a bare number instead of their keys."""
+    """Base class of parts of a declaration that may be given as a bare number instead of a mapping."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     @model_serializer(mode="wrap")
     def _declared(self, handler: Any) -> Any:
-        """Return the part as declared: a bare number if only one key is given."""
+        """Return the part in the form in which it is declared: a bare number if only one key is given."""
         given = [value for _, value in self if value is not None]
         return str(given[0]) if len(given) == 1 else handler(self)
 
@@ -40,7 +40,7 @@ class NumberOrKeys(BaseModel):
 
 
 class CoulombFriction(NumberOrKeys):
-    """Coulomb friction: friction force divided by normal force, independent of the sliding speed.
+    """Coefficient of Coulomb friction: friction force divided by normal force, independent of the sliding speed.
 
     A bare number is the coefficient `sliding`.
     """
@@ -72,7 +72,7 @@ class CoulombFriction(NumberOrKeys):
 
     @property
     def is_random(self) -> bool:
-        """True if the coefficient has a distribution of nonzero width."""
+        """True if the coefficient is a random variable with a distribution of nonzero width."""
         if self.range is not None:
             return self.range[0].value < self.range[1].value
         return self.deviation is not None and bool(self.deviation.value)
@@ -90,7 +90,7 @@ def _sliding(raw: object) -> object:
 
 
 DeclaredCoulombFriction = Annotated[CoulombFriction, BeforeValidator(_sliding)]
-"""Field type: Coulomb friction, or a bare number for its coefficient `sliding`."""
+"""Field type of a Coulomb friction coefficient. A bare number is accepted as the coefficient `sliding`."""
 
 
 def _check_restitution(figure: Figure) -> Figure:
@@ -119,7 +119,8 @@ Efficiency = Annotated[Share, AfterValidator(_at_most_one)]
 class Efficiencies(NumberOrKeys):
     """Basic efficiency of a pair (with fixed carrier) for each driving side, as a number up to 1 or a percentage.
 
-    A value of 0 or less declares that the pair is self-locking in that direction. At least one value is above 0.
+    A value of 0 or less declares that the pair is self-locking if that side drives. At least one of the two values is
+    above 0.
     """
 
     forward: Efficiency = Field(
@@ -142,4 +143,4 @@ def _efficiency(raw: object) -> object:
 
 
 DeclaredEfficiency = Annotated[Efficiencies, BeforeValidator(_efficiency)]
-"""Basic efficiencies, or one number for both directions."""
+"""Field type of basic efficiencies. One number is accepted for both driving directions."""

@@ -22,16 +22,16 @@ if TYPE_CHECKING:
 
 
 class CouplingKind(NamedTuple):
-    """Module and class of one kind of coupling."""
+    """Module and class that implement one kind of coupling."""
 
     module: str
-    """Name of the module in `geartrain.teeth.couplings`."""
+    """Name of the module, in the package `geartrain.teeth.couplings`."""
     model: str
-    """Name of the class."""
+    """Name of the class that describes couplings of this kind."""
     varies: bool = False
-    """True if the instantaneous ratio varies about its mean."""
+    """True if the instantaneous ratio varies about its mean value."""
     travels: bool = False
-    """True if the driver turns and the driven link slides."""
+    """True if the driving link turns and the driven link slides."""
 
 
 COUPLINGS: Mapping[str, CouplingKind] = {
@@ -52,69 +52,75 @@ COUPLINGS: Mapping[str, CouplingKind] = {
     "geneva": CouplingKind("steps", "Geneva", varies=True),
     "step": CouplingKind("steps", "Step", varies=True),
 }
-"""Kinds of couplings by the value of `kind` in declarations."""
+"""Kinds of couplings, keyed by the value of `kind` in declarations."""
 
 
 COUPLING_ENDS = ("pin", "slot", "pair", "around", "turns", "slides")
-"""Keys of declared couplings that name links or wheels, in the order of `Coupling.ends`."""
+"""Keys of declared couplings whose values name links or wheels, in the order of `Coupling.ends`."""
 
 
 def coupling_model(kind: str) -> type[Coupling]:
-    """Import a kind of coupling by its name, a key of `COUPLINGS`, and return its class."""
+    """Import the class of a kind of coupling, which is a key of `COUPLINGS`, and return the class."""
     found = COUPLINGS[kind]
     model: type[Coupling] = getattr(import_module(f"geartrain.teeth.couplings.{found.module}"), found.model)
     return model
 
 
 class CouplingRow(NamedTuple):
-    """Row of the Willis system that a coupling adds: a (w_i - w_k) + b (w_j - w_k) = 0, with carrier k."""
+    """Row of the Willis system that a coupling adds: a (w_i - w_k) + b (w_j - w_k) = 0, where w is a speed, i the
+    driven link, j the driving link and k their carrier.
+    """
 
     id: str
-    """Name of the row: the name of the coupling, unless it has several rows."""
+    """Name of the row, which is the name of the coupling unless the coupling has several rows."""
     driven: str
-    """Link i, whose speed is m times the speed of the driving link."""
+    """Driven link i. Relative to the carrier, its speed is the mean ratio times the speed of the driving link."""
     driver: str
-    """Link j."""
+    """Driving link j."""
     a: int
-    """Coefficient of link i, above 0."""
+    """Coefficient of link i; it is positive."""
     b: int
-    """Coefficient of link j, -m a."""
+    """Coefficient of link j, equal to -m a, where m is the mean ratio."""
     wheels: tuple[str, str] | None = None
-    """Wheels of links i and j if a and b are their tooth counts, apart from the sign; otherwise None."""
+    """Wheels of links i and j if the absolute values of a and b are their tooth counts; None if they are not."""
     carrier: str | None = None
-    """Declared link k; None for the transfer vertex of links i and j."""
+    """Declared carrier k; None if the carrier follows from the turning pairs of links i and j."""
 
 
 def ratio_row(name: str, driven: str, driver: str, mean: Fraction) -> CouplingRow:
-    """Return the row of a coupling with the mean ratio `mean`, driven speed divided by driver speed."""
+    """Return the row of a coupling whose mean ratio `mean` is the driven speed divided by the driver speed."""
     return CouplingRow(name, driven, driver, mean.denominator, -mean.numerator)
 
 
 class Coupling(BaseModel):
-    """Declared coupling of two or more links; base class of all kinds of couplings."""
+    """Declared coupling of two or more links. It is the base class of all kinds of couplings."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", coerce_numbers_to_str=True, defer_build=True)
 
     ENDS: ClassVar[tuple[str, ...]] = ("pair",)
-    """Keys that name the links: two keys, driver first, or one key with a list or mapping of links."""
+    """Keys that name the links: either two keys, the driver first, or one key whose value is a list or mapping of
+    links.
+    """
     SIDES: ClassVar[tuple[str, str]] = ("driven", "driver")
-    """Names of the driven and of the driving side in tables."""
+    """Names of the driven side and of the driving side in tables."""
     FOR_COPIES: ClassVar[bool] = False
-    """True if the coupling may connect each of several equal links to one other link."""
+    """True if the coupling may connect each of several equal links with the same other link."""
     LOCKS_BACK: ClassVar[bool] = False
-    """True if the driven side cannot drive, because the device locks it."""
+    """True if the driven side cannot drive, because the device locks in that direction."""
     PARALLEL: ClassVar[str] = "its parts must move in the same plane"
-    """Reason why the axes of the links must be parallel; "" if they may have any directions."""
+    """Reason why the axes of the links must be parallel; an empty string if they may have any directions."""
     NEEDS_DISTANCE: ClassVar[bool] = True
-    """True if the links must turn about two axes at a fixed distance; False if they may be coaxial."""
+    """True if the links must turn about two axes at a fixed distance. False if they may be coaxial."""
     UNKNOWN: ClassVar[str] = ""
-    """Properties of this kind that are not known or not modelled, as nouns for reports."""
+    """Properties of this kind of coupling that are not known or not modelled, as noun phrases for reports."""
     OBLIQUE: ClassVar[bool] = False
     """True if the axes of the two links need not be parallel."""
     NEGLECTED: ClassVar[tuple[str, str] | None] = None
-    """Effect on torques that is not computed, and the reason; None for kinds without one."""
+    """Effect on torques that is not computed, and the reason; None for kinds of couplings without such an effect."""
     HOLDS: ClassVar[bool] = False
-    """True if the driven side cannot separate from the driver, because the coupling holds it in both senses."""
+    """True if the driven side cannot separate from the driver, because the coupling holds the driven side in both
+    senses of rotation.
+    """
 
     kind: str
     id: str = Field("", description="Name of the coupling; default `first~second`")
@@ -131,7 +137,9 @@ class Coupling(BaseModel):
 
     @property
     def ends(self) -> tuple[str, ...]:
-        """Links that the coupling connects, or wheels if it is declared by wheels; the driving link comes first."""
+        """Names of the links that the coupling connects, or of wheels if it is declared by wheels. The driving link
+        comes first.
+        """
         values = [getattr(self, key) for key in self.ENDS]
         return tuple(values) if len(values) > 1 else tuple(values[0])
 
@@ -142,7 +150,7 @@ class Coupling(BaseModel):
 
     @property
     def name(self) -> str:
-        """Declared id; by default, the names of the first two ends joined by `~`."""
+        """Declared id; if none is declared, the names of the first two ends joined by `~`."""
         return self.id or "~".join(self.ends[:2])
 
     @property
@@ -152,13 +160,13 @@ class Coupling(BaseModel):
 
     @property
     def about(self) -> str:
-        """Declared sizes of the coupling, as text for reports; "" if there are none."""
+        """Declared sizes of the coupling, as text for reports; an empty string if no sizes are declared."""
         return ""
 
     def problems(self, wheels: Mapping[str, tuple[str, Any]]) -> Iterator[tuple[str, str, str]]:
-        """Yield the faults of the coupling, their reasons and remedies, found from its links and wheels.
+        """Yield a tuple for each fault in the links and wheels of the coupling: the fault, its reason and its remedy.
 
-        wheels   wheel -> its link and its declaration; all parts that the coupling names are declared
+        wheels   link and declaration of each wheel, keyed by wheel; all parts that the coupling names are declared
         """
         links = self.links(wheels)
         if twice := next((link for link in links if links.count(link) > 1), None):
@@ -167,31 +175,39 @@ class Coupling(BaseModel):
 
     @property
     def mean(self) -> Fraction:
-        """Exact mean speed of the driven side divided by the speed of the driving side, relative to the carrier."""
+        """Exact mean ratio: speed of the driven side divided by speed of the driving side, relative to the carrier."""
         return Fraction(1)
 
     @property
     def bounds(self) -> tuple[Fraction, Fraction] | None:
-        """Minimum and maximum of `mean` if it is known with a tolerance; None for an exact mean ratio."""
+        """Minimum and maximum of the mean ratio if it is known with a tolerance; None for an exact mean ratio."""
         return None
 
     @property
     def losses(self) -> Efficiencies | None:
-        """Basic efficiencies with the first and with the second end driving; None for a coupling without losses."""
+        """Basic efficiencies if the first end drives and if the second end drives; None for a coupling
+        without losses.
+        """
         return self.efficiency
 
     @property
     def transmission(self) -> TransmissionFunction | None:
-        """Transmission function with the first end driving; None if the ratio is constant, or its data are missing."""
+        """Transmission function if the first end drives; None if the ratio is constant or the data of the function are
+        missing.
+        """
         return None
 
     @property
     def formula(self) -> str:
-        """Driven angle q as a function of the driver's angle S in closed form; empty if there is none."""
+        """Closed-form formula for the driven angle q as a function of the driver's angle S; an empty string if no
+        closed form is known.
+        """
         return ""
 
     def on_axes(self, angle: float) -> Self:
-        """Return the coupling with the angle between its axes [rad] filled in where it is needed and not declared."""
+        """Return a copy of the coupling that contains the angle between its axes [rad], if the coupling needs this
+        angle and does not declare it.
+        """
         del angle
         return self
 
@@ -202,33 +218,37 @@ class Coupling(BaseModel):
 
     @property
     def remark(self) -> str:
-        """Predicate that describes motion about the mean, such as "moves 1/4 of the time"; empty if there is none."""
+        """Predicate that describes the deviation from the mean motion, such as "moves 1/4 of the time"; an empty string
+        if there is none.
+        """
         return ""
 
     @property
     def friction_torque(self) -> Fraction:
-        """Mean friction torque [N m] on the driven link against its motion relative to the carrier, such as the
-        torque of a jumper; it does not depend on the load.
+        """Mean friction torque [N m] on the driven link against its motion relative to the carrier, such as the torque
+        of a jumper. The torque does not depend on the load.
         """
         return Fraction(0)
 
     def links(self, wheels: Mapping[str, tuple[str, Any]]) -> tuple[str, ...]:
         """Return the links that the coupling connects, the driving link first.
 
-        wheels   wheel -> its link and its declaration, for a coupling declared by wheels
+        wheels   link and declaration of each wheel, keyed by wheel, for a coupling declared by wheels
         """
         return tuple(wheels[name][0] for name in self.ends) if self.by_teeth else self.ends
 
     def rows(self, wheels: Mapping[str, tuple[str, Any]]) -> Sequence[CouplingRow]:
         """Return the rows that the coupling adds to the Willis system.
 
-        wheels   wheel -> its link and its declaration, for a coupling declared by wheels
+        wheels   link and declaration of each wheel, keyed by wheel, for a coupling declared by wheels
         """
         driver, driven = self.links(wheels)
         return (ratio_row(self.name, driven, driver, self.mean),)
 
     def references(self) -> Iterator[tuple[str, str, tuple[str | int, ...]]]:
-        """Yield the kind (link or wheel), name and path of each part of the train that the coupling names."""
+        """Yield the kind (link or wheel), the name and the location in the declaration of each part of the train that
+        the coupling names.
+        """
         kind = "wheel" if self.by_teeth else "link"
         for key in self.ENDS:
             value = getattr(self, key)
@@ -240,22 +260,22 @@ class Coupling(BaseModel):
 
     @property
     def torques(self) -> Iterator[Quantity]:
-        """Declared energies, such as the loss of a jumper; if there are any, all torques of the train must have
-        units.
+        """Declared energies, such as the loss of a jumper. If there are any, all torques of the train must
+        have units.
         """
         values = (getattr(self, name) for name in type(self).model_fields)
         return (each for each in values if isinstance(each, Quantity) and each.dimension == "energy")
 
     @property
     def lengths(self) -> Iterator[Quantity]:
-        """Declared lengths of the coupling, which have units if any length of the train has one."""
+        """Declared lengths of the coupling. They must have units if any length of the train has a unit."""
         values = (getattr(self, name) for name in type(self).model_fields)
         return (each for each in values if isinstance(each, Quantity) and each.dimension in (None, "length"))
 
     def renamed(self, names: Mapping[str, str], name: str) -> Self:
-        """Return the coupling between other links.
+        """Return a copy of the coupling that connects other links.
 
-        names   link -> its new name, for the links that are replaced
+        names   new name of each replaced link, keyed by the old name
         name    new `id`
         """
         changed: dict[str, Any] = {"id": name}
@@ -271,7 +291,9 @@ class Coupling(BaseModel):
 
 
 def unmodelled_properties(couplings: Sequence[Coupling]) -> list[str]:
-    """Return the properties of couplings that are not known or not modelled, with the names of the couplings."""
+    """Return a list of the properties of couplings that are not known or not modelled. Each entry contains the names of
+    the couplings.
+    """
     named: dict[str, list[str]] = {}
     for each in couplings:
         if each.UNKNOWN:

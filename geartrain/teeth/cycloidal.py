@@ -1,5 +1,5 @@
-"""Cycloidal teeth: epicycloids outside the pitch circles, hypocycloids inside, one rolling circle for each side of the
-pitch point.
+"""Cycloidal teeth: epicycloids outside the pitch circles, hypocycloids inside, and one rolling circle for each side of
+the pitch point.
 """
 
 from __future__ import annotations
@@ -115,8 +115,8 @@ class Cycloidal(ConjugateToothForm):
         return ConjugatePair(path, (first, second))
 
     def _circles(self, pitch: PitchSurfaces, wheels: WheelPair) -> tuple[float, float]:
-        """Return the radii of the rolling circles of approach and recess [module; for bevels, half-angles of cones in
-        rad].
+        """Return the radii of the rolling circles of approach and recess [module]; for bevel gears, the half-angles of
+        the rolling cones [rad].
         """
         if self.rolling is not None:
             if wheels.bevel:
@@ -144,8 +144,8 @@ class Cycloidal(ConjugateToothForm):
 
 
 def _arc_of_addendum(pitch: PitchSurfaces, R: float, z: float, rho: float, height: Fraction) -> float:
-    """Return the arc of contact X [module; for bevels, rad on the unit sphere] that ends at the tip of an addendum of
-    `height` modules.
+    """Return the arc of contact X [module; rad on the unit sphere for bevel gears] that ends at the tip of an addendum
+    with a height of `height` modules.
     """
     from math import asin, sin
 

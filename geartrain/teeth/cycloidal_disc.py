@@ -48,20 +48,21 @@ _HEADER = (
 
 @dataclass(frozen=True)
 class CycloidalDisc:
-    """Lobed disc of a cycloidal reducer and the ring of pins in which it rolls. Lengths are in modules."""
+    """Lobed disc of a cycloidal reducer, and the ring of pins in which the disc rolls. Lengths are in modules."""
 
     lobes: int
-    """Number of lobes of the disc. The ring has one pin more."""
+    """Number of lobes of the disc. The ring has one pin more than the disc has lobes."""
     circle: float
-    """Radius of the circle through the centres of the pins [module]."""
+    """Radius of the circle through the centres of all pins [module]."""
     pin: float
     """Radius of a pin [module]."""
     clearance: float = 0.0
-    """Distance by which the outline of the disc is set back from every pin [module]."""
+    """Distance by which the outline of the disc is offset inwards from every pin [module]."""
     deflection: float | None = None
     """Deflection of one pin under the whole force on the pitch circle of the disc [module].
 
-    If it is None, all pins that push are loaded in proportion to their lever arms, as if there were no clearance.
+    If it is None, all pins that can push the disc are loaded in proportion to their lever arms, as if there were no
+    clearance.
     """
 
     @property
@@ -71,28 +72,30 @@ class CycloidalDisc:
 
     @property
     def shortening(self) -> float:
-        """Pitch radius of the ring divided by the radius of the pin circle, below 1, docs/reducers.md (1)."""
+        """Pitch radius of the ring divided by the radius of the pin circle, docs/reducers.md (1). It is less than 1."""
         return self.pins / 2 / self.circle
 
     def centres(self, turn: Floats) -> Floats:
-        """Return the positions of a pin's centre in the frame of the disc [module], as complex numbers,
+        """Return the positions of a pin's centre in the frame of the disc [module], as complex numbers x + iy,
         docs/reducers.md (2).
 
-        turn   angle of the eccentric (rad)
+        turn   angle of the eccentric [rad]
         """
         found: Floats = self.circle * np.exp(1j * turn / self.lobes) - np.exp(1j * turn * self.pins / self.lobes) / 2
         return found
 
     def outline(self, turn: Floats) -> Floats:
-        """Return points of the disc's outline [module], as complex numbers, docs/reducers.md (3).
+        """Return the points of the disc's outline [module], as complex numbers x + iy, docs/reducers.md (3).
 
-        turn   angle of the eccentric (rad)
+        turn   angle of the eccentric [rad]
         """
         found: Floats = self.centres(turn) + (self.pin + self.clearance) * self._inward_normals(turn)
         return found
 
     def _inward_normals(self, turn: Floats) -> Floats:
-        """Return the unit normals of the outline, from the centres of the pins inwards, as complex numbers."""
+        """Return the unit normals of the outline that point from the centres of the pins inwards, as complex numbers x
+        + iy.
+        """
         to_pitch_point = self.pins / 2 * np.exp(1j * turn) - self.circle
         found: Floats = np.exp(1j * turn / self.lobes) * to_pitch_point / np.abs(to_pitch_point)
         return found
@@ -101,13 +104,14 @@ class CycloidalDisc:
     def sharpest(self) -> float:
         """Minimum radius of curvature [module] of the convex parts of the pin-centre curve.
 
-        A pin must have a smaller radius, or it undercuts the lobes. The value is infinite if no part is convex.
+        The radius of a pin must be smaller than this value, because a larger pin undercuts the lobes. The value is
+        infinite if no part is convex.
         """
         bent = self._centre_curvature(np.linspace(0, 2 * pi, _SAMPLES))
         return 1 / float(bent.max()) if bent.max() > 0 else inf
 
     def _centre_curvature(self, turn: Floats) -> Floats:
-        """Return the curvature of the pin-centre curve [1/module], positive where it is convex."""
+        """Return the curvature of the pin-centre curve [1/module], positive where the curve is convex."""
         # first and second derivative of `centres` with respect to the angle of the eccentric
         z, e, R = self.lobes, 0.5, self.circle
         slow, fast = np.exp(1j * turn / z), np.exp(1j * turn * (z + 1) / z)
@@ -117,9 +121,10 @@ class CycloidalDisc:
         return found
 
     def curvature(self, angle: Floats) -> Floats:
-        """Return the curvature of the outline [1/module] at the contact with a pin, negative where it is concave.
+        """Return the curvature of the outline [1/module] at the contact with a pin, negative where the outline is
+        concave.
 
-        angle   position of the pin from the pitch point, about the axis of the ring (rad)
+        angle   angle of the pin from the pitch point, about the axis of the ring [rad]
         """
         # curvature of the parallel curve at the distance of a pin radius and the clearance
         bent = self._centre_curvature(angle)
@@ -131,25 +136,25 @@ class CycloidalDisc:
     def distance(self, angle: Floats) -> Floats:
         """Return the distance [module] from the pitch point to the centre of a pin.
 
-        angle   position of the pin from the pitch point, about the axis of the ring (rad)
+        angle   angle of the pin from the pitch point, about the axis of the ring [rad]
         """
         a, R = self.pins / 2, self.circle
         found: Floats = np.sqrt(R**2 + a**2 - 2 * R * a * np.cos(angle))
         return found
 
     def arms(self, angle: Floats) -> Floats:
-        """Return the lever arms [module] of the contact normals about the centre of the disc: docs/reducers.md (4).
+        """Return the lever arms [module] of the contact normals about the centre of the disc, docs/reducers.md (4).
 
-        The value is 0 for pins that cannot push the disc forwards.
+        A lever arm is 0 for pins that cannot push the disc forwards.
         """
         found: Floats = np.maximum(self.lobes / 2 * self.circle * np.sin(angle) / self.distance(angle), 0.0)
         return found
 
     def loads(self, phase: Floats) -> Floats:
-        """Return the forces on all pins divided by the tangential force at the disc's pitch circle, shape (pins, ...):
-        docs/reducers.md (5).
+        """Return the forces on all pins, divided by the tangential force at the disc's pitch circle, as an array (pins,
+        ...), docs/reducers.md (5).
 
-        phase   angle of one pin from the line of centres (rad)
+        phase   angle of one pin from the line of centres [rad]
         """
         arms = self.arms(self.angles(phase))
         if self.clearance and self.deflection is not None:
@@ -159,11 +164,11 @@ class CycloidalDisc:
         return found
 
     def _loaded_angle(self, arms: Floats) -> Floats:
-        """Return the rotation of the disc under load at which the pins in contact carry the torque [rad]:
+        """Return the rotation [rad] of the disc under load at which the pins in contact carry the whole torque,
         docs/reducers.md (7).
 
-        Pins with longer lever arms come into contact first. Their number is the smallest for which the next pin stays
-        free.
+        Pins with longer lever arms come into contact first. The number of loaded pins is the smallest for which the
+        next pin remains unloaded.
         """
         assert self.deflection is not None
         ordered = -np.sort(-arms, axis=0)
@@ -176,7 +181,7 @@ class CycloidalDisc:
 
     @property
     def _phases(self) -> Floats:
-        """Equally spaced angles of one pin over a pitch [rad]."""
+        """Equally spaced angles of one pin that cover a pitch [rad]."""
         return np.linspace(0, 2 * pi / self.pins, _PHASES, endpoint=False)
 
     @cached_property
@@ -188,16 +193,18 @@ class CycloidalDisc:
         return int(number.min()), int(number.max())
 
     def angles(self, phase: Floats) -> Floats:
-        """Return the angles of all pins from the pitch point [rad], shape (pins, ...); one pin is at `phase`."""
+        """Return the angles of all pins from the pitch point [rad], as an array (pins, ...), if one pin is at the angle
+        `phase`.
+        """
         each = 2 * pi / self.pins * np.arange(self.pins)
         found: Floats = each.reshape(-1, *[1] * np.ndim(phase)) + phase
         return found
 
     def sliding(self, phase: Floats) -> tuple[Floats, Floats]:
-        """Return the load-weighted mean sliding speed divided by the pitch-line speed, and the power loss divided by
-        the output power and by the friction coefficient.
+        """Return two quantities: the load-weighted mean sliding speed divided by the pitch-line speed, and the power
+        loss divided by both the output power and the friction coefficient.
 
-        phase   angle of one pin from the line of centres (rad)
+        phase   angle of one pin from the line of centres [rad]
         """
         angles = self.angles(phase)
         # distance of the contact from the pitch point times the relative angular velocity 2/z1 - 2/z2 = 2/(z1 z2)
@@ -213,15 +220,16 @@ class CycloidalDisc:
 
     @property
     def loss(self) -> float:
-        """Mean power loss over a pitch, divided by the output power and by the friction coefficient."""
+        """Mean power loss over a pitch, divided by both the output power and the friction coefficient."""
         return float(self.sliding(self._phases)[1].mean())
 
     # ---------------------------------------------------------------------------------------------------------- teeth
 
     def lobe(self, tolerance: float) -> FixedTooth:
-        """Return one lobe about the x axis as chords that stay inside the lobe, so that the pins clear them.
+        """Return one lobe, symmetric about the x axis, as a sequence of chords that stay inside the lobe, so that they
+        do not touch the pins.
 
-        `tolerance` is the maximum distance of a chord from the lobe [module]; 4096 chords are the maximum.
+        `tolerance` is the maximum distance of a chord from the lobe [module]; at most 4096 chords are used.
         """
         # doubled, because the excess of a chord falls with the square of their number
         number = _MIN_CHORDS
@@ -239,9 +247,10 @@ class CycloidalDisc:
         return FixedTooth("external", tip, float(np.abs(points[0])), tooth)
 
     def _chord_excess(self, number: int) -> Floats:
-        """Return the distances by which the midpoints of `number` chords are outside a lobe [module].
+        """Return the distances by which the midpoints of `number` chords around the disc are outside its outline
+        [module].
 
-        The value is negative where the chord is inside the lobe.
+        The distance is negative where the chord is inside the outline.
         """
         turn = np.linspace(0, 2 * pi, 2 * number + 1)
         points = self.outline(turn)
@@ -250,8 +259,8 @@ class CycloidalDisc:
         return found
 
     def pin_tooth(self) -> FixedTooth:
-        """Return one pin about the x axis as a tooth of the ring (gear 2): a half circle and the part that joins it to
-        the ring.
+        """Return one pin, symmetric about the x axis, as a tooth of the ring (gear 2). It consists of a half circle and
+        the part that joins it to the ring.
         """
         # lobes reach farthest out on the line of centres, where the eccentricity of half a module is added
         root = max(self.circle, self.circle + 1 - self.pin - self.clearance + _RING_CLEARANCE)
@@ -273,7 +282,7 @@ class CycloidalDisc:
 
 
 class DiscTransmission(ExactRatio, ToothTransmission):
-    """Transmission function of a disc in its ring of pins, in the frame of the eccentric, with the exact ratio.
+    """Transmission function of a disc in its ring of pins, relative to the eccentric. The ratio is exact.
 
     `driver` is 1 if the disc drives, 2 if the ring drives; `direction` -1 reverses the motion, so that the coast flanks
     are in contact.
@@ -290,7 +299,9 @@ class DiscTransmission(ExactRatio, ToothTransmission):
 
     @property
     def verdict(self) -> PairVerdict:
-        """Verdict on the pair, always "runs", since discs that cannot run are rejected when they are declared."""
+        """Verdict on the pair. It is always "runs", because discs that cannot run are rejected when they
+        are declared.
+        """
         return PairVerdict("runs", "the teeth run", self._backlash, ())
 
     def _driven(self, driver: int, direction: int) -> DiscTransmission:
@@ -299,15 +310,17 @@ class DiscTransmission(ExactRatio, ToothTransmission):
     def _phase(self, S: ArrayLike) -> Floats:
         """Return the angle of a pin from the line of centres [rad] at driver angles S [rad].
 
-        At S = 0 a pin is on the line of centres if the ring drives. If the disc drives, a lobe is there, between two
-        pins.
+        At S = 0 a pin is on the line of centres if the ring drives. If the disc drives, a lobe is on the line of
+        centres, between two pins.
         """
         S = self.direction * np.asarray(S, dtype=float)
         found: Floats = S if self.driver == 2 else S * self.disc.lobes / self.disc.pins + pi / self.disc.pins
         return found
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """Return sliding speed and friction terms of all pins combined into one contact, weighted by their loads."""
+        """Return the sliding speed and the friction terms of all pins at driver angles S [rad], combined into one
+        contact and weighted by the loads of the pins.
+        """
         speed, lost = self.disc.sliding(self._phase(S))
         # the load is given on the driven side, so the loss is added to the input power
         return ContactRubbing(speed[None], lost[None], np.zeros_like(lost)[None])
@@ -322,7 +335,9 @@ def _range_text(fewest: int, most: int) -> str:
 
 @dataclass(frozen=True)
 class DiscFigures(PairFigures):
-    """Results of a lobed disc in its ring of pins: the results of every pair, the sizes of the pins and their loads."""
+    """Results of a lobed disc in its ring of pins: the results that exist for every pair, the sizes of the pins, and
+    their loads.
+    """
 
     KEYS = (*PairFigures.KEYS, "shortening", "pin_radius", "maximum_load", "bearing")
 
@@ -338,35 +353,35 @@ class DiscFigures(PairFigures):
 
 @dataclass(frozen=True)
 class DiscMesh(GearMesh):
-    """Mesh of a disc and its ring of pins; the disc is gear 1."""
+    """Mesh of a cycloidal disc and its ring of pins. The disc is gear 1."""
 
     transmission: DiscTransmission
 
     @property
     def gears(self) -> tuple[str, str]:
-        """Names of the disc and of its ring, in this order."""
+        """Names of the disc and of its ring of pins, in this order."""
         first, second = self.gear.pair
         return (second, first) if self.wheels.internal[0] else (first, second)
 
     @property
     def tooth_phase(self) -> float:
-        """Distance of a lobe past the line of centres while its angle is 0 [pitch]: midway between two pins minus half
-        the backlash.
+        """Distance [pitch] by which a lobe is past the line of centres when the angle of the disc is 0: midway between
+        two pins, less half the backlash.
         """
         return (1 - self.backlash) / 2
 
     def size(self, tips: Mapping[str, float]) -> PairSize:
-        """Return the size of the pair; its lengths are in modules and its centre distance is half a module."""
+        """Return the size of the pair. Lengths are in modules, and the centre distance is half a module."""
         del tips
         return PairSize(1.0, 0.5, 1.0)
 
     def requirement(self, wheel: str, scale: float, tolerance: float) -> FixedTooth:
-        """Return a lobe if the wheel is the disc, or a pin if it is the ring."""
+        """Return a lobe if `wheel` is the disc, or a pin if `wheel` is the ring."""
         del scale
         return self.transmission.disc.lobe(tolerance) if wheel == self.gears[0] else self.transmission.disc.pin_tooth()
 
     def account(self) -> PairAccount:
-        """Return the report of the pair: sizes, maximum pin load, backlash and efficiency."""
+        """Return the report on the pair: sizes, maximum pin load, backlash and efficiency."""
         disc = self.transmission.disc
         figures = DiscFigures(
             self.counts,

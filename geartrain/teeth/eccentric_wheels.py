@@ -34,28 +34,31 @@ _STEPS = 50  # Newton's method needs about five
 
 
 class EccentricWheels(NamedTuple):
-    """Driver and driven wheel with their centres off their axes; lengths in one unit, for example in modules."""
+    """Driver and driven wheel whose centres are off their axes. All lengths are in one unit, for example in modules."""
 
     counts: tuple[int, int]
-    """Tooth counts."""
+    """Tooth counts of the driver and of the driven wheel."""
     offsets: tuple[float, float]
-    """Distances of the centres from the axes, in the common length unit."""
+    """Distances of the wheel centres from the axes, in the common length unit."""
     angles: tuple[float, float]
-    """Directions of the centres at S = 0 [rad], from the direction of the driven wheel's axis, in the driver's sense.
+    """Directions of the centres at S = 0 [rad], measured from the direction of the driven wheel's axis in the sense of
+    rotation of the driver.
     """
     pressure_angle: float
-    """Pressure angle at the centre distance [rad]."""
+    """Pressure angle that corresponds to the centre distance [rad]."""
     internal: bool = False
-    """True if the driven wheel is a ring."""
+    """True if the driven wheel is a ring gear."""
 
     @property
     def base(self) -> tuple[float, float]:
-        """Base radii, in the common length unit; the radius of a ring is negative."""
+        """Base radii of both wheels, in the common length unit. The radius of a ring gear is negative."""
         first, second = (z / 2 * cos(self.pressure_angle) for z in self.counts)
         return first, -second if self.internal else second
 
     def errors_at(self, S: Floats) -> Floats:
-        """Return the transmission error [rad of the driven wheel] at driver angles S [rad], by Newton's method."""
+        """Return the transmission error [rad of the driven wheel] at driver angles S [rad], computed by Newton's
+        method.
+        """
         (r1, r2), sign = self.base, -1 if self.internal else 1
         (e1, e2), (phi1, phi2), inv0 = self.offsets, self.angles, tan(self.pressure_angle) - self.pressure_angle
         distance = sign * abs(self.counts[0] + sign * self.counts[1]) / 2
@@ -76,7 +79,7 @@ class EccentricWheels(NamedTuple):
     def error(self) -> HarmonicSeries:
         """Return the transmission error [rad of the driven wheel] as a Fourier series of the driver angle.
 
-        Raises `GearTrainError` if the base circles come too close, or if the series is too long.
+        Raises `GearTrainError` if the base circles come too close to each other, or if the Fourier series is too long.
         """
         z1, z2 = self.counts
         gap = abs(z1 - z2 if self.internal else z1 + z2) / 2 - sum(self.offsets) - abs(sum(self.base))

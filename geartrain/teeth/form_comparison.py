@@ -1,6 +1,6 @@
 """Comparison of conjugate tooth forms with the 20 degree involute of the same wheels and the same arcs of contact.
 
-Forms are compared at equal arcs of contact. The arcs of approach and recess are given, in pitches, and each form
+Forms are compared at equal arcs of contact. The arcs of approach and recess are given, in pitches, and each tooth form
 constructs the pair with these arcs. Losses, stresses and temperatures are ratios to the values of the involute.
 """
 
@@ -26,40 +26,44 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.wheel_pair import WheelPair
 
 REFERENCE_ANGLE = "20 deg"
-"""Pressure angle of the involute with which forms are compared."""
+"""Pressure angle of the involute that serves as the reference for comparisons."""
 USUAL = ("involute", "uniform_stress", "uniform_temperature_b", "least_friction", "cycloidal", "lantern")
-"""Names of the forms that are compared by default, with one variant (reading) of each form."""
+"""Names of the tooth forms that are compared by default. Forms with several variants (readings) are included with one
+variant.
+"""
 _MOST_PITCHES = 100.0  # upper limit of an arc of contact
 _EIGHTH = 0.125  # turn: from 45 deg on, the pressure angle does not determine teeth of uniform stress
 
 
 @dataclass(frozen=True)
 class MeasuredForm(Result):
-    """Result for one compared form: path of contact, losses and loads, or the faults of teeth that cannot run."""
+    """Result for one compared tooth form: its path of contact, losses and loads, or the faults of teeth that cannot
+    run.
+    """
 
     KEYS = (*(Key("form", "name"), "runs", Key("arcs", "pitches"), "ratios", "faults"),)
 
     name: str
-    """Name of the form as requested, including the variant (reading)."""
+    """Name of the tooth form as requested, including the variant (reading)."""
     path: PathOfContact | None
-    """Path of contact; None if the form rejects the wheels."""
+    """Path of contact; None if the tooth form rejects the wheels."""
     measures: PathMeasures | None
-    """Losses and loads; None for teeth that cannot run."""
+    """Losses and loads of the pair; None if the teeth cannot mesh."""
     ratios: PathRatios | None = None
-    """Losses and loads divided by the values of the involute; None for the involute itself and for teeth that cannot
-    run.
-    """
+    """Losses and loads divided by those of the involute; None for the involute itself and if the teeth cannot run."""
     faults: tuple[ToothFault, ...] = ()
-    """Faults that prevent the teeth from running, of kind "refused" if the form rejects the wheels."""
+    """Faults that prevent the teeth from running. The kind of a fault is "refused" if the tooth form rejects the
+    wheels.
+    """
 
     @property
     def runs(self) -> bool:
-        """True if teeth of the compared form can run."""
+        """True if teeth of the compared tooth form can run."""
         return self.measures is not None and not self.faults
 
     @property
     def pitches(self) -> tuple[float, float] | None:
-        """Arcs of approach and recess [pitch], one of which may be negative; None if `path` is None."""
+        """Arcs of approach and recess [pitch]; one arc may be negative. None if `path` is None."""
         return None if self.path is None else self.path.pitches
 
     @property
@@ -70,7 +74,7 @@ class MeasuredForm(Result):
 
 @dataclass(frozen=True)
 class FormComparison(Pictured, Result):
-    """Tooth forms compared with the 20 degree involute of the same wheels and arcs of contact."""
+    """Comparison of tooth forms with the 20 degree involute of the same wheels and the same arcs of contact."""
 
     PAGE = "report.conjugate_pair_page:describe_form_comparison"
     FIGURE = "drawing.transmission_curves:comparison_figure"
@@ -84,11 +88,13 @@ class FormComparison(Pictured, Result):
     teeth: tuple[int, int]
     """Tooth numbers of the two wheels."""
     matched: str
-    """Quantities that are equal in all compared pairs, in words."""
+    """Text that names the quantities that are equal in all compared pairs."""
     base: MeasuredForm
-    """Result for the involute."""
+    """Result for the involute, with which the tooth forms are compared."""
     forms: tuple[MeasuredForm, ...]
-    """Results for the compared forms, and for an involute with contact in recess only if a form has such contact."""
+    """Results for the compared tooth forms. If a form has contact in recess only, they include an involute with such
+    contact.
+    """
 
     @property
     def path(self) -> PathOfContact:
@@ -105,9 +111,10 @@ class FormComparison(Pictured, Result):
 
 def comparable_forms() -> dict[str, tuple[type[ConjugateToothForm], dict[str, str]]]:
     """Return the class and the parameters of each conjugate form, or variant (reading) of a form, that can be compared,
-    by name.
+    keyed by name.
 
-    A form with several readings is listed once without a reading and once for each, such as `uniform_temperature_b`.
+    A form with several readings is listed once without a reading and once for each reading, such as
+    `uniform_temperature_b`.
     """
     found: dict[str, tuple[type[ConjugateToothForm], dict[str, str]]] = {}
     for name, model in tooth_forms().items():
@@ -185,7 +192,9 @@ def compare_forms(
 
 
 def reference_involute(wheels: WheelPair, arcs: tuple[float, float]) -> ConjugatePair:
-    """Return the 20 degree involute pair with the given arcs of approach and recess [pitch] instead of addenda."""
+    """Return the 20 degree involute pair whose arcs of approach and recess [pitch] are given. These arcs determine the
+    addenda.
+    """
     return Involute.pair_of_arcs(wheels, arcs, {"pressure_angle": REFERENCE_ANGLE})
 
 

@@ -1,9 +1,9 @@
 """Friction that depends on speed: friction laws that can replace a coefficient, and the friction of a pair
 under such a law.
 
-The measured values are from W. D. Smith, "Optimal shapes for gears" (1993): Buckingham's for lubricated cast iron, and
-Dokos's for dry steel. Smith prints their end values but not their tables. The docstring of each law describes the
-interpolation between these values.
+The measured values are taken from W. D. Smith, "Optimal shapes for gears" (1993): Buckingham's values for lubricated
+cast iron, and Dokos's values for dry steel. Smith prints their end values but not their tables. The docstring of each
+law describes the interpolation between these values.
 """
 
 from __future__ import annotations
@@ -28,20 +28,22 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 FOOT_A_MINUTE = 0.3048 / 60
-"""One foot per minute [m/s]."""
+"""Speed of one foot per minute, in m/s."""
 BUCKINGHAM = ((0.0, 0.0517), (150.0, 0.0112), (2100.0, 0.0385))
-"""Pitch-line speed [ft/min] and friction coefficient of lubricated cast-iron spur gears, from Buckingham, p. 404, cited
-by Smith.
+"""Pairs of pitch-line speed [ft/min] and friction coefficient of lubricated cast-iron spur gears, from Buckingham, p.
+404, cited by Smith.
 """
 DOKOS = (0.53, 0.18, 1e7)
-"""Coefficients of dry steel at the lowest and highest speed, and ratio of these speeds, from Dokos, cited by Smith."""
+"""Friction coefficients of dry steel at the lowest and at the highest speed, and the ratio of these two speeds, from
+Dokos, cited by Smith.
+"""
 SLOWEST_OF_DOKOS = Quantity.parse("0.0001 in/s", "velocity", False)
 
 
 @cache
 def buckingham_constants() -> tuple[float, float, float]:
-    """Return the constants c1, c2, c3 of `BuckinghamFriction` (speeds in ft/min) that reproduce the three printed
-    coefficients.
+    """Return the constants c1, c2 and c3 of `BuckinghamFriction` (for speeds in ft/min) that reproduce the three
+    printed coefficients.
 
     c2 is the coefficient at rest. With a = exp(-c1 sqrt V1) and q = sqrt(V2/V1), the coefficients mu1 and mu2 at
     the speeds V1 < V2 give the equation c2 a^q + q (mu1 - c2 a) = mu2, which is solved for a.
@@ -102,7 +104,7 @@ class FrictionLaw(BaseModel, ABC):
 
     @property
     def of_pitch_line(self) -> bool:
-        """True if the coefficient depends on the pitch-line speed. It is then equal at all contacts."""
+        """True if the coefficient depends on the pitch-line speed. The coefficient is then equal at all contacts."""
         return False
 
     @property
@@ -166,7 +168,7 @@ class BuckinghamFriction(FrictionLaw):
 
     @property
     def of_pitch_line(self) -> bool:
-        """True, because the law was measured as a function of the pitch-line speed."""
+        """Always True: this friction law was measured as a function of the pitch-line speed."""
         return True
 
     def coefficient(self, speed: Floats) -> Floats:
@@ -254,7 +256,9 @@ class TabulatedFriction(FrictionLaw):
         return self.of == "pitch_line"
 
     def coefficient(self, speed: Floats) -> Floats:
-        """Return the coefficient of friction at speeds [m/s], by linear interpolation, constant outside the table."""
+        """Return the coefficient of friction at given speeds [m/s]: linear interpolation within the table, and the
+        first or last coefficient outside the table.
+        """
         import numpy as np
 
         found: Floats = np.interp(
@@ -266,12 +270,12 @@ class TabulatedFriction(FrictionLaw):
 AnyFrictionLaw = Annotated[
     StribeckFriction | BuckinghamFriction | DokosFriction | TabulatedFriction, Field(discriminator="law")
 ]
-"""Field type: friction law as a mapping with the key `law`."""
+"""Field type of a friction law, given as a mapping with the key `law`."""
 
 
 @cache
 def law_keys() -> frozenset[str]:
-    """Return the names of the fields of all friction laws."""
+    """Return the names of all fields that occur in friction laws."""
     laws = (StribeckFriction, BuckinghamFriction, DokosFriction, TabulatedFriction)
     return frozenset(key for law in laws for key in law.model_fields)
 
@@ -280,8 +284,8 @@ _NAME = re.compile(r"[a-z_]+")
 
 
 def law_of_text(raw: object) -> object:
-    """Convert a friction law given as an option, such as `stribeck,static=0.2,kinetic=0.08,speed=10 mm/s`, to a
-    mapping as in a declaration.
+    """Convert a friction law in the form of a command-line option, such as `stribeck,static=0.2,kinetic=0.08,speed=10
+    mm/s`, to a mapping as in a declaration.
 
     The values of a table column are separated by colons. Input that does not begin with the name of a law is
     returned unchanged.
@@ -297,7 +301,7 @@ def law_of_text(raw: object) -> object:
 
 
 FrictionLawOfText = Annotated[AnyFrictionLaw, BeforeValidator(law_of_text)]
-"""Field type: friction law as a mapping in a declaration, or as the string of an option."""
+"""Field type of a friction law, given as a mapping in a declaration or as the text of a command-line option."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -317,11 +321,11 @@ class PairFriction(Shown):
     law: FrictionLaw
     """Friction law of the pair."""
     pitch_line: float | Floats
-    """Pitch-line speed [m/s]: one value, or one for each position."""
+    """Pitch-line speed [m/s]: one value, or an array with one value for each position."""
 
     def __call__(self, sliding: ArrayLike) -> Floats:
         """Return the coefficient of friction at the relative sliding speeds `sliding` (sliding speed divided by
-        pitch-line speed). It is NaN where `sliding` is NaN (no contact).
+        pitch-line speed). The coefficient is NaN where `sliding` is NaN (no contact).
         """
         import numpy as np
 

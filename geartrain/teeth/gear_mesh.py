@@ -112,7 +112,9 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def note(self) -> str:
-        """Note on a wheel that is treated as a wheel of another kind, such as a contrate wheel; otherwise empty."""
+        """Note on a wheel that is treated as a wheel of another kind, such as a contrate wheel; an empty string if
+        there is none.
+        """
         return self.wheels.note
 
     @property
@@ -144,7 +146,7 @@ class GearMesh(Pictured, Shown, ABC):
 
     @cached_property
     def reversed(self) -> ToothTransmission:
-        """Transmission function with the other wheel driving."""
+        """Transmission function for the case that the other wheel drives."""
         return self.transmission.reversed
 
     @property
@@ -189,7 +191,9 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def unit_tips(self) -> Mapping[str, float]:
-        """Tip radii of wheels whose size is known only up to a scale, in the length unit of the teeth; may be empty."""
+        """Tip radii of wheels whose size is known only up to a scale factor, in the length unit of the teeth, keyed by
+        wheel; may be empty.
+        """
         return {}
 
     @abstractmethod
@@ -201,14 +205,14 @@ class GearMesh(Pictured, Shown, ABC):
         wheel : str
             Name of the wheel.
         scale : float
-            Number of modules in one length unit of the teeth, as returned by `size`.
+            Length unit of the tooth data, in modules, as returned by `size`.
         tolerance : float
             Maximum distance of a chord from a flank [module].
 
         Returns
         -------
         WheelRequirement
-            Teeth, for comparison with the requirements of the wheel's other pairs, and for cutting.
+            Required tooth data of the wheel, used for cutting and to compare the requirements of all its pairs.
         """
 
     @property
@@ -222,7 +226,7 @@ class GearMesh(Pictured, Shown, ABC):
         return None
 
     def wheel_outline(self, gear: int, cut: BlankSizes) -> WheelOutline:
-        """Return the closed outline of one wheel of the pair, as cut.
+        """Return the closed outline to which one wheel of the pair is cut.
 
         Parameters
         ----------
@@ -293,7 +297,9 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def displaced_contact(self) -> DisplacedContact | None:
-        """Model of the contact of displaced flanks with the given wheel driving; None if the tooth form has none."""
+        """Model of the contact of displaced flanks for the given driving wheel; None if the tooth form has no such
+        model.
+        """
         return None
 
     @abstractmethod
@@ -325,12 +331,14 @@ class GearMesh(Pictured, Shown, ABC):
 
     @cached_property
     def faults(self) -> tuple[Problem, ...]:
-        """All faults that prevent the teeth of the pair from running, each with its fix; empty if they can run."""
+        """All faults that prevent the teeth of the pair from running, each with its remedy; an empty tuple if the teeth
+        can run.
+        """
         return tuple(replace(each, what=f"{self.label}: {each.what}", place=self.place) for each in self.own_faults())
 
     @property
     def fault(self) -> Problem | None:
-        """First fault that prevents the teeth of the pair from running; None if they can run."""
+        """First fault that prevents the teeth of the pair from running; None if the teeth can run."""
         return self.faults[0] if self.faults else None
 
     @property
@@ -341,12 +349,14 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def has_shape(self) -> bool:
-        """True if the tooth form defines the shape of the teeth; otherwise standard teeth are cut and drawn."""
+        """True if the tooth form defines the shape of the teeth; False if standard teeth are cut and drawn instead."""
         return self.tooth_form.has_shape
 
     @property
     def tooth_phase(self) -> float:
-        """Distance of a tooth of the driven wheel past the line of centres while the driven angle is 0 [pitch]."""
+        """Distance [pitch] by which a tooth of the driven wheel is past the line of centres when the driven angle
+        is 0.
+        """
         return 0.0
 
     @property
@@ -401,7 +411,7 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def efficiency_texts(self) -> tuple[str, str]:
-        """Mean efficiency with the actual driver and with the other wheel driving, as strings.
+        """Texts with the mean efficiency for the actual driver and for the other wheel as driver.
 
         Both strings are "-" if the losses cannot be computed or the teeth cannot run.
         """
@@ -427,14 +437,14 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def ways(self) -> tuple[Self, ...]:
-        """Meshes to examine: this mesh if the driver is determined, otherwise one mesh for each of the two possible
-        drivers.
+        """Meshes to examine: only this mesh if the driver is determined, or one mesh for each of the two possible
+        drivers if it is not.
         """
         return (self,) if self.who.known else (self, self.driven_by(replace(self.who, wheel=self.driven)))
 
 
 def find_faults(ways: Sequence[GearMesh]) -> tuple[Problem, ...]:
-    """Return all faults of one pair for each driver that it may have.
+    """Return all faults of one gear pair, for each wheel that may drive it.
 
     A fault that occurs with only one of the drivers names that driver.
     """

@@ -86,7 +86,7 @@ class TransmissionProtocol(Protocol):
 
 
 class GivenTransmission(DeviationTransmission, ToothTransmission):
-    """Transmission function of a gear pair from a given error, with either wheel driving.
+    """Transmission function of a gear pair with a given transmission error, in which either wheel can drive.
 
     Parameters
     ----------
@@ -135,7 +135,7 @@ class GivenTransmission(DeviationTransmission, ToothTransmission):
 
     @cached_property
     def verdict(self) -> PairVerdict:
-        """Verdict that the pair runs, because its speed ratio was checked to be above 0."""
+        """Verdict that the pair runs. The speed ratio was checked to be above 0 when the function was created."""
         return PairVerdict("runs", "the wheels turn", self._backlash)
 
     @property
@@ -144,10 +144,11 @@ class GivenTransmission(DeviationTransmission, ToothTransmission):
         return PeriodicSum([self.deviation, *broken], self.deviation.period).breakpoints
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """Return the friction terms of a single contact for a coefficient of friction of 1, without sliding speed.
+        """Return the friction terms of a single contact for a coefficient of friction of 1. The sliding speed is not
+        known.
 
-        They satisfy (1 + out)/(1 + into) = a and (1 - into)/(1 - out) = b, where a and b are the efficiencies with the
-        driver and with the driven side as the input.
+        The terms `out` and `into` satisfy (1 + out)/(1 + into) = a and (1 - into)/(1 - out) = b, where a is the
+        efficiency if the driver is the input and b the efficiency if the driven side is the input.
         """
         S = np.asarray(S, dtype=float)
         none = np.zeros((1, *S.shape))
@@ -163,11 +164,11 @@ class GivenTransmission(DeviationTransmission, ToothTransmission):
 
 @dataclass(frozen=True)
 class GivenLosses(SlidingEfficiency):
-    """Declared efficiency of a pair, which has no coefficient of friction."""
+    """Losses of a gear pair whose efficiency is declared, so that it has no coefficient of friction."""
 
     @property
     def friction(self) -> None:
-        """None, because the efficiency is declared."""
+        """Coefficient of friction: None, because the efficiency is declared instead."""
         return
 
 
@@ -184,7 +185,7 @@ _HEADER = (
 
 @dataclass(frozen=True)
 class GivenMesh(GearMesh):
-    """Gear pair whose transmission function is given. The shape of its teeth is not known."""
+    """Gear pair whose transmission function is given, so that the shape of its teeth is not known."""
 
     transmission: GivenTransmission
 
@@ -192,7 +193,7 @@ class GivenMesh(GearMesh):
         return f"{self.name}: {self.tooth_form.words} transmission error, {self.driver} drives {self.driven}"
 
     def size(self, tips: Mapping[str, float]) -> PairSize | None:
-        """Return None, because the shape of the teeth is not known."""
+        """Return None, because a pair whose tooth shape is not known has no size."""
         del tips
         return None
 
@@ -204,15 +205,15 @@ class GivenMesh(GearMesh):
 
     @property
     def friction_words(self) -> str:
-        """Statement of the losses of the pair, without a full stop."""
+        """Text that describes the losses of the pair for reports. It does not end with a full stop."""
         return "Efficiency as given" if self.computes_losses else "No efficiency is given"
 
     def efficiency(self, driver: str) -> SlidingEfficiency:
-        """Return the given efficiency of the pair, averaged over a period, with one of its wheels driving."""
+        """Return the given efficiency of the pair, averaged over a period, if the wheel `driver` drives."""
         return GivenLosses(self.transmission if driver == self.driver else self.reversed)
 
     def account(self) -> PairAccount:
-        """Return the report of the pair: speed ratio, transmission error, backlash and efficiencies."""
+        """Return the report on the pair: speed ratio, transmission error, backlash and efficiencies."""
         from geartrain.teeth.pair_results import AccountTable, PairAccount, PairFigures, SpeedRatio, TransmissionError
 
         transmission, losses = self.transmission, self.efficiency(self.driver) if self.computes_losses else None
@@ -234,7 +235,7 @@ class GivenMesh(GearMesh):
 
 
 def given_mesh(wheels: MeshingWheels, form: NamedForm, transmission: GivenTransmission) -> GivenMesh:
-    """Return the mesh of a pair with a given transmission function, with its first wheel driving.
+    """Return the mesh of a pair with a given transmission function. Its first wheel drives.
 
     Raises `GearTrainError` if the speed ratio is not above 0 everywhere, or if friction is declared on the pair.
     """
@@ -260,11 +261,12 @@ def given_mesh(wheels: MeshingWheels, form: NamedForm, transmission: GivenTransm
 
 
 def checked_function(given: TransmissionProtocol, counts: tuple[int, int]) -> PeriodicFunction:
-    """Return the error of a transmission function written in Python as a periodic function.
+    """Return the transmission error of a transmission function that is defined in Python, as a periodic function.
 
-    counts   tooth counts of the wheel to whose angle it refers, and of the other wheel
+    counts   tooth counts of the wheel to whose angle the function refers, and of the other wheel
 
-    Raises `GearTrainError` if its ratio, its period, or the shape or values of its results are not valid.
+    Raises `GearTrainError` if the ratio, the period, or the shape or values of the results of the given function are
+    not valid.
     """
     own, other = counts
     kind, ratio = type(given).__name__, Fraction(own, other)
@@ -311,8 +313,8 @@ def checked_function(given: TransmissionProtocol, counts: tuple[int, int]) -> Pe
 
 
 def checked_efficiency(given: TransmissionProtocol) -> Efficiencies | None:
-    """Return the efficiency of a transmission function given in Python, for both driving wheels; None for a function
-    without losses.
+    """Return the efficiencies of a transmission function that is defined in Python, for both driving wheels; None for a
+    function without losses.
 
     Raises `GearTrainError` if an efficiency is not above 0 and at most 1.
     """

@@ -141,8 +141,8 @@ class Involute(ConjugateToothForm):
         return self.involutes(wheels).bottom_clearance(gear)
 
     def backlash_apart(self, wheels: WheelPair, gap: float) -> float | None:
-        """Return the backlash at another centre distance [module]; None if the base circles do not allow that
-        distance.
+        """Return the backlash [module] if the wheels are `gap` modules farther apart than declared; None if the base
+        circles do not allow this distance.
         """
         found = self.involutes(wheels)
         # in a ring the teeth separate as the centre distance decreases
@@ -248,7 +248,8 @@ class Involute(ConjugateToothForm):
         return ConjugatePair(_straight_path(pitch, psi, (arcs[0], arcs[1])), self._bevel_halves(pitch, wheels))
 
     def _bevel_halves(self, pitch: PitchSurfaces, wheels: WheelPair) -> tuple[float, float]:
-        """Return half the tooth thickness of both wheels as arcs X on the pitch cones [rad on the unit sphere].
+        """Return the half-thicknesses of the teeth of both wheels, as arcs X on the pitch cones [rad on the unit
+        sphere].
 
         A profile shift of x modules increases the whole thickness by 2 x tan psi modules.
         """
@@ -260,7 +261,9 @@ class Involute(ConjugateToothForm):
 
 
 def _straight_path(pitch: PitchSurfaces, psi: float, arcs: tuple[float, float]) -> PathOfContact:
-    """Return the path of contact with constant pressure angle `psi` [rad] and given arcs X of approach and recess."""
+    """Return the path of contact with a constant pressure angle `psi` [rad] and the given arcs X of approach and
+    recess.
+    """
     from geartrain.teeth.conjugate.optimal_sides import involute
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 

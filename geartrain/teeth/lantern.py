@@ -129,8 +129,8 @@ class Lantern(ConjugateToothForm):
         return super().pair_of_arcs(wheels, (0.0, sum(arcs) + lost), given)
 
     def _undercut(self, pitch: PitchSurfaces, start: float, outside: float, inside: float) -> tuple[ToothFault, ...]:
-        """Return an undercut fault in a tuple if the approaching pins remove part of the mate's flank that the arcs of
-        contact require; otherwise an empty tuple.
+        """Return a tuple with an undercut fault if the approaching pins remove a part of the mate's flank that the arcs
+        of contact require; an empty tuple if they do not.
         """
         from geartrain.teeth.pair_results import ToothFault
 
@@ -160,7 +160,7 @@ class Lantern(ConjugateToothForm):
         return LanternPins(self.pins, radius, wheels.modules(self.pin_diameter, "pin_diameter") / 2)
 
     def _sizes(self, R: float, wheels: WheelPair) -> tuple[float, float]:
-        """Return the distance of the pins from the axis and their radius [module]."""
+        """Return the distance of the pins from their axis and the radius of a pin [module]."""
         pins = self.lantern_pins(wheels)
         A, B = pins.circle, pins.radius
         z = wheels.z1 if self.pins == 1 else wheels.z2
@@ -186,7 +186,7 @@ class Lantern(ConjugateToothForm):
     def _arcs(
         self, pitch: PitchSurfaces, R: float, A: float, B: float, mate: float, start: float
     ) -> tuple[float, float]:
-        """Return the arcs X of contact on the mate's addendum and on its dedendum [module].
+        """Return two arcs X of contact [module]: on the mate's addendum and on the mate's dedendum.
 
         By default the arc on the addendum is one pitch from the start of the flank, and the arc on the dedendum is 0.
         """

@@ -141,10 +141,10 @@ class LeastFriction(ConjugateToothForm):
         return PathOfContact(pitch, approach, recess)
 
     def _weight(self, pitch: PitchSurfaces) -> Callable[[Floats], Floats] | None:
-        """Return the function that gives the density of the friction loss at the distance d from the pitch point, up to
-        a factor. It is mu S with the coefficient of friction mu, and S = d, or sin d for bevel gears.
+        """Return the density of the friction loss, up to a constant factor, as a function of the distance d from the
+        pitch point. The density is mu S, where mu is the coefficient of friction and S is d, or sin d for bevel gears.
 
-        Return None if friction is the same at every contact.
+        Return None if the coefficient of friction is the same at all contacts.
         """
         if self.friction_law is None or self.pitch_line_speed is None or self.friction_law.of_pitch_line:
             return None

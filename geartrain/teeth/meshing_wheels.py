@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class DeclaredPair(Protocol):
-    """Attributes of a declared gear pair that a mesh uses."""
+    """Attributes of a declared gear pair that its mesh uses."""
 
     @property
     def name(self) -> str:
@@ -20,7 +20,7 @@ class DeclaredPair(Protocol):
 
     @property
     def pair(self) -> tuple[str, str]:
-        """Names of the two wheels."""
+        """Names of the first and of the second wheel."""
 
     @property
     def fitting(self) -> Any:
@@ -28,37 +28,37 @@ class DeclaredPair(Protocol):
 
 
 class NamedForm(Protocol):
-    """Attributes of a tooth form that its mesh uses."""
+    """Attributes of a tooth form that the mesh of a pair uses."""
 
     @property
     def form(self) -> str:
-        """Name of the form."""
+        """Name of the tooth form."""
 
     @property
     def words(self) -> str:
-        """Name of the form as it appears in sentences."""
+        """Name of the tooth form as it is written in sentences."""
 
     @property
     def has_shape(self) -> bool:
-        """True if the form defines the shape of the teeth."""
+        """True if the tooth form defines the shape of the teeth."""
 
     @property
     def has_lengths(self) -> bool:
-        """True if the form declares a length with a unit."""
+        """True if the tooth form declares a length with a unit."""
 
 
 @dataclass(frozen=True)
 class MeshDriver(Result):
-    """Driving wheel of a gear pair, or driving link of a coupling, and the reason for this choice."""
+    """Driving wheel of a gear pair, or driving link of a coupling, and the reason why it drives."""
 
     KEYS = (Key("driver", "wheel"), Key("driver_is", "why"), Key("determined", "known"))
 
     wheel: str
     """Name of the driving wheel, or of the driving link of a coupling."""
     why: str
-    """Reason why this wheel is the driver, in words."""
+    """Text that states why this wheel is the driver."""
     known: bool = True
-    """False if the direction of power flow is not determined; `wheel` is then an assumption."""
+    """False if the direction of power flow is not determined. In that case `wheel` is an assumption."""
 
 
 _CONTRATE = "the contrate wheel is treated as a spur wheel"
@@ -66,28 +66,30 @@ _CONTRATE = "the contrate wheel is treated as a spur wheel"
 
 @dataclass(frozen=True)
 class MeshingWheels:
-    """Two wheels of a gear pair as a train declares them, from which a tooth form makes a mesh."""
+    """Two wheels of a gear pair as a train declares them, for which a tooth form creates a mesh."""
 
     gear: DeclaredPair
     """Declared gear pair."""
     place: str
-    """Location of the pair's declaration in its file."""
+    """Location of the pair's declaration within its file."""
     counts: tuple[int, int]
-    """Tooth numbers of the first and of the second wheel."""
+    """Tooth counts of the first and of the second wheel."""
     kinds: tuple[str, str] = ("spur", "spur")
     """Kinds of the wheels, such as "spur", "helical", "bevel" or "contrate"."""
     internal: tuple[bool, bool] = (False, False)
-    """True for each wheel that is a ring."""
+    """True for each wheel that is a ring gear."""
     friction: float | None = None
-    """Coefficient of friction; None if no friction or a friction law is declared."""
+    """Coefficient of friction; None if no friction is declared or if a friction law is declared."""
     distance: float | None = None
-    """Half the sum, over both wheels, of transverse module times tooth number [m]; None if a module has no unit."""
+    """Half the sum, over both wheels, of the product of transverse module and tooth count [m]; None if a module has no
+    unit.
+    """
     friction_law: FrictionLaw | None = None
-    """Friction law declared instead of a coefficient; `friction` is then None."""
+    """Friction law that is declared instead of a coefficient; None if no friction law is declared."""
     pitch_line: float | None = None
-    """Pitch-line speed, which a friction law needs [m/s]; None if unknown."""
+    """Pitch-line speed [m/s], which a friction law requires; None if unknown."""
     helix: tuple[float, float] = (0.0, 0.0)
-    """Helix angles [rad], positive for right-hand teeth."""
+    """Helix angles of both wheels [rad]; positive for right-hand teeth."""
     width: float | None = None
     """Face width of the narrower wheel [m]; None if unknown."""
 
@@ -109,7 +111,7 @@ class MeshingWheels:
 
     @property
     def ring(self) -> Literal[0, 1, 2]:
-        """Number of the wheel that is a ring, 1 or 2; 0 if there is none."""
+        """Number of the wheel that is a ring gear, 1 or 2; 0 if there is no ring gear."""
         return 1 if self.internal[0] else 2 if self.internal[1] else 0
 
     @property
@@ -120,22 +122,26 @@ class MeshingWheels:
 
     @property
     def driver(self) -> MeshDriver:
-        """First wheel as the assumed driver, used until the driver is determined."""
+        """First wheel as the assumed driver, which is used until the driver is determined."""
         return MeshDriver(self.gear.pair[0], "", False)
 
     @property
     def note(self) -> str:
-        """Note on a contrate wheel, which is treated as a spur wheel; empty if neither wheel is a contrate wheel."""
+        """Note on a contrate wheel, which is treated as a spur wheel; an empty string if neither wheel is a contrate
+        wheel.
+        """
         return _CONTRATE if "contrate" in self.kinds else ""
 
 
 @dataclass(frozen=True, slots=True)
 class PairSize:
-    """Size of a pair with real teeth: scale of its lengths and centre distance, from which layouts place its wheels."""
+    """Size of a pair with real teeth: the scale of its lengths, and the centre distance at which layouts place its
+    wheels.
+    """
 
     scale: float
-    """Number of modules in one length unit of the teeth."""
+    """Length unit of the teeth, in modules."""
     distance: float
     """Centre distance [module]."""
     stretch: float
-    """Centre distance divided by the distance at which the pitch circles touch."""
+    """Centre distance divided by the centre distance at which the pitch circles touch."""

@@ -1,7 +1,7 @@
-"""Results of one gear pair of any tooth form: kinematics, losses, verdict, rows of tables.
+"""Results of one gear pair of any tooth form: kinematics, losses, verdict, and table rows.
 
-The JSON keys of each result are defined only here, for reports of trains and of one pair. Angles are in degrees in
-tables and in rad in results.
+The JSON keys of these results, in reports on trains and on single pairs, are defined only here. Angles are in degrees
+in tables and in rad in results.
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class SpeedRatio(Result):
-    """Speed ratio of a pair over a period: the driven speed divided by the driver speed, without the sign of an
-    external mesh. It is negative only while a pin follower moves backwards.
+    """Speed ratio of a pair over a period: absolute value of the driven speed divided by the driver speed. It is
+    negative only while a pin follower moves backwards.
     """
 
     KEYS = (Key("mean", to=float), Key("exact", "mean"), Key("min", "minimum"), Key("max", "maximum"))
@@ -38,13 +38,13 @@ class SpeedRatio(Result):
     def of(cls, transmission: TransmissionFunction) -> SpeedRatio:
         """Return the speed ratio of a transmission function.
 
-        transmission   transmission function of any pair or pin
+        transmission   transmission function of any gear pair or pin coupling
         """
         return cls(transmission.ratio, *transmission.speed_range())
 
     @property
     def relative(self) -> tuple[float, float]:
-        """Minimum and maximum speed ratio, each divided by the mean ratio."""
+        """Minimum and maximum speed ratio, each divided by the mean speed ratio."""
         return self.minimum / float(self.mean), self.maximum / float(self.mean)
 
 
@@ -57,13 +57,13 @@ class TransmissionError(Result):
     rms: float
     """Root mean square deviation of the transmission error from its mean [rad of the driven side]."""
     mean: float
-    """Mean transmission error [rad of the driven side], a constant that depends on the zero of the angles."""
+    """Mean transmission error [rad of the driven side]. This constant depends on the zero of the angles."""
 
     @classmethod
     def of(cls, transmission: TransmissionFunction) -> TransmissionError:
         """Return the statistics of the transmission error of a transmission function.
 
-        transmission   transmission function of any pair or pin
+        transmission   transmission function of any gear pair or pin coupling
         """
         low, high = transmission.error_range()
         mean, rms = transmission.error_moments()
@@ -71,17 +71,17 @@ class TransmissionError(Result):
 
     @property
     def text(self) -> str:
-        """Peak-to-peak transmission error in degrees, as a string."""
+        """Text with the peak-to-peak transmission error in degrees."""
         return f"{degrees(self.peak_to_peak):.6g}"
 
 
 @dataclass(frozen=True, slots=True)
 class SlidingEfficiency(Result):
-    """Efficiency of a pair with friction: output power divided by input power. It is computed on request from the
-    transmission function.
+    """Efficiency of a pair with friction: output power divided by input power. The values are computed on access from
+    the transmission function.
 
     The torques on both sides cannot be constant at the same time. `mean` is the efficiency at constant torque of the
-    driver; `at_constant_load` is the efficiency at constant torque of the driven side. All efficiencies are None if
+    driver, and `at_constant_load` is the efficiency at constant torque of the driven side. All efficiencies are None if
     friction locks the pair.
     """
 
@@ -92,44 +92,46 @@ class SlidingEfficiency(Result):
 
     @property
     def friction(self) -> float | None:
-        """Coefficient of friction; None for a declared efficiency. If the coefficient depends on speed, the value is
-        its mean over the driver angle.
+        """Coefficient of friction; None for a declared efficiency. If the coefficient depends on speed, its mean over
+        the driver angle is returned.
         """
         return self.transmission.friction
 
     @property
     def locks(self) -> bool:
-        """True if friction locks the pair at some angle."""
+        """True if friction locks the pair at some driver angle."""
         return self.transmission.locks
 
     @property
     def mean(self) -> float | None:
-        """Mean efficiency over the driver angle at constant driver torque; None if friction locks the pair."""
+        """Mean of the efficiency over the driver angle at constant driver torque; None if friction locks the pair."""
         return None if self.locks else finite(self.transmission.efficiency_mean())
 
     @property
     def at_constant_load(self) -> float | None:
-        """Work output divided by work input at constant load torque; None if friction locks or no work is done."""
+        """Work output divided by work input at constant load torque; None if friction locks the pair or if no work is
+        done.
+        """
         return None if self.locks else finite(self.transmission.efficiency_at_constant_load())
 
     @property
     def minimum(self) -> float | None:
-        """Minimum efficiency at any driver angle; None if friction locks the pair."""
+        """Minimum of the efficiency over all driver angles; None if friction locks the pair."""
         return None if self.locks else finite(self.transmission.efficiency_minimum())
 
     @property
     def locking_friction(self) -> float | None:
-        """Minimum coefficient of friction that locks the pair; None if the pair never locks."""
+        """Minimum coefficient of friction at which the pair locks; None if the pair never locks."""
         return finite(self.transmission.locking_friction)
 
     @property
     def text(self) -> str:
-        """Mean efficiency as a string, or "locks"."""
+        """Text with the mean efficiency, or "locks" if friction locks the pair."""
         return "locks" if self.mean is None else f"{self.mean:.6f}"
 
 
 def _gear_or_none(gear: int) -> int | None:
-    """Return the number of the faulty gear; None for 0, which denotes the pair as a whole."""
+    """Return the number of the faulty gear; None if `gear` is 0, which denotes the pair as a whole."""
     return gear or None
 
 
@@ -138,27 +140,28 @@ def _gear_or_none(gear: int) -> int | None:
 
 @dataclass(frozen=True, slots=True)
 class ToothFault(Result):
-    """Fault that prevents the teeth of a pair from running, with its cause and remedy; part of a verdict."""
+    """Fault that prevents the teeth of a pair from running, with its cause and remedy. Faults are part of a verdict."""
 
     KEYS = ("kind", Key("gear", to=_gear_or_none), "what", "why", "fix")
 
     kind: str
     """Kind of fault, such as `jam`, `clash` or `undercut`."""
     gear: int
-    """Number of the faulty gear, 1 or 2; 0 for the pair as a whole."""
+    """Number of the faulty gear, 1 or 2; 0 if the fault concerns the pair as a whole."""
     X: float
-    """Arc X on the pitch surfaces at which the fault begins [module; rad for bevel gears]; NaN if no position applies.
+    """Arc X on the pitch surfaces at which the fault begins [module; rad for bevel gears]; NaN if the fault has no
+    position.
     """
     what: str
-    """Statement of the fault."""
+    """Statement that describes the fault."""
     why: str
-    """Statement of the cause."""
+    """Statement that gives the cause of the fault."""
     fix: str
-    """Statement of the remedy."""
+    """Suggested correction of the fault, as a sentence."""
 
     @property
     def problem(self) -> Problem:
-        """Fault as a `Problem` without a location in a file."""
+        """Fault as a `Problem`, which has no location in a file."""
         return Problem(self.what, self.why, self.fix)
 
 
@@ -169,29 +172,29 @@ class PairVerdict(Result):
     KEYS = ("kind", "text", Key("backlash", to=finite), "faults", "why", "fix")
 
     kind: str
-    """Kind of the verdict: "runs", or the kind of the first fault."""
+    """Kind of the verdict: "runs" if the pair can run, or the kind of the first fault if it cannot."""
     text: str
     """Sentence that states the verdict."""
     backlash: float
     """Minimum backlash of the teeth over a pitch [rad of the driven wheel]."""
     faults: tuple[ToothFault, ...] = ()
-    """All faults that prevent the teeth from running; empty if they can run."""
+    """All faults that prevent the teeth from running; empty if the teeth can run."""
 
     def __bool__(self) -> bool:
         return self.kind == "runs"
 
     @property
     def why(self) -> str:
-        """Cause of the first fault; empty if the teeth can run."""
+        """Cause of the first fault; an empty string if the teeth can run."""
         return self.faults[0].why if self.faults else ""
 
     @property
     def fix(self) -> str:
-        """Remedy of the first fault; empty if the teeth can run."""
+        """Remedy of the first fault; an empty string if the teeth can run."""
         return self.faults[0].fix if self.faults else ""
 
     def explained(self, why: str, fix: str) -> PairVerdict:
-        """Return a copy of the verdict with a single fault, which has the given cause and remedy.
+        """Return a copy of the verdict with a single fault that has the given cause and remedy.
 
         why, fix   cause of the fault, and its remedy
         """
@@ -205,7 +208,9 @@ def verdict_of_faults(faults: tuple[ToothFault, ...], backlash: float) -> PairVe
 
 
 def friction_lock(friction: float, locking: float) -> Problem:
-    """Return the problem of teeth that lock because the coefficient `friction` is at least the limit `locking`."""
+    """Return the problem of teeth that lock because the coefficient of friction `friction` is equal to or above the
+    limit `locking`.
+    """
     return Problem(
         f"a coefficient of friction of {friction:g} locks these teeth",
         f"at a coefficient of {locking:.6g} or more the driver cannot overcome the sliding friction at some angle",
@@ -214,7 +219,7 @@ def friction_lock(friction: float, locking: float) -> Problem:
 
 
 def friction_lock_at_speed(law: str, locking: float) -> Problem:
-    """Return the problem of teeth that lock under the friction law named `law`, at their speed.
+    """Return the problem of teeth that lock, at their speed, under the friction law named `law`.
 
     `locking` is the minimum constant coefficient of friction that locks the teeth.
     """
@@ -230,20 +235,20 @@ def friction_lock_at_speed(law: str, locking: float) -> Problem:
 
 @dataclass(frozen=True)
 class PinFigures(Result):
-    """Results of one pin coupling with one of its sides driving: dimensions, motion and efficiency."""
+    """Results of one pin coupling for the case that one of its sides drives: dimensions, motion and efficiency."""
 
     pin_radius: float
     """Distance of the pin from its axis [m, or the unit of the declared lengths]."""
     offset: float
-    """Distance between the two axes [m, or the unit of the declared lengths]."""
+    """Distance between the axes of pin and slot [m, or the unit of the declared lengths]."""
     speed_ratio: SpeedRatio
-    """Speed ratio, driven side divided by driver."""
+    """Speed ratio: speed of the driven side divided by speed of the driver."""
     amplitude: float
-    """Maximum transmission error [rad]."""
+    """Maximum transmission error of the driven side [rad]."""
     transmission_error: TransmissionError
     """Transmission error of the driven side."""
     efficiency: SlidingEfficiency
-    """Efficiency of the pin sliding along its slot."""
+    """Efficiency of the coupling with friction of the pin along its slot."""
 
 
 def pin_figures(transmission: PinTransmission) -> PinFigures:
@@ -261,7 +266,9 @@ def pin_figures(transmission: PinTransmission) -> PinFigures:
 
 @dataclass(frozen=True)
 class PairFigures(Result):
-    """Results of one pair with one of its wheels driving. Tooth forms with further results have a subclass."""
+    """Results of one pair for the case that one of its wheels drives. Tooth forms with further results have
+    a subclass.
+    """
 
     KEYS: ClassVar[tuple[str | Key, ...]] = (
         *("teeth", "verdict", Key("backlash", "verdict.backlash", finite)),
@@ -273,29 +280,29 @@ class PairFigures(Result):
     verdict: PairVerdict
     """Verdict on whether the teeth of the pair can run."""
     speed_ratio: SpeedRatio | None
-    """Speed ratio, driven divided by driver; None for teeth that cannot run."""
+    """Speed ratio: driven speed divided by driver speed; None if the teeth cannot run."""
     transmission_error: TransmissionError | None
-    """Transmission error of the driven wheel; None for teeth that cannot run."""
+    """Transmission error of the driven wheel; None if the teeth cannot run."""
     efficiency: SlidingEfficiency | None
-    """Efficiency with sliding friction of the teeth; None for teeth that cannot run."""
+    """Efficiency with sliding friction of the teeth; None if the teeth cannot run."""
 
     @property
     def error_text(self) -> str:
-        """Peak-to-peak transmission error in degrees, as a string; "-" for teeth that cannot run."""
+        """Text with the peak-to-peak transmission error in degrees; "-" if the teeth cannot run."""
         return self.transmission_error.text if self.transmission_error else "-"
 
 
 def motion_figures(
     transmission: TransmissionFunction, moves: bool = True
 ) -> tuple[SpeedRatio | None, TransmissionError | None]:
-    """Return speed ratio and transmission error; both are None if the teeth cannot run (`moves` is False)."""
+    """Return the speed ratio and the transmission error. Both are None if the teeth cannot run (`moves` is False)."""
     return (SpeedRatio.of(transmission), TransmissionError.of(transmission)) if moves else (None, None)
 
 
 @dataclass(frozen=True)
 class AccountTable:
-    """Header of a table in the report of pairs, and the row of one pair. `wide` is True for a table that is as wide
-    as the page.
+    """Header of a table in the report on pairs, and the row of one pair. `wide` is True if the table is as wide as the
+    page.
     """
 
     header: tuple[str, ...]
@@ -305,11 +312,11 @@ class AccountTable:
 
 @dataclass(frozen=True)
 class PairAccount:
-    """Report of one pair with one of its wheels driving: tables as text, and results for JSON."""
+    """Report on one pair for the case that one of its wheels drives: tables as text, and results for JSON."""
 
     words: str
-    """Text that explains the tables of all pairs with the same kind of report."""
+    """Text that explains the tables of all pairs that have the same kind of report."""
     tables: tuple[AccountTable, ...]
-    """Tables, each with the row of this pair."""
+    """Tables of the report, each with the row of this pair."""
     figures: PairFigures
     """Results that are written to JSON."""

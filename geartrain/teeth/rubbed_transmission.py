@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 class RubbedTransmission(TransmissionFunction):
-    """Transmission function of a pair whose friction coefficient depends on speed.
+    """Transmission function of a pair whose coefficient of friction depends on speed.
 
     The angles and the speed ratio are the same as in the given transmission function. Losses are computed at each
     contact: for the sliding speed v, the coefficient is mu(v), and the contact transmits the fraction (1 + mu out) / (1
@@ -35,7 +35,9 @@ class RubbedTransmission(TransmissionFunction):
     # ---------------------------------------------------------------------------------------------------- kinematics
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the transmission error of the underlying function at driver angles S [rad]."""
+        """Return the transmission error of the underlying function [rad of the driven side] at driver angles
+        S [rad].
+        """
         return self.transmission.error(S)
 
     def speed(self, S: ArrayLike) -> Floats:
@@ -51,30 +53,32 @@ class RubbedTransmission(TransmissionFunction):
         return self.transmission.error_range()
 
     def error_moments(self) -> tuple[float, float]:
-        """Return the mean and the rms deviation of the transmission error of the underlying function [rad of the driven
-        side].
+        """Return the mean of the transmission error of the underlying function and its rms deviation from the mean [rad
+        of the driven side].
         """
         return self.transmission.error_moments()
 
     def kinks(self) -> list[float]:
-        """Return the driver angles of the kinks of the underlying function [rad]."""
+        """Return the driver angles at which the underlying function has kinks [rad]."""
         return self.transmission.kinks()
 
     def smooth_intervals(self) -> list[tuple[float, float]]:
-        """Return the smooth intervals of the underlying function [rad]."""
+        """Return the intervals of driver angle [rad] in which the underlying function is smooth."""
         return self.transmission.smooth_intervals()
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...] | None:
-        """Return the upward steps of the speed ratio of the underlying function."""
+        """Return the upward steps of the speed ratio of the underlying function; None if they are not computed."""
         return self.transmission.speed_leaps()
 
     def steepest_fall(self) -> float | None:
-        """Return the maximum rate at which the speed ratio of the underlying function decreases [1/rad]."""
+        """Return the maximum rate at which the speed ratio of the underlying function decreases [1/rad]; None if the
+        underlying function does not give it.
+        """
         return self.transmission.steepest_fall()
 
     @property
     def locking_friction(self) -> float:
-        """Minimum coefficient of friction that locks the underlying function."""
+        """Minimum constant coefficient of friction at which the pair of the underlying function locks."""
         return self.transmission.locking_friction
 
     def reversed_motion(self) -> RubbedTransmission:
@@ -84,7 +88,7 @@ class RubbedTransmission(TransmissionFunction):
     # ------------------------------------------------------------------------------------------------------- friction
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """Return sliding speeds and friction terms of the underlying function at driver angles S [rad]."""
+        """Return the sliding speeds and friction terms of the underlying function at driver angles S [rad]."""
         return self.transmission.rubbing(S)
 
     def coefficient(self, S: ArrayLike) -> Floats:
@@ -95,13 +99,13 @@ class RubbedTransmission(TransmissionFunction):
         return self.by(self.rubbing(S).sliding)
 
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Return the efficiency at driver angles S [rad]; NaN where teeth do not touch, or if friction locks them."""
+        """Return the efficiency at driver angles S [rad]; NaN where teeth do not touch or friction locks them."""
         rubbing = self.rubbing(S)
         return rubbing.efficiency(self.by(rubbing.sliding))
 
     @cached_property
     def friction(self) -> float:  # type: ignore[override]
-        """Coefficient of friction, averaged over driver angle and contacts."""
+        """Coefficient of friction, averaged over driver angles and contacts."""
         S, weights = self._nodes
         each = self.coefficient(S)
         touching = ~np.isnan(each).all(axis=0)
@@ -117,14 +121,14 @@ class RubbedTransmission(TransmissionFunction):
 
     @cached_property
     def _nodes(self) -> tuple[Floats, Floats]:
-        """Quadrature nodes of one period [rad of the driver] and their weights."""
+        """Nodes [rad of the driver] and weights of the quadrature over one period."""
         # a coefficient that falls steeply with speed makes 1 / efficiency the most uneven integrand
         return self.graded_nodes(lambda S: 1 / self.efficiency(S))
 
 
 def pair_friction(wheels: MeshingWheels) -> PairFriction | None:
-    """Return the friction law of a pair at its pitch-line speed; None if no friction law is declared or the speed is
-    unknown.
+    """Return the friction law of a pair, applied at its pitch-line speed; None if no friction law is declared or the
+    speed is unknown.
     """
     declared, at = wheels.friction_law, wheels.pitch_line
     return None if declared is None or at is None else PairFriction(declared, at)

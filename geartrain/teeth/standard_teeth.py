@@ -1,7 +1,7 @@
 """Standard teeth for pairs that declare no tooth form: involutes without profile shift.
 
-Each wheel has the largest addendum, up to 1 module, with which it runs with all its mates. Drawings, the viewer,
-layouts and exports of wheels use standard teeth.
+Each wheel has the largest addendum, up to 1 module, at which it runs with all its mates. Drawings, the viewer, layouts
+and exports of wheels use standard teeth.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ MOST_TEETH = 10_000
 
 @dataclass(frozen=True, slots=True)
 class UndeclaredWheel:
-    """Wheel that declares no tooth form: its tooth number, and whether it is a ring."""
+    """Wheel that declares no tooth form: its tooth count, and whether it is a ring gear."""
 
     z: int
     internal: bool = False
@@ -39,16 +39,16 @@ class StandardTeeth:
 
     @property
     def words(self) -> str:
-        """Description of the teeth for reports."""
+        """Text that describes the standard teeth in reports."""
         return f"involute, {self.angle} degrees (no form is declared)"
 
 
 def standard_teeth(gears: Mapping[str, UndeclaredWheel], pairs: Iterable[tuple[str, str]]) -> dict[str, StandardTeeth]:
-    """Return the standard teeth of all wheels by name of the wheel.
+    """Return the standard teeth of all wheels, keyed by wheel.
 
-    Wheels that are connected by `pairs` have the same pressure angle, and each has the largest addendum with which it
-    runs with all its mates. If no pressure angle lets all pairs run, 20 degrees is used, and the verdict on a pair that
-    does not run gives the reason.
+    Wheels that are connected by `pairs` have the same pressure angle, and each wheel has the largest addendum at which
+    it runs with all its mates. If no pressure angle lets all pairs run, 20 degrees is used, and the verdict on a pair
+    that does not run gives the reason.
     """
     # the ring of a pair is named last, as the tooth form requires
     edges = [(second, first) if gears[first].internal else (first, second) for first, second in pairs]
@@ -64,7 +64,7 @@ def standard_teeth(gears: Mapping[str, UndeclaredWheel], pairs: Iterable[tuple[s
 
 
 def _connected(first: str, edges: Iterable[tuple[str, str]]) -> list[str]:
-    """Return all wheels that are connected with the first wheel by pairs, including the first wheel."""
+    """Return all wheels that are connected with the wheel `first` by gear pairs, including `first` itself."""
     known = [first]
     # the list grows while it is read
     for name in known:
@@ -76,7 +76,9 @@ def _connected(first: str, edges: Iterable[tuple[str, str]]) -> list[str]:
 def _design(
     group: Iterable[str], edges: Iterable[tuple[str, str]], gears: Mapping[str, UndeclaredWheel], angle: int
 ) -> dict[str, StandardTeeth] | None:
-    """Return the standard teeth of connected wheels by name; None if a pair cannot run at this pressure angle [deg]."""
+    """Return the standard teeth of connected wheels, keyed by wheel; None if a pair cannot run at the pressure angle
+    `angle` [deg].
+    """
     addenda = dict.fromkeys(group, ADDENDUM)
     for first, second in edges:
         heights = (height for height in _ADDENDA if _runs(gears[first], gears[second], angle, height, height))
@@ -102,8 +104,8 @@ def _runs(first: UndeclaredWheel, second: UndeclaredWheel, angle: int, *addenda:
 
 
 def lone_mate(gear: UndeclaredWheel) -> UndeclaredWheel:
-    """Return a mate for a wheel that has none: an equal wheel, or for a ring gear a pinion with half as many teeth,
-    rounded down.
+    """Return a mate for a wheel that has no mate: an equal wheel, or, for a ring gear, a pinion with half as many
+    teeth, rounded down.
     """
     return UndeclaredWheel(max(gear.z // 2, 1)) if gear.internal else gear
 
@@ -114,7 +116,7 @@ def standard_form(first: StandardTeeth, second: StandardTeeth, backlash: float) 
 
 
 def check_size(z: int) -> None:
-    """Raise `GearTrainError` for a wheel of more than `MOST_TEETH` teeth."""
+    """Raise `GearTrainError` if a wheel has more than `MOST_TEETH` teeth."""
     if z > MOST_TEETH:
         what, why = (
             f"the teeth of a wheel with {z} teeth cannot be built",

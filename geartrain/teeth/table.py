@@ -66,15 +66,18 @@ class PeriodicPoints(BaseModel):
     )
 
     def period(self, counts: tuple[int, int]) -> float:
-        """Return the period as an angle of the driver [rad]; `counts` are the counts of driver and driven wheel."""
+        """Return the period as an angle of the driver [rad]. `counts` contains the tooth counts of the driver and of
+        the driven wheel.
+        """
         z1, z2 = counts
         pitches = {"driver_pitch": 1, "driver_turn": z1, "driven_turn": z2, "cycle": lcm(z1, z2)}[self.over]
         return 2 * pi * pitches / z1
 
     def table(self, points: Sequence[tuple[Quantity, float]], counts: tuple[int, int]) -> PeriodicTable:
-        """Return the function through points, each an angle of the driver (or a fraction of the period) and a value.
+        """Return the periodic function through points. Each point consists of an angle of the driver (or a fraction of
+        the period) and a value.
 
-        Raises `GearTrainError` if the points do not close, or do not define a function.
+        Raises `GearTrainError` if the last point does not agree with the first one, or do not define a function.
         """
         from geartrain.numerics.periodic_function import PeriodicTable, check_points
 
@@ -88,7 +91,9 @@ class PeriodicPoints(BaseModel):
         return PeriodicTable([share * period for share in shares], values, period, self.interpolation)
 
     def _check_closed(self, values: Sequence[float], counts: tuple[int, int]) -> None:
-        """Raise `GearTrainError` if the last point, at the end of the period, differs from the first one."""
+        """Raise `GearTrainError` if the value of the last point, at the end of the period, differs from the value of
+        the first point.
+        """
         gap, turned = values[-1] - values[0], self.period(counts) * counts[0] / counts[1]
         if abs(gap) <= 1e-12 * max(map(abs, values)):
             return
@@ -110,7 +115,7 @@ Harmonic = Annotated[
 
 
 class ErrorContribution(PeriodicPoints):
-    """Periodic transmission error of a gear pair as declared: points or harmonics."""
+    """Periodic transmission error of a gear pair as declared by points or harmonics."""
 
     points: tuple[tuple[Position, Angle], ...] | None = Field(
         None,
@@ -131,7 +136,7 @@ class ErrorContribution(PeriodicPoints):
         return self
 
     def function(self, counts: tuple[int, int]) -> PeriodicFunction:
-        """Return the error [rad of the driven wheel] as a function of the driver angle [rad]."""
+        """Return the transmission error [rad of the driven wheel] as a function of the driver angle [rad]."""
         from geartrain.numerics.periodic_function import HarmonicSeries
 
         if self.points is not None:
@@ -149,20 +154,20 @@ _POSSIBLE = checked(
 
 
 class EfficiencyTable(PeriodicPoints):
-    """Efficiency of a gear pair over a period as declared, equal for both driving wheels."""
+    """Declared efficiency of a gear pair over a period. It is the same for both driving wheels."""
 
     points: tuple[tuple[Position, Annotated[Share, _POSSIBLE]], ...] = Field(
         description="Points [angle, efficiency]: angle of the driver from 0, or fraction of the period"
     )
 
     def function(self, counts: tuple[int, int]) -> PeriodicFunction:
-        """Return the efficiency as a function of the driver angle [rad]."""
+        """Return the efficiency as a periodic function of the driver angle [rad]."""
         return self.table([(at, float(efficiency.base)) for at, efficiency in self.points], counts)
 
 
 class LiveFunction:
-    """Transmission function written in Python, as part of a tooth form. A declaration as plain data contains its name,
-    which can be read only while the object exists.
+    """Transmission function written in Python, as part of a tooth form. In plain data it is represented by its name,
+    which can be read only while the Python object exists.
     """
 
     _living: ClassVar[WeakValueDictionary[str, LiveFunction]] = WeakValueDictionary()
@@ -178,7 +183,7 @@ class LiveFunction:
 
     @classmethod
     def read(cls, raw: object) -> LiveFunction:
-        """Return a function given as a Python object, or by its name in plain data."""
+        """Return a transmission function that is given as a Python object, or by its name in plain data."""
         from geartrain.teeth.given_transmission import TransmissionProtocol
 
         found = cls._living.get(raw, raw) if isinstance(raw, str) else raw
@@ -344,7 +349,9 @@ class GivenError(ToothForm):
         return GivenTransmission(function, counts, self.driver, self.backlash.si, efficiencies, self.driver)
 
     def _efficiencies(self, counts: tuple[int, int]) -> Efficiencies | None:
-        """Return the efficiencies with the wheel `driver` and with the other wheel driving; None without losses."""
+        """Return the efficiencies for the case that the wheel `driver` drives and for the case that the other wheel
+        drives; None if there are no losses.
+        """
         from geartrain.numerics.periodic_function import HarmonicSeries
         from geartrain.teeth.given_transmission import checked_efficiency
 

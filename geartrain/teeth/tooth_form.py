@@ -1,4 +1,6 @@
-"""Base class of tooth forms, whose method `mesh` returns a gear mesh of two wheels, and field types of declarations."""
+"""Base class of tooth forms, whose method `mesh` returns the gear mesh of two wheels, and field types
+for declarations.
+"""
 
 from __future__ import annotations
 
@@ -24,12 +26,12 @@ ShaftAngle = Callable[[], float | None]
 
 
 def twice(raw: object) -> object:
-    """Return a single value as a pair of two equal values; return a pair unchanged."""
+    """Return a pair of two equal values if a single value is given. A pair is returned unchanged."""
     return raw if isinstance(raw, list | tuple) else (raw, raw)
 
 
 def number_of_wheel(raw: object) -> object:
-    """Convert "1" or "2" to an integer, since a declaration gives numbers as strings."""
+    """Convert "1" or "2" to an integer, because a declaration gives numbers as strings."""
     return int(raw) if raw in ("1", "2") else raw
 
 
@@ -39,17 +41,17 @@ def _schema(kind: str) -> WithJsonSchema:
 
 
 TwoFigures = Annotated[tuple[Figure, Figure], BeforeValidator(twice), _schema("number")]
-"""Field type: one number for both wheels, or a list of two."""
+"""Field type of one number for both wheels, or a list of two numbers."""
 
 TwoLengths = Annotated[tuple[Length, Length], BeforeValidator(twice), _schema("length")]
-"""Field type: one length for both wheels, or a list of two; numbers without a unit are modules."""
+"""Field type of one length for both wheels, or a list of two lengths. Numbers without a unit are in modules."""
 
 TwoAngles = Annotated[tuple[Angle, Angle], BeforeValidator(twice), _schema("angle")]
-"""Field type: one angle for both wheels, or a list of two."""
+"""Field type of one angle for both wheels, or a list of two angles."""
 
 
 class ToothForm(BaseModel, ABC):
-    """Declared tooth form of a gear pair. Its method `mesh` returns the mesh of two wheels.
+    """Declared tooth form of a gear pair. Its method `mesh` returns the gear mesh of two wheels.
 
     See Also
     --------
@@ -59,28 +61,28 @@ class ToothForm(BaseModel, ABC):
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     has_shape: ClassVar[bool] = True
-    """True if the form defines the shape of the teeth; otherwise standard teeth are cut and drawn."""
+    """True if the tooth form defines the shape of the teeth; False if standard teeth are cut and drawn instead."""
 
     any_distance: ClassVar[bool] = False
-    """True for teeth that run at any centre distance, not only at the design distance."""
+    """True if the teeth run at any centre distance, False if they run only at the design distance."""
 
     conjugate: ClassVar[bool] = False
-    """True for teeth designed from a path of contact, which are possible for ring gears and bevel wheels too.
+    """True if the teeth are designed from a path of contact, which is also possible for ring gears and bevel wheels.
 
-    Their form does not prescribe the roots.
+    Such a tooth form does not prescribe the roots of the teeth.
     """
 
     more_contact: ClassVar[str] = "declare longer `arcs`"
-    """Fix that increases the contact ratio, as part of a message."""
+    """Part of a message that states how to increase the contact ratio."""
 
     ringed: ClassVar[bool] = False
-    """True for teeth whose second wheel is a ring gear."""
+    """True if the second wheel must be a ring gear."""
 
     own_play: ClassVar[tuple[str, ...]] = ()
-    """Names of the fields that determine the backlash if they are declared."""
+    """Names of the fields that, if declared, determine the backlash."""
 
     in_time: ClassVar[tuple[str, ...]] = ("stiffness", "damping")
-    """Names of the fields that do not affect the tooth shape: stiffness and damping for dynamic simulations."""
+    """Names of the fields that do not affect the shape of the teeth: stiffness and damping for dynamic simulations."""
 
     if TYPE_CHECKING:
         form: str
@@ -123,7 +125,9 @@ class ToothForm(BaseModel, ABC):
 
     @classmethod
     def _problem(cls, item: Any) -> Problem:
-        """Return a validation error of pydantic as a problem, with the fix that the form provides, if there is one."""
+        """Return a validation error of pydantic as a problem. If the tooth form provides a remedy for this error, the
+        problem contains it.
+        """
         context = item.get("ctx") or {}
         # errors of a whole model have no location; their type may be the name of the field
         place = item["loc"][0] if item["loc"] else item["type"] if item["type"] in cls.model_fields else ""
@@ -143,12 +147,12 @@ class ToothForm(BaseModel, ABC):
 
     @property
     def words(self) -> str:
-        """Name of the form as it appears in sentences."""
+        """Name of the tooth form as it is written in sentences."""
         return self.form.replace("_", " ")
 
     @abstractmethod
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh | None:
-        """Return the mesh of a gear pair with its first wheel driving.
+        """Return the mesh of a gear pair. The first wheel of the pair drives.
 
         Parameters
         ----------
@@ -170,14 +174,14 @@ class ToothForm(BaseModel, ABC):
 
     @classmethod
     def figures(cls) -> type[PairFigures]:
-        """Return the class of results of a mesh of this form, from which the JSON schema is generated."""
+        """Return the class of the results of a mesh with this tooth form, from which the JSON schema is generated."""
         from geartrain.teeth.pair_results import PairFigures
 
         return PairFigures
 
     @property
     def has_lengths(self) -> bool:
-        """True if a length of the form is declared with a unit."""
+        """True if the tooth form declares a length with a unit."""
         return False
 
     @property
@@ -186,7 +190,7 @@ class ToothForm(BaseModel, ABC):
         return None
 
     def own_backlash(self, pair: str) -> Problem | None:
-        """Return the reason why the backlash of the manufacturing options does not apply to this pair.
+        """Return the reason why the backlash given by the manufacturing options does not apply to this pair.
 
         Parameters
         ----------
@@ -209,7 +213,8 @@ class ToothForm(BaseModel, ABC):
         return None
 
     def thinned(self, backlash: Quantity) -> Self:
-        """Return a copy of the form with the given backlash, or the form itself if it has no parameter for backlash.
+        """Return a copy of the tooth form with the given backlash, or the tooth form itself if it has no parameter for
+        backlash.
 
         Parameters
         ----------
@@ -225,9 +230,7 @@ class ToothForm(BaseModel, ABC):
 
 
 def check_above_0(form: BaseModel, kind: str, *names: str) -> None:
-    """Raise a validation error of the kind `kind` if a value of the named fields is given and is not greater than
-    0.
-    """
+    """Raise a validation error of the kind `kind` if any of the named fields has a value that is not greater than 0."""
     for name in names:
         given = getattr(form, name)
         for value in given if isinstance(given, tuple) else (given,):
@@ -236,7 +239,7 @@ def check_above_0(form: BaseModel, kind: str, *names: str) -> None:
 
 
 def check_one_of(form: BaseModel, kind: str, first: str, second: str) -> None:
-    """Raise a validation error of the kind `kind` if both named fields are given."""
+    """Raise a validation error of the kind `kind` if both fields, `first` and `second`, are given."""
     if all(name in form.model_fields_set and getattr(form, name) is not None for name in (first, second)):
         raise bad(
             kind, f"{first} and {second} are both given", f"remove `{first}` or `{second}`: each determines the other"
@@ -244,10 +247,10 @@ def check_one_of(form: BaseModel, kind: str, first: str, second: str) -> None:
 
 
 def in_modules(length: Quantity, module: float | None, name: str) -> float:
-    """Convert a declared length to modules; a number without a unit is a number of modules.
+    """Convert a declared length to modules. A number without a unit is already in modules.
 
-    `name` is the name of the field, for the error message. Raises `GearTrainError` if the length has a unit and the
-    module [m] is unknown.
+    `name` is the name of the field in error messages. Raises `GearTrainError` if the length has a unit and the module
+    [m] is unknown.
     """
     if length.unit is None or not length.value:
         return float(length.value)
@@ -261,5 +264,5 @@ def in_modules(length: Quantity, module: float | None, name: str) -> float:
 
 
 def refused(what: str, why: str, fix: str) -> GearTrainError:
-    """Return the error for wheels that cannot have teeth of a form."""
+    """Return the error for wheels that cannot have teeth of a given tooth form."""
     return GearTrainError(Problem(what, why, fix))

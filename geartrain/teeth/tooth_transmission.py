@@ -12,15 +12,16 @@ if TYPE_CHECKING:
 
 
 class ToothTransmission(TransmissionFunction):
-    """Transmission function of a pair of toothed wheels with either wheel driving, forwards or backwards.
+    """Transmission function of a pair of toothed wheels, in which either wheel can drive, forwards or backwards.
 
-    If the driver turns backwards, the coast flanks are in contact. Angles keep their sign convention, so they decrease.
+    If the driver turns backwards, the coast flanks are in contact. The sign convention of angles does not change, so
+    that angles decrease.
     """
 
     driver: int
     """Number of the driving wheel, 1 or 2."""
     direction: int
-    """Direction of rotation, 1 or -1."""
+    """Direction of rotation: 1 for forwards, -1 for backwards."""
 
     @property
     @abstractmethod
@@ -29,13 +30,13 @@ class ToothTransmission(TransmissionFunction):
 
     @abstractmethod
     def _driven(self, driver: int, direction: int) -> Self:
-        """Return the transmission function of the same pair with another driver or direction."""
+        """Return the transmission function of the same pair for another driving wheel or direction of rotation."""
 
     @property
     def reversed(self) -> Self:
-        """Transmission function with the other wheel driving."""
+        """Transmission function for the case that the other wheel drives."""
         return self._driven(3 - self.driver, self.direction)
 
     def reversed_motion(self) -> Self:
-        """Return the transmission function of the coast flanks, for the reverse direction of rotation."""
+        """Return the transmission function of the coast flanks, which applies to the reverse direction of rotation."""
         return self._driven(self.driver, -self.direction)

@@ -1,8 +1,8 @@
 """Transmission functions of pairs: the interface of all tooth forms and pins, and functions derived from others.
 
 Angles are forward angles: S of the driver and q of the driven side both increase as the pair turns forwards. At S = 0 a
-tooth of the driver is on the line of centres, or a pin is on the line from its axis to the other axis. The sign of the
-speed ratio of an external mesh belongs to the train, not to these functions.
+tooth of the driver is on the line of centres, or a pin is on the line from its axis to the other axis. The negative
+sign of the speed ratio of an external mesh is taken into account by the train, not by these functions.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ _SAMPLES = 1001  # samples of an interval in the search for the minimum efficien
 
 @cache
 def _gauss_nodes() -> tuple[Floats, Floats]:
-    """Return nodes on [-1, 1] and weights of the Gauss-Legendre quadrature of one interval."""
+    """Return the nodes on [-1, 1] and the weights of the Gauss-Legendre quadrature that is used in each interval."""
     import numpy as np
 
     x, w = np.polynomial.legendre.leggauss(_NODES)
@@ -45,9 +45,9 @@ def _gauss_nodes() -> tuple[Floats, Floats]:
 
 
 def check_friction(friction: float) -> float:
-    """Return a coefficient of friction unchanged after a check.
+    """Check a coefficient of friction, and return it unchanged.
 
-    Raise `RangeError` if it is negative, infinite or NaN.
+    Raise `RangeError` if the coefficient is negative, infinite or NaN.
     """
     if not 0 <= friction < inf:
         raise RangeError(
@@ -61,35 +61,43 @@ def check_friction(friction: float) -> float:
 
 
 class SpeedLeap(NamedTuple):
-    """Step of the speed ratio at an impact of teeth: the ratio before the impact, and the larger ratio after it."""
+    """Step of the speed ratio at an impact of teeth: the ratio before the impact, and the larger ratio after the
+    impact.
+    """
 
     before: float
     after: float
 
     @property
     def size(self) -> float:
-        """Increase of the speed ratio."""
+        """Increase of the speed ratio at the impact."""
         return self.after - self.before
 
 
 class ContactRubbing(NamedTuple):
-    """Sliding of the teeth of a pair at driver angles: arrays with a row for each contact, NaN without contact."""
+    """Sliding and friction terms of the teeth of a pair at given driver angles. The arrays have one row for each
+    contact, with NaN where there is no contact.
+    """
 
     sliding: Floats
     """Sliding speed divided by pitch-line speed, 0 or more."""
     into: Floats
-    """Change of the input power of a contact per unit friction coefficient, divided by the power without friction."""
+    """Change of the input power of a contact per unit friction coefficient, divided by the input power without
+    friction.
+    """
     out: Floats
-    """Change of the output power of a contact per unit friction coefficient, divided by the power without friction."""
+    """Change of the output power of a contact per unit friction coefficient, divided by the output power without
+    friction.
+    """
 
     def efficiency(self, friction: float | Floats) -> Floats:
-        """Return the efficiency at each driver angle; NaN if the teeth do not touch, or if friction locks one of the
+        """Return the efficiency at each driver angle; NaN if the teeth do not touch or if friction locks one of the
         contacts.
 
-        Contacts at the same time share the driver's torque equally. A contact with the coefficient f transmits the
-        fraction (1 + f out) / (1 + f into) of its power.
+        Simultaneous contacts share the driver's torque equally. A contact with the friction coefficient f transmits the
+        fraction (1 + f out) / (1 + f into) of its input power.
 
-        friction   coefficient of friction, one value or one for each contact
+        friction   coefficient of friction: one value, or one value for each contact
         """
         import numpy as np
 
@@ -144,13 +152,13 @@ class TransmissionFunction(Shown, ABC):
     waves: int = 1
     """Number of oscillations per period of the fastest component of the transmission error between kinks."""
     slow: bool = False
-    """True if each evaluation is slow; losses are then computed at few angles."""
+    """True if each evaluation is slow, so that losses are computed at few angles only."""
     dwell: Fraction = Fraction(0)
     """Fraction of the period during which the driven side is at rest; 1 if it moves in instantaneous steps."""
     at_once: bool = False
     """True if the driven side moves in instantaneous steps, so that the transmission error is discontinuous."""
     measured: bool = False
-    """True for wheels with measured teeth."""
+    """True if the function belongs to wheels with measured teeth."""
 
     @property
     def pitch(self) -> float:
@@ -207,15 +215,15 @@ class TransmissionFunction(Shown, ABC):
 
     @abstractmethod
     def speed_range(self) -> tuple[float, float]:
-        """Return the minimum and maximum speed ratio over a period."""
+        """Return the minimum and the maximum speed ratio over a period."""
 
     @abstractmethod
     def error_range(self) -> tuple[float, float]:
-        """Return the minimum and maximum transmission error over a period [rad of the driven side]."""
+        """Return the minimum and the maximum transmission error over a period [rad of the driven side]."""
 
     def error_moments(self) -> tuple[float, float]:
-        """Return the mean of the transmission error and its rms deviation from the mean [rad of the driven side], by
-        quadrature.
+        """Return the mean of the transmission error and its rms deviation from the mean [rad of the driven side],
+        computed by quadrature.
         """
         S, weights = self.graded_nodes(self.speed)
         error = self.error(S)
@@ -257,7 +265,9 @@ class TransmissionFunction(Shown, ABC):
 
     @cached_property
     def _efficiencies(self) -> tuple[Floats, Floats, Floats]:
-        """Weights of the quadrature nodes with contact, and efficiency and speed ratio at these nodes."""
+        """Weights of the quadrature nodes at which there is contact, and the efficiency and the speed ratio at these
+        nodes.
+        """
         import numpy as np
 
         S, weights = self.graded_nodes(lambda S: self.speed(S) / self.efficiency(S))
@@ -314,7 +324,9 @@ class TransmissionFunction(Shown, ABC):
 
     @property
     def locking_friction(self) -> float:
-        """Minimum coefficient of friction that locks the pair at some driver angle; infinite if it never locks."""
+        """Minimum coefficient of friction at which the pair locks at some driver angle; infinite if the pair never
+        locks.
+        """
         return inf
 
     @property
@@ -443,7 +455,7 @@ class TransmissionFunction(Shown, ABC):
 
 
 class ExactRatio(TransmissionFunction):
-    """Transmission function with a constant speed ratio and without loss.
+    """Transmission function with a constant speed ratio and without losses.
 
     Its transmission error is the constant `lag` [rad of the driven side], by default 0.
     """
@@ -452,31 +464,37 @@ class ExactRatio(TransmissionFunction):
         self.ratio, self.period, self.lag = ratio, period, lag
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the transmission error at driver angles S, which is constant [rad of the driven side]."""
+        """Return the transmission error at driver angles S [rad of the driven side]. The error is constant."""
         return self._constant(S, self.lag)
 
     def speed(self, S: ArrayLike) -> Floats:
-        """Return the speed ratio at driver angles S, which is constant."""
+        """Return the speed ratio at driver angles S. The ratio is constant."""
         return self._constant(S, float(self.ratio))
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """Return the friction terms of a single contact without sliding."""
+        """Return the sliding speed and the friction terms of a single contact that does not slide, which are 0."""
         return ContactRubbing(*(self._constant(S, 0.0)[None] for _ in range(3)))
 
     def speed_range(self) -> tuple[float, float]:
-        """Return the minimum and the maximum speed ratio, which are equal."""
+        """Return the minimum and the maximum speed ratio, which are equal because the ratio is constant."""
         return float(self.ratio), float(self.ratio)
 
     def error_range(self) -> tuple[float, float]:
-        """Return the minimum and the maximum transmission error, which are equal [rad of the driven side]."""
+        """Return the minimum and the maximum transmission error [rad of the driven side], which are equal because the
+        error is constant.
+        """
         return self.lag, self.lag
 
     def error_moments(self) -> tuple[float, float]:
-        """Return the mean of the transmission error [rad of the driven side] and its rms deviation, which is 0."""
+        """Return the mean of the transmission error [rad of the driven side] and its rms deviation from the mean, which
+        is 0.
+        """
         return self.lag, 0.0
 
     def steepest_fall(self) -> float:
-        """Return the maximum rate at which the speed ratio decreases [1/rad], which is 0."""
+        """Return the maximum rate at which the speed ratio decreases [1/rad]. It is 0, because the ratio
+        is constant.
+        """
         return 0.0
 
     @staticmethod
@@ -487,14 +505,14 @@ class ExactRatio(TransmissionFunction):
 
 
 class LosslessTransmission(TransmissionFunction):
-    """Transmission function without a model of friction: the only losses follow from a declared efficiency."""
+    """Transmission function without a friction model. Losses follow only from a declared efficiency."""
 
     def efficiency(self, S: ArrayLike) -> Floats:
-        """Return the efficiency at driver angles S, which is 1."""
+        """Return the efficiency at driver angles S. It is 1 at all angles."""
         import numpy as np
 
         return np.ones(np.shape(S))
 
     def efficiency_minimum(self) -> float:
-        """Return the minimum efficiency, which is 1."""
+        """Return the minimum efficiency. It is 1, because losses are not modelled."""
         return 1.0

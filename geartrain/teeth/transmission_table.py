@@ -1,9 +1,9 @@
 """Tables of periodic transmission functions: piecewise polynomials of low degree on uniform cells, divided at the
 kinks.
 
-A table is evaluated several times faster than the formula from which it was made. It interpolates the function at
-Chebyshev nodes strictly inside each cell, so that on either side of a kink it follows that side only. Tables do not
-depend on teeth or pins.
+A table is evaluated several times faster than the formula from which it was made. A table interpolates the function at
+Chebyshev nodes strictly inside each cell. The polynomial on each side of a kink is therefore fitted to that side only.
+Tables do not depend on teeth or pins.
 """
 
 from __future__ import annotations
@@ -32,10 +32,11 @@ _SAFETY = 2.0  # stated uncertainty divided by the maximum error found
 
 
 class CellTable:
-    """Table of a periodic function of the driver angle, on `cells` uniform cells that are divided at the kinks.
+    """Table of a periodic function of the driver angle. The period is divided into `cells` uniform cells, which are
+    subdivided at the kinks of the function.
 
-    `uncertainty` is the estimated maximum difference from the function, in its unit: twice the maximum difference found
-    at points between the nodes and near the ends of the cells.
+    `uncertainty` is the estimated maximum difference between table and function, in the unit of the function: twice the
+    maximum difference found at points between the nodes and near the ends of the cells.
     """
 
     def __init__(
@@ -61,8 +62,8 @@ class CellTable:
 
     @property
     def breaks(self) -> Floats:
-        """Boundaries of the cells in ascending order [rad]: multiples of the uniform cell width, and the kinks of the
-        function.
+        """Boundaries of the cells in ascending order [rad]. They are multiples of the uniform cell width, and the kinks
+        of the function.
         """
         uniform = np.arange(self.cells + 1) * (self.period / self.cells)
         return np.sort(np.concatenate((uniform, self.kinks)))
@@ -70,7 +71,7 @@ class CellTable:
     def derivative(self) -> CellTable:
         """Return the table of the derivative of the function with respect to the driver angle on the same cells.
 
-        Its `uncertainty` is not updated and remains the uncertainty of the function.
+        The `uncertainty` of the returned table is not updated: it is the uncertainty of this table.
         """
         found = copy(self)
         found.degree = self.degree - 1
@@ -78,7 +79,7 @@ class CellTable:
         return found
 
     def __call__(self, S: ArrayLike) -> Floats:
-        """Return the interpolated function at driver angles S [rad] of any shape."""
+        """Return the interpolated values of the function at driver angles S [rad] of any shape."""
         S = np.asarray(S, dtype=float)
         flat, found = S.ravel(), np.empty(S.size)
         with np.errstate(invalid="ignore"):
@@ -103,16 +104,18 @@ class CellTable:
 
 
 def folded_kinks(transmission: TransmissionFunction) -> Floats:
-    """Return the distinct kinks of a function modulo its period in ascending order [rad]."""
+    """Return the distinct kinks of a transmission function modulo its period, in ascending order [rad]."""
     return np.unique(np.mod(np.asarray(transmission.kinks(), dtype=float), transmission.period))
 
 
 def fit(
     function: Callable[[Floats], Floats], period: float, kinks: Floats, tolerance: float, degree: int = DEGREE
 ) -> CellTable:
-    """Return the table with the fewest cells, doubled from 32, whose uncertainty is at most `tolerance`.
+    """Return a table of a function with an uncertainty of at most `tolerance`. The number of cells is doubled, starting
+    from 32, until this accuracy is reached.
 
-    If rounding error or the maximum number of cells prevents that, return the last table that halved the uncertainty.
+    If rounding errors or the maximum number of cells prevent this accuracy, return the last table that halved the
+    uncertainty.
     """
     best = table = CellTable(function, period, kinks, _FEWEST, degree)
     while best.uncertainty > tolerance and table.cells < min(_MOST, _PATIENCE * best.cells):

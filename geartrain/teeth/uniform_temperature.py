@@ -1,4 +1,6 @@
-"""Teeth of uniform temperature: frictional heat per profile area is uniform and removed locally by the lubricant."""
+"""Teeth of uniform temperature: the frictional heat per area of the profile is uniform, and the lubricant removes it
+locally.
+"""
 
 from __future__ import annotations
 
@@ -91,8 +93,8 @@ class UniformTemperature(ConjugateToothForm):
         return self._standard(PathOfContact(pitch, approach, recess), wheels)
 
     def _sides(self, pitch: PitchSurfaces, gamma: float) -> tuple[PathSide, PathSide]:
-        """Return approach and recess side for a given gamma, the sum A + B of the pitch-surface curvatures divided by
-        the heat.
+        """Return the approach side and the recess side for a given gamma, which is the sum A + B of the pitch-surface
+        curvatures divided by the heat.
         """
         from geartrain.teeth.conjugate.optimal_sides import bounded_heat, involute, uniform_heat
 
@@ -116,7 +118,7 @@ class UniformTemperature(ConjugateToothForm):
         return found[0], found[1]
 
     def _sides_of_depth(self, pitch: PitchSurfaces) -> tuple[PathSide, PathSide]:
-        """Return approach and recess side with the requested working depth, which determines the heat."""
+        """Return the approach side and the recess side with the requested working depth, which determines the heat."""
         from geartrain.teeth.conjugate.optimal_sides import involute
         from geartrain.teeth.conjugate.path_losses import depth, to_depth
         from geartrain.teeth.conjugate.path_of_contact import PathOfContact

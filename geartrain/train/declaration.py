@@ -302,8 +302,8 @@ class Train(Declared):
 
     @cached_property
     def tour_parts(self) -> Mapping[str, str]:
-        """Kind of each part that a tour can show, by name: output, link, wheel, dial or coupling. If several parts have
-        the same name, the kind that occurs first in this list is used.
+        """Kind of each part that a tour can show (output, link, wheel, dial or coupling), keyed by the name of the
+        part. If several parts have the same name, the first kind in this order is used.
         """
         outputs = chain(self.outputs, *(state.outputs for state in self.states.values()))
         couplings = (coupling.id for coupling in self.couplings)

@@ -369,7 +369,7 @@ MaterialDensity = Annotated[Density, above_zero("give a density such as 8.7 g/cm
 
 
 class Wheel(Declared):
-    """Gear wheel of a link. In a declaration, a single number instead of a mapping is its tooth count.
+    """Gear wheel of a link. In a declaration, a single number may replace the mapping; it is the tooth count.
 
     Examples
     --------
@@ -462,7 +462,7 @@ class Wheel(Declared):
 
     @property
     def is_helical(self) -> bool:
-        """True for a spur wheel or a ring with helical teeth; False for worms."""
+        """True for an external or internal cylindrical gear with helical teeth; False for worms."""
         return self.kind == "spur" and self.helix_angle is not None and self.helix_angle.value > 0
 
     @property

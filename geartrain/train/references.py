@@ -99,7 +99,7 @@ def target_units(train: Train, target: Target, loc: Loc) -> Iterator[Problem]:
         # speeds of the table are in turns per year
         if row.kind == "speed" and not (train.unit and train.unit.per.startswith("year")):
             yield Problem(
-                f"'{target.name}' is a speed per year",
+                f"'{target.name}' is a speed in turns per year",
                 "the train's unit is not a year",
                 "add `unit: {per: year_tropical_J2000}`, or give a period",
                 place,

@@ -523,7 +523,7 @@ class SteppedLink(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class StateCase(Shown):
-    """Prescriptions of a train in one state, including values inherited from the train.
+    """Prescribed speeds, loads and locks of a train in one state, including values inherited from the train.
 
     Examples
     --------

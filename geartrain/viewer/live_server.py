@@ -1,7 +1,8 @@
-"""Local web server for the page of a train that is being edited; the page is rebuilt when a file of the train is saved.
+"""Local web server for the page of a train that is being edited. The page is rebuilt when a file of the train is saved.
 
-One page shows the report and the animated train side by side. It keeps a connection to the server. When a new version
-is announced, report and view are reloaded, and camera, crank and selected state are restored.
+One page shows the report and the animated train side by side, and stays connected to the server. When the server
+announces a new version, the report and the view are reloaded, and the camera position, the crank angle and the selected
+state are restored.
 """
 
 from __future__ import annotations
@@ -26,19 +27,20 @@ _LOCAL = "127.0.0.1"
 
 @dataclass(frozen=True, slots=True)
 class LivePages:
-    """Report and animated view of a train, each as a complete HTML document."""
+    """Report and animated view of a train, as two complete HTML documents."""
 
     report: str
     view: str
 
 
 class LiveServer:
-    """Web server for the pages of a train, reachable only from this computer, that runs until it is interrupted.
+    """Web server for the pages of a train, which is reachable only from this computer and runs until it is interrupted.
 
-    It raises `MissingExtraError` if tornado or watchdog is missing, and `QuestionError` if the port cannot be used.
+    Raises `MissingExtraError` if tornado or watchdog is missing, and `QuestionError` if the port cannot be used.
 
-    make      function that builds the pages; a `GearTrainError` is shown above the last pages
-    watched   function that returns the files to watch; it is called after each change
+    make      function that builds the pages; if it raises `GearTrainError`, the message is shown above the previous
+    pages
+    watched   function that returns the files to be watched for changes; it is called after each change
     port      port number, 0 for any free port
     """
 
@@ -61,7 +63,7 @@ class LiveServer:
 
     @property
     def address(self) -> str:
-        """URL of the outer page."""
+        """URL of the outer page, which contains the report and the view."""
         return f"http://{_LOCAL}:{self._sockets[0].getsockname()[1]}/"
 
     def refresh(self) -> None:
@@ -76,7 +78,9 @@ class LiveServer:
         self.version += 1
 
     def run(self, report: Callable[[str], object]) -> None:
-        """Serve the pages until Ctrl+C; `report` is called after each change with the error message, or ""."""
+        """Serve the pages until Ctrl+C is pressed. `report` is called after each change with the error message, or ""
+        if there is no error.
+        """
         with suppress(KeyboardInterrupt):
             asyncio.run(self._serve(report))
 
@@ -159,8 +163,8 @@ class LiveServer:
         return application
 
     def _policy(self, shell: str) -> str:
-        """Return the content security policy of the outer page, which permits its own script, frames of this server,
-        and its web socket.
+        """Return the content security policy of the outer page. It permits the page's own script, frames from this
+        server, and its web socket.
         """
         script = shell.partition("<script>")[2].partition("</script>")[0]
         port = self._sockets[0].getsockname()[1]

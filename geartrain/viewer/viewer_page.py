@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
 
 Shown = Literal["page", "embed", "kiosk"]
-"""Layout of the page: the whole page, a frame inside another page, or an exhibition screen."""
+"""Layout of the page: a whole page, a frame inside another page, or an exhibition screen."""
 
 _AS_NUMBERS = {ord(letter): f"&#{ord(letter)};" for letter in "\n\t$\\`"}
 
@@ -29,7 +29,7 @@ _AS_NUMBERS = {ord(letter): f"&#{ord(letter)};" for letter in "\n\t$\\`"}
 def page(
     scenes: Sequence[Scene], compare: bool = False, title: str | None = None, teeth: bool = True, shown: Shown = "page"
 ) -> str:
-    """Build a self-contained HTML page with animated trains. The page works as a local file and makes no network
+    """Return a self-contained HTML page with animated trains. The page works as a local file and makes no network
     requests.
 
     Parameters
@@ -84,14 +84,14 @@ def page(
 
 
 def train_page(train: GearTrain, state: str | None = None) -> str:
-    """Build the HTML page of one train in one state, or with a choice of all states."""
+    """Return the HTML page of one train in the given state. If the state is None, the user can select any state."""
     states = (state,) if state is not None else train.states or (None,)
     return page([build_scene(train, each, formulas=True) for each in states])
 
 
 @dataclass(frozen=True)
 class EmbeddedPage:
-    """Animated page of a train that a notebook displays inside a frame."""
+    """Animated page of a train, which a notebook displays inside a frame."""
 
     train: GearTrain
     """Train that the page shows."""
@@ -114,14 +114,16 @@ def frame_of(address: str, title: str, height: int = 480) -> str:
 
 
 def _compressed(data: object) -> str:
-    """Return the JSON string of data, compressed by zlib and encoded in base64: a third of its length."""
+    """Return data as JSON text that is compressed with zlib and encoded in base64, which takes about a third of the
+    length.
+    """
     # NaN is not valid JSON
     text = json.dumps(data, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
     return b64encode(zlib.compress(text.encode(), 9)).decode()
 
 
 def _words(scene: Scene) -> str:
-    """Return the HTML for browsers that run no scripts: title, state and verdict of a scene."""
+    """Return the HTML that is shown in browsers that do not run scripts: title, state and verdict of a scene."""
     state = f" ({scene.state})" if scene.state else ""
     verdict = scene.verdict.get("text", "")
     return f"<h1>{escape(scene.title or scene.name)}{escape(state)}</h1>\n<p>{escape(str(verdict))}</p>"

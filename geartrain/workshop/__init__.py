@@ -4,8 +4,8 @@ export        outlines, plates, solids, graphs and tables of a train as files; p
 rexs          gear units in the exchange format REXS, written and read
 cutting       wheels with cutting errors: jams, clashes, loss of contact, and their transmission functions
 monte_carlo   Monte Carlo trials of cutting errors and of friction: probabilities with intervals, Sobol indices
-feasibility   probability that a train turns, jams, is too stiff or breaks, over declared spreads
-budget        error budget of each pointer: ratio, pins, teeth, lost motion, cutting (`find_budget`)
+feasibility   probability that a train turns, jams, is too stiff or breaks, over declared tolerances
+budget        error budget of each pointer: causes ratio, pins, teeth, lost motion and cutting (`find_budget`)
 sizes         radii, clearance factor and half angle of triangular teeth, optimised for one objective
 answers       result types that commands print as JSON
 """

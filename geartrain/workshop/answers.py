@@ -6,7 +6,7 @@ from typing import Any
 
 
 def answers() -> dict[str, Any]:
-    """Return the result type of each workshop command that prints JSON, by name of the command."""
+    """Return a mapping from the name of each workshop command that prints JSON to its result type."""
     from geartrain.workshop.budget.pointer_budget import TrainBudget
     from geartrain.workshop.cutting.wheel_estimate import WheelEstimate
     from geartrain.workshop.feasibility.feasibility_trials import FeasibilityResult

@@ -252,7 +252,7 @@ def test_links_that_a_pin_in_a_slot_joins_are_lost_together() -> None:
         ("norton-compound", ["F"], "the arbor has a ring"),
         ("freeth-2008-doubt", ["c"], "the link leads to no pointer of known speed"),
         ("freeth-2008", ["k1", "k2"], "'k1' is lost twice"),
-        ("freeth-2008", ["c", "k1"], "'c' and 'k1' cannot both be lost"),
+        ("freeth-2008", ["c", "k1"], "'c' and 'k1' belong to different parts"),
     ],
 )
 def test_what_cannot_be_lost_is_told_with_the_reason(name: str, lost: list[str], why: str) -> None:

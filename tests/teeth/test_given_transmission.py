@@ -394,8 +394,14 @@ def test_a_simulation_in_time_follows_the_runout() -> None:
 
 POINT = ["0", "0 deg"]
 REFUSED: list[tuple[dict[str, Any], str]] = [
-    ({"error": {"points": [POINT, ["1/2", "0.1 deg"], ["1/4", "0 deg"]]}}, "not above that of the point before it"),
-    ({"error": {"points": [POINT, ["1/2", "0.1 deg"], ["1/2", "0 deg"]]}}, "not above that of the point before it"),
+    (
+        {"error": {"points": [POINT, ["1/2", "0.1 deg"], ["1/4", "0 deg"]]}},
+        "not greater than that of the previous point",
+    ),
+    (
+        {"error": {"points": [POINT, ["1/2", "0.1 deg"], ["1/2", "0 deg"]]}},
+        "not greater than that of the previous point",
+    ),
     ({"error": {"points": [POINT, ["1/2", "0.1 deg"], ["3/2", "0 deg"]]}}, "outside the period"),
     ({"error": {"points": [POINT, ["1/2", "0.1 deg"], ["-18 deg", "0 deg"]]}}, "outside the period"),
     ({"error": {"points": [POINT, ["1/2", "0.1 deg"]]}}, "not enough points"),

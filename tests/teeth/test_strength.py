@@ -55,7 +55,13 @@ def pressures(pair: PairStrength) -> dict[str, float]:
 
 @pytest.mark.parametrize(
     ("first", "second", "printed"),
-    [(STEEL, STEEL, 189.81), (STEEL, BRASS, 155.33), (BRASS, BRASS, 134.67), (BRASS, STEEL, 155.33), (ACRYLIC, ACRYLIC, 24.09)],
+    [
+        (STEEL, STEEL, 189.81),
+        (STEEL, BRASS, 155.33),
+        (BRASS, BRASS, 134.67),
+        (BRASS, STEEL, 155.33),
+        (ACRYLIC, ACRYLIC, 24.09),
+    ],
 )
 def test_factors_of_elasticity_are_those_printed(
     first: tuple[float, float], second: tuple[float, float], printed: float

@@ -1,9 +1,9 @@
 """Composition of tooth and pin errors: the error of every pair propagates to the links and to the driver angles of
 other pairs.
 
-`ErrorComposition` evaluates equations (2) to (4) of docs/motion.md. Each error depends on the angle of the pair's
-driver, which includes the errors of other pairs. In the order of solution these pairs precede it, so that a single pass
-composes the transmission functions exactly. Errors of coupled pairs are solved simultaneously (5).
+`ErrorComposition` evaluates equations (2) to (4) of docs/motion.md. The error of a pair depends on the angle of its
+driver, which includes the errors of other pairs. In the order of solution, these other pairs come first, so that a
+single pass composes the transmission functions exactly. Errors of coupled pairs are solved simultaneously (5).
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ PLAIN = 1  # periods up to which a plain product gives the phase of the driver t
 
 @dataclass(frozen=True)
 class PairErrorSource:
-    """Pair with a variable transmission error, which causes errors of the links."""
+    """Gear pair or coupling with a variable transmission error, which causes errors of the link angles."""
 
     id: str
     transmission: TransmissionFunction
@@ -44,9 +44,9 @@ class PairErrorSource:
     pair: int
     """Index of the pair in `ErrorPropagation.pairs`."""
     driver_sense: int
-    """-1 if the driver's axis points against the reference direction of its parallel axes, else 1.
+    """-1 if the driver's axis points against the reference direction of its parallel axes, 1 if it does not.
 
-    `carrier_sense` is the same sign for the carrier.
+    `carrier_sense` is the corresponding sign for the axis of the carrier.
     """
     carrier_sense: int
     cycles: Fraction
@@ -56,15 +56,17 @@ class PairErrorSource:
     forward: int
     """Sign of the driver's mean speed about its axis, 1 or -1."""
     sense: int
-    """Sense of the driven side's mean motion relative to the carrier, 1 or -1."""
+    """Sense of the driven link's mean motion relative to the carrier, 1 or -1."""
     set_back: float = 0.0
-    """Angle of the driver at position 0 that is due to the errors of other pairs [rad]; the driver's teeth are counted
-    from this angle.
+    """Angle of the driver at position 0 that is due to the errors of other pairs [rad]. The positions of the driver's
+    teeth are measured from this angle.
     """
 
     @property
     def start(self) -> float:
-        """Angle of the driver at position 0 of the input, in its mean sense, without the errors of links [rad]."""
+        """Angle of the driver at position 0 of the input, in its mean sense of rotation, without the errors of links
+        [rad].
+        """
         return self.phase - self.set_back
 
     @property
@@ -79,7 +81,9 @@ class PairErrorSource:
 
 
 def common_period(sources: Sequence[PairErrorSource]) -> Fraction | None:
-    """Return the revolutions of the input after which all sources repeat their positions; None if no driver turns."""
+    """Return the number of revolutions of the input after which all sources repeat their positions; None if no driver
+    turns.
+    """
     cycles = [source.cycles for source in sources if source.cycles]
     if not cycles:
         return None
@@ -88,18 +92,18 @@ def common_period(sources: Sequence[PairErrorSource]) -> Fraction | None:
 
 
 class CompositionStep(NamedTuple):
-    """Step in the order of solution: indices of the error sources that are solved together. Their drivers depend on
-    earlier sources and on each other.
+    """Step in the order of solution. It contains the indices of the error sources that are solved together, because
+    their drivers depend on earlier sources and on each other.
     """
 
     sources: tuple[int, ...]
     known: tuple[int, ...]
-    """Indices of the earlier sources on which the drivers depend; `from_known` contains their coefficients, shape
-    (sources, known).
+    """Indices of the earlier sources on which the drivers of this step depend; `from_known` contains the coefficients,
+    shape (sources, known).
     """
     from_known: Floats
     own: Floats
-    """Change of each driver's angle per unit error of each source of the step, shape (sources, sources)."""
+    """Change of each driver's angle per unit error of each source of the step [rad/rad], shape (sources, sources)."""
 
     @property
     def coupled(self) -> bool:
@@ -108,9 +112,9 @@ class CompositionStep(NamedTuple):
 
 
 class SeenLink(NamedTuple):
-    """Link whose motion is measured relative to a reference link, both given by index. `sense` is -1 if the axes of the
-    two links are opposite, else 1. `scale` is 1 for angles [rad]. For a sliding link it is 1/(2 pi), because the
-    equations represent a travel of 1 mm by an angle of 2 pi.
+    """Link whose motion is measured relative to a reference link; both are given by index. `sense` is -1 if the axes of
+    the two links have opposite directions, and 1 if not. `scale` is 1 for angles [rad]. For a sliding link it is 1/(2
+    pi), because the equations represent a travel of 1 mm by an angle of 2 pi.
     """
 
     of: int
@@ -119,7 +123,9 @@ class SeenLink(NamedTuple):
     scale: float = 1.0
 
     def difference(self, values: Floats) -> float:
-        """Return the value of the link minus the value of its reference; values are about the links' own axes."""
+        """Return the value of the link minus the value of its reference link. Each value refers to the axis of its own
+        link.
+        """
         return float(self.scale * (values[self.of] - self.sense * values[self.base]))
 
 
@@ -158,15 +164,15 @@ class ErrorSampler(Protocol):
 
     @property
     def chunk(self) -> int:
-        """Maximum number of positions that are evaluated in one call."""
+        """Maximum number of positions that can be evaluated in one call."""
 
     def at(self, turns: Floats) -> ErrorSamples:
         """Return errors [rad] and rates [1] of the outputs at positions of the input [revolutions]."""
 
 
 def evaluate(sampler: ErrorSampler, turns: Floats) -> ErrorSamples:
-    """Return the errors [rad] and rates [1] of the outputs at any number of input positions [revolutions], computed in
-    chunks.
+    """Return the errors [rad] and rates [1] of the outputs at any number of input positions [revolutions]. They are
+    computed in chunks.
     """
     parts = [sampler.at(turns[start : start + sampler.chunk]) for start in range(0, len(turns), sampler.chunk)]
     error, rate = (np.concatenate([part[column] for part in parts], axis=1) for column in (1, 2))
@@ -175,18 +181,20 @@ def evaluate(sampler: ErrorSampler, turns: Floats) -> ErrorSamples:
 
 @dataclass(frozen=True)
 class ErrorDifference:
-    """Difference of the output errors of two composed motions with the same outputs, at the same input positions."""
+    """Difference of the output errors of two composed motions with the same outputs, at equal input positions."""
 
     one: ErrorSampler
     other: ErrorSampler
 
     @property
     def chunk(self) -> int:
-        """Maximum number of positions that are evaluated in one call."""
+        """Maximum number of positions that can be evaluated in one call."""
         return min(self.one.chunk, self.other.chunk)
 
     def at(self, turns: Floats) -> ErrorSamples:
-        """Return the differences of the errors at input positions `turns` [revolutions], at most `chunk` of them."""
+        """Return the differences of the errors and rates at no more than `chunk` input positions `turns`
+        [revolutions].
+        """
         one, other = self.one.at(turns), self.other.at(turns)
         both = one.reversing_drivers | other.reversing_drivers
         return ErrorSamples(turns, one.error - other.error, one.rate - other.rate, both)
@@ -194,7 +202,9 @@ class ErrorDifference:
 
 @dataclass
 class ErrorComposition:
-    """Composition of the error sources of a train; it computes the errors of the requested outputs at any position."""
+    """Composition of the error sources of a train, which computes the errors of the requested outputs at any input
+    position.
+    """
 
     spread: ErrorPropagation
     sources: tuple[PairErrorSource, ...]
@@ -245,19 +255,23 @@ class ErrorComposition:
         return tuple(self.sources[at] for step in self.steps for at in step.sources)
 
     def driver_shift(self, source: PairErrorSource, error: Floats) -> float:
-        """Return the change of a driver's angle in its mean sense [rad] due to `error`, the errors of links [rad]."""
+        """Return the change of a source's driver angle in its mean sense of rotation [rad] that is caused by the errors
+        of links in `error` [rad].
+        """
         return float(sum(sign * error[link] for link, sign in self.turned_by(source)))
 
     def driver_angle(self, source: PairErrorSource, phase: InputPhase, error: Mapping[int, Floats]) -> Floats:
-        """Return a driver's angle in its mean sense [rad]; `error` is the error of each link, by index [rad]."""
+        """Return the angle of a source's driver in its mean sense of rotation [rad]; `error` contains the error of each
+        link [rad], by index.
+        """
         S = phase.cycles(source.cycles) * source.transmission.period + source.start
         for link, sign in self.turned_by(source):
             S += sign * error[link]
         return S
 
     def turned_by(self, source: PairErrorSource) -> tuple[tuple[int, int], tuple[int, int]]:
-        """Return the indices of a source's driver and of its carrier, whose errors change the driver angle, each with
-        its sign in equation (3).
+        """Return the indices of a source's driver and of its carrier, whose errors change the driver angle. Each index
+        is followed by its sign in equation (3).
         """
         joint = self.spread.joints[source.pair]
         return (
@@ -266,13 +280,13 @@ class ErrorComposition:
         )
 
     def seen_driver(self, source: PairErrorSource) -> SeenLink:
-        """Return the motion of a source's driver relative to its carrier, in the form of an output."""
+        """Return a source's driver and its carrier as a link and its reference link, in the same form as an output."""
         joint = self.spread.joints[source.pair]
         return SeenLink(joint.driver, joint.carrier, source.driver_sense * source.carrier_sense)
 
     @cached_property
     def chunk(self) -> int:
-        """Maximum number of positions that are evaluated in one call; it limits the memory for long trains."""
+        """Maximum number of positions that can be evaluated in one call, which limits the memory for long trains."""
         # stored numbers: errors and rates of the sources with copies, and a Jacobian of coupled pairs at each position
         widest = max((len(step.sources) ** 2 for step in self.steps if step.coupled), default=0)
         return max(64, min(_CHUNK, _NUMBERS // (4 * (len(self.sources) + widest) + 1)))
@@ -295,8 +309,8 @@ class ErrorComposition:
         return ErrorSamples(turns, found[0], found[1], reversing_drivers)
 
     def _take(self, step: CompositionStep, phase: InputPhase, error: Floats, rate: Floats) -> Iterator[str]:
-        """Compute the errors and rates of the driven sides of one solution step in place. Yield the names of pairs
-        whose driver turns against its mean motion.
+        """Compute the errors and rates of the driven links for one step of the solution, in place. Yield the names of
+        pairs whose driver turns against its mean sense of rotation.
         """
         own, known = list(step.sources), list(step.known)
         sources = [self.sources[at] for at in own]
@@ -327,7 +341,7 @@ class ErrorComposition:
 
 
 class InputPhase:
-    """Positions of the input, from which the phases of transmission functions are computed."""
+    """Positions of the input, from which the arguments of transmission functions are computed."""
 
     def __init__(self, turns: Floats) -> None:
         self.turns = turns
@@ -338,8 +352,8 @@ class InputPhase:
         return split(self.turns)
 
     def cycles(self, ratio: Fraction) -> Floats:
-        """Return the positions times an exact number of periods per revolution [periods]; the result is taken modulo 1
-        if it may exceed `PLAIN` periods.
+        """Return the positions multiplied by `ratio`, an exact number of periods per revolution [periods]. The result
+        is taken modulo 1 if it may exceed `PLAIN` periods.
 
         Dekker's product keeps the rounding error at the level of one period, even after 1e12 revolutions.
         """

@@ -1,4 +1,4 @@
-"""Propagation of the errors of pairs to links: equation (2) of docs/motion.md, solved exactly (its section 2).
+"""Propagation of the errors of pairs to links: exact solution of equation (2) of docs/motion.md (section 2).
 
 For a pair of links i and j on carrier k, a (e_i - e_k) + b (e_j - e_k) = c delta, where e is the error of a link's
 angle, delta the error of the pair's driven side, and c its coefficient a or b. This is the Willis system without the
@@ -7,8 +7,8 @@ mean speeds. One elimination gives the error of every link as a sum over the err
 Coupled pairs, as around a differential, are solved simultaneously by Newton's method with step halving, equation (5) of
 docs/motion.md, for delta_m = sense_m error_m(S_m + gain_m delta), at all positions at once. Here S_m is the driver
 angle of pair m without these errors. Transmission functions have kinks, so a step that does not reduce the residual is
-halved. If that fails, a single pair is solved by bisection, because Newton's method cannot leave a dwell, in which the
-driven wheel is at rest while its driver turns.
+halved. If step halving fails, a single pair is solved by bisection, because Newton's method cannot leave a dwell, in
+which the driven wheel is at rest while its driver turns.
 """
 
 from __future__ import annotations
@@ -46,19 +46,19 @@ _DEAD_CENTRE = "the motion is past a dead centre: an error turns its own driver 
 
 @dataclass(frozen=True)
 class CoupledErrors:
-    """Coupled pairs: names, transmission functions, senses of the driven sides, and the matrix `gain`."""
+    """Coupled pairs: their names, transmission functions, senses of the driven links, and the matrix `gain`."""
 
     names: tuple[str, ...]
     transmissions: tuple[TransmissionFunction, ...]
     senses: Floats
     gain: Floats
-    """Change of the angle of driver m in its mean sense per unit error of the driven side of pair n [rad/rad], shape
-    (pairs, pairs).
+    """Change of the angle of driver m in its mean sense of rotation per unit error of the driven link of pair n
+    [rad/rad], shape (pairs, pairs).
     """
 
     def transmissions_at(self, S: Floats, columns: Ints) -> tuple[Floats, Floats]:
-        """Return the signed errors of the driven sides [rad] and their derivatives with respect to the driver angles
-        [1], shape (pairs, n) each.
+        """Return the signed errors of the driven links [rad] and their derivatives with respect to the driver angles
+        [1], each of shape (pairs, n), for driver angles S [rad].
         """
         error, slope = np.empty_like(S), np.empty_like(S)
         for at, transmission in enumerate(self.transmissions):
@@ -74,13 +74,13 @@ class CoupledErrors:
 
 
 def solve_coupled_errors(pairs: CoupledErrors, base: Floats, turning: Floats) -> tuple[Floats, Floats, Floats]:
-    """Return the errors [rad], rates [1] and driver speeds [1] of coupled pairs, given the driver angles and speeds
-    without these errors.
+    """Return the errors [rad], rates [1] and driver speeds [1] of coupled pairs, each of shape (pairs, n), given the
+    driver angles and speeds without these errors.
 
     base      driver angles [rad], shape (pairs, n)
     turning   driver speeds divided by the speed of the input [1], shape (pairs, n)
 
-    Raises `GearTrainError` if the solution is not unique, because the train would jump or lock.
+    Raises `GearTrainError` if the solution is not unique, because the train would then jump or lock.
     """
     delta, slope = _newton(pairs, base)
     jacobian = pairs.jacobian(slope)
@@ -93,7 +93,9 @@ def solve_coupled_errors(pairs: CoupledErrors, base: Floats, turning: Floats) ->
 
 @np.errstate(invalid="ignore")  # inf - inf where nothing touches
 def _newton(pairs: CoupledErrors, base: Floats) -> tuple[Floats, Floats]:
-    """Return the errors [rad], found by Newton's method, and the slopes of the transmission functions [1]."""
+    """Return the errors of coupled pairs [rad], found by Newton's method, and the slopes of their transmission
+    functions [1].
+    """
     tolerance = _CONVERGED * (1 + np.max(np.abs(base), initial=0.0) + np.abs(pairs.gain).sum(axis=1).max())
     active = np.arange(base.shape[1])
     delta, slopes = pairs.transmissions_at(base, active)
@@ -148,7 +150,7 @@ def _bisected(pairs: CoupledErrors, base: Floats, columns: Ints) -> tuple[Floats
 
 
 def _stepped(matrices: Floats, right: Floats) -> Floats:
-    """Return the Newton step, or 0 at dead centres, at which the Jacobian is singular."""
+    """Return the Newton step, or 0 at dead centres, where the Jacobian is singular."""
     dead = _determinants(matrices) == 0
     if not dead.any():
         return _solve_coupled(matrices, right)
@@ -159,7 +161,7 @@ def _stepped(matrices: Floats, right: Floats) -> Floats:
 
 
 def _solve_coupled(matrices: Floats, right: Floats) -> Floats:
-    """Return the solutions of n small systems of linear equations, shape (pairs, n)."""
+    """Return the solutions of n small systems of linear equations, as an array of shape (pairs, n)."""
     if len(right) == 1:  # the usual case; LAPACK would take half of the time of the motion
         return np.asarray(right / matrices[:, 0, 0])
     return np.ascontiguousarray(np.linalg.solve(matrices, right.T[:, :, None])[:, :, 0].T)
@@ -183,17 +185,19 @@ def _refusal(pairs: Sequence[str], why: str) -> GearTrainError:
 
 
 class ErrorPath(NamedTuple):
-    """Links of a pair or coupling through which its errors propagate, and the coefficient of the driven side in its
+    """Links of a pair or coupling through which its error propagates, and the coefficient of the driven link in its
     equation.
     """
 
     driver: int
     driven: int
     carrier: int
-    """Index of the link whose angle is subtracted from the driver's angle: usually the carrier of both sides."""
+    """Index of the link whose angle is subtracted from the driver's angle, which is usually the carrier of both
+    links.
+    """
     coefficient: int
     driven_carrier: int
-    """Index of the link whose angle is subtracted from the angle of the driven side."""
+    """Index of the link whose angle is subtracted from the angle of the driven link."""
 
 
 @dataclass(frozen=True)
@@ -203,17 +207,19 @@ class ErrorPropagation:
     links: tuple[str, ...]
     pairs: tuple[str, ...]
     joints: Mapping[int, ErrorPath]
-    """Links of each pair, by index of the pair; they are determined on first access."""
+    """Links through which the error of each pair propagates, by index of the pair. They are determined on first
+    access.
+    """
     forms: Sequence[Mapping[int, Fraction]]
     """Error of each link per unit of the right-hand side c delta of each pair's equation (2), by index of the pair."""
     reached: frozenset[int]
-    """Pairs whose error affects the requested links, directly or through the driver angle of another pair. The errors
-    of all other pairs are taken as 0.
+    """Indices of the pairs whose error affects the requested links, directly or through the driver angle of another
+    pair. The errors of all other pairs are taken as 0.
     """
 
     @cached_property
     def response(self) -> Floats:
-        """Change of each link's angle per unit error of each pair's driven side [rad/rad], shape (links, pairs)."""
+        """Change of each link's angle per unit error of each pair's driven link [rad/rad], shape (links, pairs)."""
         found = np.zeros((len(self.links), len(self.pairs)))
         for link, form in enumerate(self.forms):
             for pair in self.reached.intersection(form):
@@ -222,14 +228,16 @@ class ErrorPropagation:
         return found
 
     def errors(self, deltas: Floats) -> Floats:
-        """Return errors of all links [rad], shape (links, n), for given errors of all pairs [rad], shape (pairs, n)."""
+        """Return the errors of all links [rad], shape (links, n), for given errors of all pairs `deltas` [rad], shape
+        (pairs, n).
+        """
         with np.errstate(invalid="ignore"):  # an infinite response times 0, which `sensitivity` refuses
             return np.asarray(self.response @ deltas)
 
     def sensitivity(self, link: int, base: int, sense: int = 1) -> Floats:
         """Return the sensitivity of a link's angle, relative to link `base`, to the error of each pair [rad/rad].
 
-        sense   -1 if the axes of the two links are opposite
+        sense   -1 if the axes of the two links have opposite directions, 1 if not
 
         Raises `RangeError` if a sensitivity exceeds the range of float64.
         """
@@ -248,7 +256,7 @@ def find_error_propagation(
     """Return the propagation of errors to the requested links of a square Willis system; None if its equations do not
     determine these errors.
 
-    ends     row label of each pair -> indices of both sides and the carrier; other rows (inputs, locks) have no error
+    ends     indices of both links and the carrier of each pair, by row label; other rows (inputs, locks) have no error
     path     function that returns the `ErrorPath` for a row label; it is called on demand
     wanted   indices of the requested links
     """

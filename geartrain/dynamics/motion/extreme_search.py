@@ -1,9 +1,9 @@
-"""Extreme errors and rates of outputs over a run of the input, both at kinks and at smooth maxima.
+"""Extreme errors and rates of outputs over a run of the input. Extremes at kinks and smooth extremes are both found.
 
 The kinks of all transmission functions divide the run into pieces on which errors and rates are smooth. Each piece is
 evaluated in the middle and at its ends, where one-sided limits are taken because rates jump at kinks. A maximum between
-these positions is located only if it may exceed all of them. The result does not depend on the sampled positions of a
-run.
+these positions is located only if it may exceed all of them. The result does not depend on the positions at which a run
+is sampled.
 """
 
 from __future__ import annotations
@@ -34,8 +34,8 @@ _ROUNDS = 6  # rounds of subdivision: each narrows the interval by 4
 
 
 class _Candidates(NamedTuple):
-    """Pieces of the run in which an error or rate may exceed its maximum so far: index of the quantity, estimated
-    maximum, and both ends of each piece.
+    """Pieces of the run in which an error or rate may exceed the maximum found so far. Each has the index of the
+    quantity, its estimated maximum, and both ends of the piece.
     """
 
     sought: Indices
@@ -48,8 +48,8 @@ class _Candidates(NamedTuple):
         return _Candidates(self.sought[which], self.promise[which], self.low[which], self.high[which])
 
     def exceeding(self, maxima: Floats) -> _Candidates:
-        """Return the candidates whose estimated maximum exceeds the maximum found so far. Further pieces with an equal
-        maximum are omitted.
+        """Return the candidates whose estimated maximum exceeds the maximum found so far. Candidates that repeat an
+        equal maximum are omitted.
         """
         return self.chosen(self.promise > (maxima + _tolerance(maxima))[self.sought])
 
@@ -57,8 +57,8 @@ class _Candidates(NamedTuple):
 def count_extremes(
     compositions: Sequence[ErrorComposition], sampler: ErrorSampler, turns: float, tallies: Sequence[RunningStatistics]
 ) -> frozenset[str]:
-    """Include the extremes over a run from position 0 to `turns` [revolutions] in the statistics of its outputs. Return
-    the names of the pairs whose driver turns against its mean motion at some position.
+    """Include the extremes over a run from position 0 to `turns` [revolutions] in `tallies`, the statistics of the
+    outputs. Return the names of the pairs whose driver turns against its mean sense of rotation at some position.
 
     compositions   compositions whose kinks divide the run
     sampler        errors to be searched: one of the compositions, or the difference of two
@@ -100,7 +100,7 @@ def count_extremes(
 
 
 def pieces(searches: Sequence[KinkSearch], low: float, high: float, size: int) -> Iterator[tuple[Floats, Floats]]:
-    """Yield the ends of smooth pieces of the run [revolutions], moved slightly inwards, for `size` pieces at once."""
+    """Yield the ends of smooth pieces of the run [revolutions], moved slightly inwards, `size` pieces at a time."""
     narrowest = min(searches, key=lambda each: each.step)
     for steps in narrowest.steps(low, high):
         kinks = [search.between(steps).turns for search in searches]
@@ -122,8 +122,8 @@ def _signed(found: ErrorSamples) -> Floats:
 
 
 def _promise(first: Floats, middle: Floats, last: Floats) -> Floats:
-    """Return an estimate of each piece's maximum from its values at both ends and in the middle. Smooth functions
-    rarely exceed the estimate.
+    """Return an estimate of the maximum in each piece from the values at both ends and in the middle. Smooth functions
+    rarely exceed this estimate.
     """
     highest, lowest = (each.reduce([first, middle, last]) for each in (np.maximum, np.minimum))
     bend, rise = 2 * middle - first - last, np.abs(last - first)
@@ -137,14 +137,16 @@ def _promise(first: Floats, middle: Floats, last: Floats) -> Floats:
 
 
 def _tolerance(maxima: Floats) -> Floats:
-    """Return the tolerance to which each maximum is located, from the range of the output's errors or rates."""
+    """Return the tolerance to which each maximum is located, derived from the range of the output's errors or rates."""
     # a maximum plus the maximum of the negatives is the range
     ranges = np.repeat(maxima[::2] + maxima[1::2], 2)
     return np.maximum(_SURE * ranges, _ROUNDING)
 
 
 def _locate(sampler: ErrorSampler, maxima: Floats, given: _Candidates) -> None:
-    """Update the maxima in place with those inside the candidates' pieces, which are found by subdivision."""
+    """Update the maxima in place with the maxima inside the pieces of the candidates, which are found by
+    subdivision.
+    """
     for _ in range(_ROUNDS):
         given = given.exceeding(maxima)
         rows = np.arange(len(given.sought))

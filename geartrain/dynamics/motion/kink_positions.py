@@ -3,8 +3,9 @@ positions.
 
 A transmission function lists the angles of its driver at which it has kinks. The driver of pair m has the angle S_m(x),
 equation (3) of docs/motion.md, which includes the errors of earlier pairs. The position x of a kink satisfies S_m(x) =
-kink + an integer number of periods. The values of S_m at the ends of a narrow step determine the number of kinks in it,
-and each kink is located by the method of false position. If a driver reverses, the step is divided at the reversal.
+kink + an integer number of periods. The values of S_m at the ends of a narrow step determine the number of kinks in
+this step, and each kink is located by the method of false position. If a driver reverses, the step is divided at the
+reversal.
 """
 
 from __future__ import annotations
@@ -40,7 +41,7 @@ _NEAR = 1e-11  # [periods] overlap of neighbouring steps, so that rounding loses
 
 
 class KinkPositions(NamedTuple):
-    """Positions of the input at which pairs pass kinks of their transmission functions, in ascending order.
+    """Positions of the input at which pairs pass kinks of their transmission functions, in ascending order of position.
 
     See Also
     --------
@@ -63,7 +64,7 @@ class KinkPositions(NamedTuple):
 
 
 class InputSteps(NamedTuple):
-    """Steps of the input, from `low` to `high` [revolutions], each of shape (n,)."""
+    """Steps of the input, from `low` to `high` [revolutions], both of shape (n,)."""
 
     low: Floats
     high: Floats
@@ -71,7 +72,7 @@ class InputSteps(NamedTuple):
 
 @dataclass(frozen=True)
 class PairKinks:
-    """Kinks of the transmission function of `source`, whose driver is the only output of `drivers`."""
+    """Kinks of the transmission function of the pair `source`, whose driver is the only output of `drivers`."""
 
     source: PairErrorSource
     drivers: ErrorComposition
@@ -86,7 +87,7 @@ class PairKinks:
         return np.asarray(found[apart]) if apart.any() else found[:1]
 
     def shift(self, turns: Floats) -> tuple[Floats, Floats]:
-        """Return the change of the driver's angle, in its mean sense of rotation, due to errors [rad], and the driver's
+        """Return the change of the driver's angle due to errors, in its mean sense of rotation [rad], and the driver's
         speed divided by the speed of the input [1].
         """
         if not len(turns):
@@ -109,7 +110,9 @@ class PairKinks:
         return self._crossings(steps, low, high)
 
     def _cut_where_it_turns(self, steps: InputSteps, slowest: Floats) -> InputSteps:
-        """Return the steps, divided at the positions at which the driver reverses; these are found by bisection."""
+        """Return the steps, divided at the positions at which the driver reverses. These positions are found by
+        bisection.
+        """
         slow = slowest < _SLOW * self.source.mean
         ends = steps.low[slow, None] + (steps.high - steps.low)[slow, None] * (np.arange(_PARTS + 1) / _PARTS)
         ends[:, -1] = steps.high[slow]  # exact, despite rounding of the sum
@@ -128,8 +131,8 @@ class PairKinks:
         )
 
     def _crossings(self, steps: InputSteps, low: Floats, high: Floats) -> Floats:
-        """Return the positions and indices of the kinks in steps without reversals. `low` and `high` are the driver's
-        shifts at the ends of the steps [rad].
+        """Return the positions and indices of the kinks in steps without reversals. `low` and `high` are the shifts of
+        the driver's angle at the two ends of each step [rad].
         """
         period, cycles = self.source.transmission.period, self.source.cycles
         width = steps.high - steps.low
@@ -185,8 +188,8 @@ class KinkSearch:
 
     @cached_property
     def step(self) -> float:
-        """Maximum width of a step [revolutions]: a quarter of the mean period of the fastest component of a
-        transmission function; infinite if every error is constant.
+        """Maximum width of a step [revolutions], which is a quarter of the mean period of the fastest component of all
+        transmission functions; infinite if every error is constant.
         """
         fastest = max((pair.source.pace for pair in self.pairs), default=0.0)
         return 1 / (_STEPS * fastest) if fastest else np.inf
@@ -205,7 +208,7 @@ class KinkSearch:
         return self._joined([[pair.between(steps)] for pair in self.pairs])
 
     def over(self, start: float, end: float) -> KinkPositions:
-        """Return the kinks between two positions of the input [revolutions], including both ends."""
+        """Return the kinks between two positions of the input [revolutions], including kinks at both ends."""
         if (expected := self.rate * (end - start)) > MOST_KINKS:
             what = f"there are about {expected:.2g} kinks from {start:g} to {end:g} turns"
             why = f"at most {MOST_KINKS:g} kinks are listed in one call"

@@ -1,4 +1,5 @@
-"""Motion of a solved train: pairs with variable errors, their drivers, starting positions, and error propagation.
+"""Motion of a solved train: pairs with variable transmission errors, their drivers, starting positions, and error
+propagation.
 
 At position 0 every tooth and pin has its declared phase, and the error of every pointer is set to 0 (section 3 of
 docs/motion.md). The angles of drivers are measured from position 0, so that the errors of other pairs do not change the
@@ -108,7 +109,9 @@ _MAIN = 3  # outputs in a summary
 
 
 def _refuse_jumps(composition: ErrorComposition) -> None:
-    """Raise `GearTrainError` if an instantaneous step moves its own driver, whose position is then not unique."""
+    """Raise `GearTrainError` if the driver of an instantaneous step is itself moved by this step, because its position
+    is then not unique.
+    """
     for step in composition.steps:
         jumping = [composition.sources[at].id for at in step.sources if composition.sources[at].transmission.at_once]
         if step.coupled and jumping:
@@ -184,7 +187,7 @@ class Motion(Shown):
     def _path(self, pair: str) -> ErrorPath:
         """Return the links through which the errors of a pair or coupling propagate.
 
-        Raise `QuestionError` if the pair is redundant, because its errors then have no unique effect.
+        Raise `QuestionError` if the pair is redundant, because the effect of its errors is then not unique.
         """
         if pair in self._propagation.pairs:
             return self._propagation.joints[self._propagation.pairs.index(pair)]
@@ -197,7 +200,7 @@ class Motion(Shown):
 
     @cached_property
     def _forward(self) -> ErrorComposition:
-        """Composition of the errors while the input turns in the declared sense."""
+        """Composition of the errors while the input turns in its declared sense."""
         return self._composed(1)
 
     def _with_sources(self, pairs: Collection[str]) -> ErrorComposition:
@@ -216,7 +219,7 @@ class Motion(Shown):
 
     @cached_property
     def _backward(self) -> ErrorComposition:
-        """Composition of the errors while the input turns in the opposite sense, with coast flanks in contact."""
+        """Composition of the errors while the input turns against its declared sense, with coast flanks in contact."""
         return self._composed(-1)
 
     @cached_property
@@ -230,8 +233,8 @@ class Motion(Shown):
         )
 
     def _composed(self, way: int, besides: Collection[str] = ()) -> ErrorComposition:
-        """Return the error composition for one direction of the input, 1 or -1, with the pairs `besides` as further
-        sources.
+        """Return the error composition for one direction `way` of the input, 1 or -1, with the pairs in `besides` as
+        further sources.
 
         Every pointer is set at position 0, with the input turning in the declared sense.
         """
@@ -251,9 +254,10 @@ class Motion(Shown):
 
     @cached_property
     def _start(self) -> tuple[Floats, Floats]:
-        """Angles by which the errors of teeth, and the errors of pins, turn each link at position 0 of the input [rad].
+        """Angles by which the errors of teeth turn each link at position 0 of the input, and angles by which the errors
+        of pins turn it [rad].
 
-        They are linear in the errors of the pairs, because all driver angles are known.
+        The angles are linear in the errors of the pairs, because all driver angles are known.
         """
         deltas = np.zeros((len(self._errors.spread.pairs), 2))
         pins = {joint.coupling.name for joint in self._problem.couplings}
@@ -312,8 +316,8 @@ class Motion(Shown):
 
     @cached_property
     def sensitivity(self) -> Mapping[str, Mapping[str, float]]:
-        """Change of an output's angle per unit error of a pair's driven side [rad/rad, or mm/rad for a link that
-        slides], by output and pair; ideal teeth are included.
+        """Change of an output's angle per unit error of the driven link of a pair [rad/rad, or mm/rad for an output
+        that slides], by output and pair. Pairs with ideal teeth are included.
         """
         found = {}
         for name, seen in zip(self.outputs, self._seen, strict=True):
@@ -323,7 +327,7 @@ class Motion(Shown):
 
     @cached_property
     def advances(self) -> Mapping[str, float]:
-        """Mean speed of each link that clutches drive in steps, divided by the speed of the input [1], by link."""
+        """Mean speed ratio (link to input) of each link that clutches drive stepwise, by link [1]."""
         stepped = self._problem.stepped
         if stepped is None:
             return {}
@@ -340,7 +344,7 @@ class Motion(Shown):
 
     @cached_property
     def _sliding(self) -> frozenset[str]:
-        """Outputs of links that slide, whose travel is in mm."""
+        """Names of the outputs of links that slide, whose travel is in mm."""
         lines = self._problem.tree.lines if self._problem.tree is not None else {}
         return frozenset(name for name, (of, _) in self.outputs.items() if of in lines)
 
@@ -353,7 +357,7 @@ class Motion(Shown):
     def _stretches(self, turns: float, samples: int, first: int = 0) -> Iterator[ErrorSamples]:
         """Yield the errors at equally spaced positions from 0 to `turns`, both included, in chunks that fit in memory.
 
-        turns   revolutions of the input; if negative, it turns against its declared sense, on coast flanks
+        turns   revolutions of the input; if negative, the input turns against its declared sense, on coast flanks
         first   index of the first position
         """
         sampler = self._sampler(turns)
@@ -364,7 +368,9 @@ class Motion(Shown):
             yield sampler.at(turns * (at / (samples - 1)))
 
     def _composition(self, turns: float) -> ErrorComposition:
-        """Return the error composition for a run; if `turns` is negative, the coast flanks are in contact."""
+        """Return the error composition for a run of `turns` revolutions; if `turns` is negative, the coast flanks are
+        in contact.
+        """
         return self._forward if turns >= 0 else self._backward
 
     def _sampler(self, turns: float) -> ErrorSampler:
@@ -525,7 +531,7 @@ class Motion(Shown):
 
     @cached_property
     def _usual_run(self) -> Any:
-        """Run with the default options of `geartrain motion`; `print` displays it."""
+        """Run with the default options of the command `geartrain motion`; `print` displays it."""
         return self.run()
 
     def _with_transmissions(self, transmissions: Mapping[str, Any]) -> Motion:
@@ -543,7 +549,9 @@ class Motion(Shown):
         return motion
 
     def _turning(self, requested: Collection[str] = ()) -> Motion:
-        """Return the motion of the outputs that turn. Raise `QuestionError` if a requested output, or all, slide."""
+        """Return the motion restricted to the outputs that turn. Raise `QuestionError` if a requested output slides, or
+        if all outputs slide.
+        """
         turning = tuple(name for name in self.outputs if name not in self._sliding)
         if not turning or not self._sliding.isdisjoint(requested):
             what = f"'{min(self._sliding)}' slides, and errors of pointers are angles"
@@ -554,8 +562,8 @@ class Motion(Shown):
         return motion
 
     def without_anomaly(self) -> Motion:
-        """Return the motion with only the errors that the teeth cause. The errors of the same couplings with ideal
-        teeth, at the same positions of the input, are subtracted.
+        """Return the motion with only the errors that are caused by the teeth. The errors of the train with ideal teeth
+        and the same couplings, at the same positions of the input, are subtracted.
 
         Returns
         -------
@@ -569,7 +577,7 @@ class Motion(Shown):
         return motion
 
     def _with_ideal_teeth(self) -> Motion:
-        """Return the motion of the same train with the same couplings and ideal teeth (constant ratio, no backlash)."""
+        """Return the motion of the same train and couplings with ideal teeth (constant ratio, no backlash)."""
         return Motion(replace(self._problem, meshes={}), self.outputs)
 
     def _degrees_per_day(self, output: str) -> float | None:

@@ -30,7 +30,7 @@ class MotionProblem:
     """Data from which the motion of a train in one state is computed, as collected by `find_motion_problem`."""
 
     system: WillisSystem
-    """Labelled Willis equations, without those of redundant circuits."""
+    """Labelled Willis equations, without the equations of redundant circuits."""
     circuits: Sequence[Circuit]
     signs: Mapping[str, int]
     speeds: Mapping[str, Fraction]
@@ -49,23 +49,27 @@ class MotionProblem:
     phases: Mapping[str, float] = field(default_factory=dict)
     """Declared phase of each pair: distance by which a tooth of its first wheel is past the line of centres [pitch]."""
     shared: Mapping[tuple[str, str], Sequence[tuple[str, bool]]] = field(default_factory=dict)
-    """Other pairs that share a wheel and its line of centres with a pair, by names of the pair and the wheel.
+    """Other pairs that have a wheel and its line of centres in common with a given pair, by names of the given pair and
+    the wheel.
 
-    Each has a flag that is True if the two contacts are on opposite sides of the wheel.
+    Each pair has a flag that is True if its contact and the contact of the given pair are on opposite sides of the
+    wheel.
     """
     loops: Sequence[Loop] = ()
     """Loops closed by redundant pairs. The transmission errors of the teeth around such a loop may be incompatible."""
     tree: Tree | None = None
     """Joints of the train, for speeds relative to links that slide; None if no link slides."""
     stepped: SteppedLink | None = None
-    """Link that one-way clutches drive in steps, and which is at rest in `system`; None if there is none."""
+    """Link that one-way clutches drive stepwise, and which is at rest in `system`; None if there is no such link."""
     behind: frozenset[str] = frozenset()
     """The stepped link and the links whose motion depends on it."""
 
     def without_steps(
         self, outputs: Mapping[str, tuple[str, str]], requested: Collection[str] = ()
     ) -> dict[str, tuple[str, str]]:
-        """Return the outputs that do not depend on the stepped link; if there are none, the links that drive it."""
+        """Return the outputs that do not depend on the stepped link. If there are no such outputs, return the links
+        that drive the stepped link.
+        """
         kept = {name: ends for name, ends in outputs.items() if self.behind.isdisjoint(ends)}
         if requested and (left := outputs.keys() - kept.keys()):
             what = f"the motion of '{min(left)}' is not determined at every position"
@@ -80,14 +84,16 @@ class MotionProblem:
 
     @property
     def deviation(self) -> str:
-        """Name of the difference between the angle of an output and its mean motion: transmission error for teeth,
+        """Term for the difference between the angle of an output and its mean motion: transmission error for teeth,
         anomaly for couplings, or deviation if both contribute.
         """
         return ("deviation" if self.couplings else "transmission error") if self.rippling else "anomaly"
 
     @property
     def way(self) -> int:
-        """Sign of the driving link's speed about its own axis; its revolutions and angles are positive in its sense."""
+        """Sign of the driving link's speed about its own axis. Its revolutions and angles are positive in its sense of
+        rotation.
+        """
         return -1 if self.speeds[self.driving_link] < 0 else 1
 
     def ratio(self, link: str) -> Fraction:
@@ -95,8 +101,8 @@ class MotionProblem:
         return self.speeds[link] / self.speeds[self.driving_link]
 
     def seen_ratio(self, link: str, base: str) -> Fraction:
-        """Return the mean speed of a link relative to another, about the axis of the first, divided by the speed of the
-        driving link.
+        """Return the mean speed of a link relative to the link `base`, about the axis of `link`, divided by the speed
+        of the driving link.
         """
         base = base if self.tree is None else self.tree.reference(link, base)
         return relative_speed(link, base, self.ratio, self.signs)
@@ -108,8 +114,8 @@ class MotionProblem:
         return self.signs.get(link, 1) * self.seen_ratio(link, carrier)
 
     def placed_by(self, pair: str) -> tuple[str, bool] | None:
-        """Return the pair that drives the driver of `pair` and thereby determines its phase, with its flag as in
-        `shared`; None without such a pair.
+        """Return the pair that drives the driver of `pair` and thereby determines its phase, with the flag of this pair
+        in `shared`; None if there is no such pair.
         """
         if pair not in self.drivers:
             return None
@@ -124,7 +130,7 @@ class MotionProblem:
 
     @property
     def rippling(self) -> list[GearMesh]:
-        """Gear pairs whose teeth have a variable speed ratio."""
+        """Gear pairs whose teeth have a variable speed ratio, so that they are evaluated at each position."""
         return [mesh for mesh in self.teeth if not mesh.rigid]
 
     @property
@@ -133,8 +139,8 @@ class MotionProblem:
         return [mesh for mesh in self.teeth if mesh.rigid]
 
     def contradictions(self) -> list[tuple[Loop, list[str]]]:
-        """Return the loops closed by redundant pairs in which transmission errors vary, each with the names of the
-        pairs that cause them.
+        """Return the loops closed by redundant pairs around which the transmission errors vary, each with the names of
+        the pairs that cause these errors.
         """
         found = ((loop, [pair for pair in loop.pairs if self._ripples(pair)]) for loop in self.loops)
         return [(loop, real) for loop, real in found if real]
@@ -149,8 +155,8 @@ def find_motion_problem(
 ) -> MotionProblem:
     """Collect the data from which the motion of a train in one state is computed.
 
-    without   redundant pairs that are omitted, so that the errors of teeth are compatible around every closed loop
-    steps     True if a link that one-way clutches drive in steps is to be at rest; otherwise its speed is undetermined
+    without   redundant pairs to be omitted, so that the errors of teeth are compatible around every closed loop
+    steps     True if a link that one-way clutches drive stepwise is at rest, False if its speed is undetermined
 
     Raises `QuestionError` if no input turns, or if the speeds of the train are not determined.
     """
@@ -195,9 +201,9 @@ def find_motion_problem(
 
 
 def find_shared_wheels(circuits: Sequence[Circuit], tree: Tree) -> dict[tuple[str, str], list[tuple[str, bool]]]:
-    """Return, for each pair of a wheel with coaxial mates, the other pairs that share its line of centres.
+    """Return, for each pair of a wheel that has several coaxial mates, the other pairs that share its line of centres.
 
-    An example is a planet between sun and ring. The flag is True if the two contacts are on opposite sides of the
+    An example is a planet between a sun and a ring. The flag is True if the two contacts are on opposite sides of the
     wheel, which is the case if one mate is a ring.
     """
     of_wheel: dict[str, list[tuple[Circuit, str]]] = {}

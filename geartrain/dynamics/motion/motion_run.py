@@ -2,9 +2,9 @@
 
 The spectrum by exact orders of the input follows section 5 of docs/motion.md. A pair has `cycles` periods per
 revolution of the input, an exact rational number, so its harmonic k has the order k times `cycles`. To first order, the
-amplitude of a line is the amplitude of the pair's harmonic times the output's sensitivity. The amplitude in the
-composed motion is also computed, by a Fourier sum with a Hann window. The two amplitudes differ because pairs modulate
-each other.
+amplitude of a spectral line is the amplitude of the pair's harmonic times the output's sensitivity. The amplitude in
+the composed motion is also computed, by a Fourier sum with a Hann window. The two amplitudes differ because pairs
+modulate each other.
 """
 
 from __future__ import annotations
@@ -44,12 +44,12 @@ _FAINT = 1e-6  # fraction of the strongest line: weaker lines are omitted
 
 
 class HarmonicShare(NamedTuple):
-    """Harmonic of a pair's error, and its first-order amplitude in an output."""
+    """Harmonic of a pair's transmission error, and its first-order amplitude in the error of an output."""
 
     pair: str
     """Name of the pair whose error has this harmonic."""
     harmonic: int
-    """Number of the harmonic, which is the number of its cycles per period of the pair's error."""
+    """Number of the harmonic, which is the number of its cycles per period of the pair's transmission error."""
     amplitude: float
     """First-order amplitude of the harmonic in the output's error [rad]."""
 
@@ -75,8 +75,8 @@ def find_spectrum(
 ) -> dict[str, list[SpectrumLine]]:
     """Return at most `_MOST_LINES` spectral lines of every output, in descending order of their first-order amplitudes.
 
-    Lines are resolved if they differ by at least two periods over the run. If the run is an integer number of common
-    periods, the amplitudes are exact except for aliases of harmonics above half the sampling rate.
+    Two lines are resolved if their numbers of periods over the run differ by at least 2. If the run is an integer
+    number of common periods, the amplitudes are exact except for aliases of harmonics above half the sampling rate.
     """
     from geartrain.dynamics.motion.superposition import Superposition
 
@@ -104,7 +104,7 @@ def find_spectrum(
 def _harmonics(superposed: Superposition, at: int) -> Complex:
     """Return the complex amplitudes of a pair's error at harmonics 1, 2, ... of its period [rad].
 
-    Phases refer to the beginning of the run.
+    The phases are relative to the beginning of the run.
     """
     source = superposed.sources[at]
     pitches = source.transmission.pitch_count
@@ -149,7 +149,7 @@ def _measure(
 ) -> Floats:
     """Return the amplitudes [rad] of the total output errors at the given orders, shape (outputs, orders).
 
-    A Hann window is applied unless the run is an integer number of periods.
+    A Hann window is applied unless the length of the run is an integer number of periods.
     """
     closes = bool(motion.period) and (Fraction(turns) / (motion.period or 1)).denominator == 1
     sums = np.zeros((len(motion.outputs), len(orders)), dtype=complex)
@@ -173,7 +173,7 @@ def _measure(
 
 
 MOST_TURNS = 10**12
-"""Maximum number of revolutions; beyond it, positions in float64 do not resolve single teeth."""
+"""Maximum number of revolutions. Beyond it, positions in float64 do not resolve single teeth."""
 
 
 def _ignore(_: int) -> None:
@@ -359,8 +359,9 @@ class MotionRun(Tabular, Pictured):
         return ["turns", *(f"{name} {what}" for name, heads in units for what in heads)]
 
     def _values(self, passage: ErrorSamples) -> list[Floats]:
-        """Return the table columns for some positions: revolutions, then angle [rad], error [rad] and speed [1] of each
-        output; for a link that slides, travel [mm], error [mm] and speed [mm/turn].
+        """Return the table columns for the positions in `passage`: revolutions of the input, then the angle [rad],
+        error [rad] and speed [1] of each output. For an output that slides, they are travel [mm], error [mm] and speed
+        [mm/turn].
 
         An angle is the sum of the initial angle, the mean motion and the error.
         """
@@ -371,8 +372,7 @@ class MotionRun(Tabular, Pictured):
         return found
 
     def _check_resumed(self, row: str, rows: int) -> None:
-        """Raise an error if `row`, the last row of a partial table with cells separated by commas, does not belong to
-        this run.
+        """Raise an error if `row`, the last comma-separated row of a partial table, does not belong to this run.
 
         rows   number of rows of the partial table
         """

@@ -39,7 +39,7 @@ class PairErrors:
 
     train: MotionProblem
     links: Collection[str]
-    """Links whose errors are requested. The teeth of pairs that do not affect them are not built."""
+    """Links whose errors are requested. The teeth of pairs that do not affect these links are not built."""
 
     @cached_property
     def index(self) -> Mapping[str, int]:
@@ -112,7 +112,7 @@ class PairErrors:
         """Yield the pairs with variable error and the pins as error sources, for one direction of the input (`way`, 1
         or -1).
 
-        besides   names of pairs with constant ratio that are also included
+        besides   names of pairs with constant ratio to be included as well
         """
         meshes = [mesh for mesh in self._meshes if not mesh.rigid or mesh.name in besides]
         transmissions: dict[str, TransmissionFunction] = {mesh.name: mesh.transmission for mesh in meshes}

@@ -1,13 +1,13 @@
 """Energy of tooth impacts of a pair, and the speed above which its quasi-static transmission function is invalid.
 
 Let s = max(-d tau / dS) be the maximum rate at which the speed ratio tau decreases with the driver angle S. At the
-driver's speed w, the driven inertia J stays in contact if the load torque is at least J w^2 s. Under a load T, contact
-is lost above w = sqrt(T / (J s)).
+speed w of the driver, a driven link with the moment of inertia J stays in contact if the load torque is at least J w^2
+s. Under a load T, contact is lost above w = sqrt(T / (J s)).
 
-In a train (Carnot's theorem, equation (7) of docs/motion.md) the input keeps its speed. If the speed of a
-pair's driven side jumps by 1 rad/s, the speed of every link l jumps by its response g_l, so the effective inertia of
-this side is J = sum J_l g_l^2. An inelastic impact with the speed difference v dissipates J v^2/2. In an ordinary train
-the effective inertia contains all links that the driven wheel drives, referred to its speed.
+In a train (Carnot's theorem, equation (7) of docs/motion.md) the input keeps its speed. If the speed of a pair's driven
+link jumps by 1 rad/s, the speed of every link l jumps by its response g_l, so the effective inertia of the driven link
+is J = sum J_l g_l^2. An inelastic impact with the speed difference v dissipates J v^2/2. In an ordinary train the
+effective inertia contains all links that the driven wheel drives, referred to its speed.
 """
 
 from __future__ import annotations
@@ -37,7 +37,9 @@ class ToothImpact(Shown):
     inertia: float
     """Effective inertia at the driven wheel [kg m^2]."""
     rate: float
-    """Frequency of the transmission function's periods [1/s]; a period is one pitch, except for a given error."""
+    """Frequency of the periods of the transmission function [1/s]. A period is one pitch, unless the transmission error
+    is given as data.
+    """
     jumps: tuple[float, ...]
     """Increase of the driven wheel's speed at each impact within one period [rad/s]."""
 
@@ -51,7 +53,7 @@ def find_impacts(motion: Motion, inertias: Mapping[str, float], speed: float) ->
     """Return the impacts of every pair whose speed ratio increases abruptly, by name, at an input speed of `speed`
     [rad/s].
 
-    inertias   link -> moment of inertia about its own axis [kg m2]; it is 0 for other links
+    inertias   moment of inertia of links about their own axes [kg m2], by link; it is 0 for links that are not included
     """
     spread = motion._propagation
     weight = np.array([inertias.get(link, 0.0) for link in spread.links])
@@ -72,15 +74,15 @@ def find_impacts(motion: Motion, inertias: Mapping[str, float], speed: float) ->
 
 
 def collision_energies(leaps: Iterable[SpeedLeap], inertia: float, omega1: float) -> tuple[float, float, float]:
-    """Return the energies of the impacts in one pitch [J]: the energy transferred to the driven side, the dissipated
+    """Return the energies of the impacts in one pitch [J]: the energy transferred to the driven wheel, the dissipated
     energy, and their sum.
 
     inertia   moment of inertia J of the driven wheel and all links that it drives [kg m2]
     omega1    constant speed of the driver [rad/s]
 
-    For an inelastic impact with the speed ratios `before` and `after`, the transferred energy is
-    J omega1^2 (after^2 - before^2)/2, and the dissipated energy is J omega1^2 (after - before)^2/2. Sorge's paper on
-    triangular teeth uses the former as the lost energy, but the lost energy is the latter.
+    For an inelastic impact with the speed ratios `before` and `after`, the transferred energy is J omega1^2 (after^2 -
+    before^2)/2, and the dissipated energy is J omega1^2 (after - before)^2/2. Sorge's paper on triangular teeth uses
+    the former as the lost energy, but the lost energy is the latter.
     """
     leaps, scale = tuple(leaps), inertia * omega1**2
     handed = sum((leap.after**2 - leap.before**2) / 2 for leap in leaps) * scale
@@ -90,8 +92,8 @@ def collision_energies(leaps: Iterable[SpeedLeap], inertia: float, omega1: float
 
 @dataclass(frozen=True)
 class PairOperation:
-    """Operating data of a pair: inertia [kg m2] and load torque [N m] of the driven side, and speed of the driver
-    [revolutions/s]. Unknown values are None.
+    """Operating data of a pair: moment of inertia [kg m2] and load torque [N m] at the driven wheel, and speed of the
+    driver [revolutions/s]. Unknown values are None.
     """
 
     inertia: float | None = None
@@ -106,7 +108,9 @@ class PairOperation:
 
 @dataclass(frozen=True)
 class PairImpacts(Result):
-    """Impact energies of one pair and limits of its contact; values for which `PairOperation` lacks data are None."""
+    """Impact energies of one pair, and limits up to which its teeth stay in contact. Values for which `PairOperation`
+    lacks data are None.
+    """
 
     KEYS = (
         *("inertia", "rate", "handed", "dissipated", "work"),
@@ -118,13 +122,15 @@ class PairImpacts(Result):
     rate: float | None = None
     """Speed of the driver [revolutions/s]."""
     handed: float | None = None
-    """Energy transferred to the driven side in one pitch [J]."""
+    """Energy transferred to the driven wheel by impacts in one pitch [J]."""
     dissipated: float | None = None
     """Energy dissipated by impacts in one pitch [J]."""
     work: float | None = None
-    """Work done by the driver in one pitch [J], which is the sum of transferred and dissipated energy."""
+    """Work done by the driver in the impacts of one pitch [J], which is the sum of transferred and dissipated
+    energy.
+    """
     minimum_load: float | None = None
-    """Minimum load torque at which the teeth remain in contact at this speed [N m]."""
+    """Minimum load torque at which the teeth remain in contact at the given speed [N m]."""
     void: float | None = None
     """Speed of the driver above which the teeth separate under the declared load [revolutions/s]."""
 

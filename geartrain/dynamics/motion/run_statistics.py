@@ -30,7 +30,8 @@ def mean_speed(name: str, ratio: Fraction) -> float:
 
 
 class SpeedSpan(NamedTuple):
-    """Minimum and maximum speed divided by the mean speed, and the mean speed divided by the speed of the input.
+    """Minimum and maximum speed of an output divided by its mean speed, and its mean speed divided by the speed of the
+    input.
 
     If the mean speed is 0, minimum and maximum are divided by the speed of the input.
     """
@@ -67,7 +68,7 @@ class RunningStatistics(Result):
     centre: float = 0.0
     """Mean deviation of the output from its mean motion [`unit`]."""
     square: float = 0.0
-    """Sum of the squared differences between the deviation and its mean [`unit`^2]."""
+    """Sum of the squared differences between the deviation of the output and its mean deviation [`unit`^2]."""
     minimum: float = inf
     """Minimum deviation of the output from its mean motion [`unit`]."""
     most: float = -inf

@@ -1,9 +1,9 @@
 """Mean advance of a link that one-way clutches drive in steps, from the motion of the links that drive it.
 
-The driven link has the speed max(0, v_1, v_2, ...) of its drivers, because friction holds it while none of them drives
-it. A common period of the drivers is divided at kinks, and where another driver becomes the fastest. In each piece, the
-advance is the difference of the end positions of the fastest driver. For a single driver, the sum is its positive
-variation.
+The driven link has the speed max(0, v_1, v_2, ...), where v_1, v_2, ... are the speeds of its drivers, because friction
+holds it while none of them drives it. A common period of the drivers is divided at kinks, and where another driver
+becomes the fastest. In each piece, the advance is the difference of the end positions of the fastest driver. For a
+single driver, the sum is the positive variation of its angle.
 """
 
 from __future__ import annotations
@@ -45,7 +45,9 @@ def mean_advance(problem: MotionProblem, drivers: ErrorComposition, stepped: Ste
     means = np.array([[mean_speed(link, problem.ratio(link))] for link in stepped.drivers])
 
     def motion(turns: Floats) -> tuple[Floats, Indices]:
-        """Return angles [rad], with a row of zeros for friction, and the index of the row with the maximum speed."""
+        """Return the angles of the drivers [rad], followed by a row of zeros for friction, and the index of the row
+        with the maximum speed.
+        """
         found, rest = evaluate(drivers, turns), np.zeros((1, len(turns)))
         angles = np.concatenate([rest, senses * (2 * pi * means * turns + found.error)])
         return angles, np.argmax(np.concatenate([rest, senses * (means + found.rate)]), axis=0)

@@ -2,8 +2,8 @@
 
 The estimates neglect the effect of pairs on each other. To first order, an output's error is the sum over all pairs of
 the output's sensitivity times the pair's error. The sum of the ranges of these terms is an upper bound on the range of
-the output's error. If the phases are independent, the squares of the rms values of these terms add. Superposition in
-phase neglects only the change of driver angles by errors. Part of this change is taken into account by the mean error
+the output's error. If the phases are independent, the squares of the rms values of these terms add. Superposition with
+phases neglects only the change of driver angles by errors. Part of this change is taken into account by the mean error
 of each driver relative to position 0 (lag).
 """
 
@@ -23,7 +23,9 @@ if TYPE_CHECKING:
 
 
 class Superposition:
-    """First-order errors of the outputs of an error composition, with each pair at the mean angle of its driver."""
+    """First-order errors of the outputs of an error composition. Each pair is evaluated at the mean angle of its
+    driver.
+    """
 
     def __init__(self, composition: ErrorComposition) -> None:
         self.composition, self.sources = composition, composition.used
@@ -31,18 +33,18 @@ class Superposition:
 
     @cached_property
     def ranges(self) -> Floats:
-        """Range of the error of each pair's driven side, maximum minus minimum [rad]."""
+        """Range of the error of each pair's driven link, which is the maximum minus the minimum [rad]."""
         ends = [source.transmission.error_range() for source in self.sources]
         return np.array([high - low for low, high in ends])
 
     @cached_property
     def moments(self) -> Floats:
-        """Mean and rms value of the error of each pair's driven side [rad], shape (2, pairs)."""
+        """Mean value and rms value of the error of each pair's driven link [rad], shape (2, pairs)."""
         return np.array([source.transmission.error_moments() for source in self.sources]).reshape(-1, 2).T
 
     @property
     def bounds(self) -> list[float]:
-        """Upper bound on the range of each output's error, maximum minus minimum [rad]."""
+        """Upper bound on the range (maximum minus minimum) of each output's error [rad]."""
         return [float(row) for row in np.abs(self.response) @ self.ranges]
 
     @property
@@ -63,7 +65,7 @@ class Superposition:
     def at(self, turns: Floats, lagged: bool = True) -> Floats:
         """Return the errors of the outputs [rad], shape (outputs, n), at positions of the input [revolutions].
 
-        `lagged=True` adds the mean errors of the drivers to their angles.
+        If `lagged` is True, the mean errors of the drivers are added to their angles.
         """
         angle = InputPhase(turns)
         found = np.zeros((len(self.response), len(turns)))

@@ -2,7 +2,8 @@
 
 load_case                            train in one state with its loads; check of equilibrium by virtual work
 torque_balance, flow_patterns        balance of every link; patterns of power flow consistent with the losses
-mean_efficiencies                    mean efficiency of each pair, which depends on which torque is constant
+mean_efficiencies                    mean efficiency of each pair, for a constant torque of the driver or of the driven
+link
 bearing_loads                        forces of pairs on the axes of their wheels; friction of loaded bearings
 torque_analysis                      torques of a declared train and their verdict
 torque_results                       results: torques on single links and pairs

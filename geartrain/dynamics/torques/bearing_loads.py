@@ -1,11 +1,12 @@
 """Forces of gear pairs on the axes of their wheels, and the bearing friction that is proportional to these forces.
 
-A pair on parallel axes exerts a force on one wheel and the opposite force on the other. Its moments about both axes are
-the torques T_i and T_j of the pair, so the component perpendicular to the line of centres is (T_i + T_j)/a with the
-centre distance a, for any point of contact and any friction. The component along the line of centres is proportional to
-it. The resultant R of all forces on a link, and on the links that it carries, presses on its bearing, whose friction
-torque is rho |R|, where rho = r mu/sqrt(1 + mu^2) is the radius of the friction circle, r the pivot radius and mu the
-coefficient of friction; see equations (26) to (28) of docs/torques.md, section 6.
+A pair on parallel axes exerts a force on one wheel and the opposite force on the other. The moments of the force about
+the two axes are the torques T_i and T_j of the pair, so its component perpendicular to the line of centres is (T_i +
+T_j)/a, where a is the centre distance, for any point of contact and any friction. Its component along the line of
+centres is proportional to this component. The resultant R of all forces on a link and on the links that it carries
+loads the bearing of this link. The friction torque of the bearing is rho |R|, where rho = r mu/sqrt(1 + mu^2) is the
+radius of the friction circle, r the pivot radius and mu the coefficient of friction; see equations (26) to (28) of
+docs/torques.md, section 6.
 """
 
 from __future__ import annotations
@@ -44,7 +45,7 @@ def separation(setting: LoadCase, circuit: Circuit, mesh: GearMesh | None) -> fl
     """Return the separating force of a pair on parallel axes divided by its tangential force, without friction [1];
     None if it is unknown.
 
-    mesh   pair with its tooth form; None to use the pressure angle of the declared form, by default 20 degrees
+    mesh   pair with its tooth form; None to use the declared pressure angle, which is 20 degrees by default
     """
     if mesh is not None:
         return mesh.separation
@@ -56,8 +57,8 @@ def separation(setting: LoadCase, circuit: Circuit, mesh: GearMesh | None) -> fl
 class AxisForce(NamedTuple):
     """Force on the second link of a pair, and the opposite force on its first link; or a force on a single link.
 
-    The force is r `along` + |r| `lean` `apart`, where r is the torque on the carrier, or for a single link the torque
-    on it.
+    The force is r `along` + |r| `lean` `apart`, where r is the torque on the carrier, or the torque on the link if the
+    force acts on a single link.
     """
 
     name: str
@@ -68,14 +69,14 @@ class AxisForce(NamedTuple):
     along: Vector
     apart: Vector
     lean: float
-    """Mean separating force divided by the tangential force."""
+    """Mean separating force divided by the tangential force [1]."""
     places: tuple[float | None, float | None]
-    """Position along the axis at which the force acts on each link [m]; None for the middle between two bearings."""
+    """Position along the axis at which the force acts on each link [m]; None if it acts midway between two bearings."""
 
 
 @dataclass(frozen=True)
 class BearingLoads:
-    """Loads of the bearings whose friction depends on the load, in one load case."""
+    """Loads of all bearings with load-dependent friction, in one load case."""
 
     setting: LoadCase
     steady: bool = True
@@ -84,7 +85,7 @@ class BearingLoads:
 
     @cached_property
     def links(self) -> tuple[str, ...]:
-        """Links in bearings whose friction depends on the load."""
+        """Names of the links whose bearings have load-dependent friction."""
         links = self.setting.train.links.items()
         return tuple(link for link, part in links if part.friction_radius and link in self.setting.tree.parent)
 
@@ -98,7 +99,7 @@ class BearingLoads:
 
     @property
     def missing(self) -> Mapping[str, Sequence[str]]:
-        """Names of the pairs and lines whose forces on these bearings are unknown, by the reason."""
+        """Names of the pairs and lines whose forces on these bearings are unknown, grouped by the reason."""
         _ = self.forces  # lists the pairs
         return self._left_out
 
@@ -174,7 +175,9 @@ class BearingLoads:
 
     @cached_property
     def supports(self) -> tuple[tuple[int, float | None, float | None], ...]:
-        """Number of the link, own position and position of the other bearing [m], by bearing; None without `at`."""
+        """Index of the link, position of the bearing, and position of the other bearing of the link [m], for each
+        bearing; a position is None if `at` is not declared.
+        """
         found: list[tuple[int, float | None, float | None]] = []
         for number, link in enumerate(self.links):
             bearing = self.setting.train.links[link].bearing
@@ -195,14 +198,14 @@ class BearingLoads:
 
     @cached_property
     def masses(self) -> Mapping[str, float | None]:
-        """Mass of each link whose weight loads these bearings [kg]; None if it is not declared."""
+        """Mass of each link whose weight loads these bearings [kg], by link; None if the mass is not declared."""
         links = self.setting.train.links.items() if self._down and self.steady else ()
         carried = {link: part.mass for link, part in links if any(self._inside(each, link) for each in self.links)}
         return {link: None if mass is None else mass.si for link, mass in carried.items()}
 
     @cached_property
     def weights(self) -> Floats:
-        """Weight that each bearing carries [N], shape (bearings, 3, 1)."""
+        """Weight that each bearing carries, as a force vector [N], shape (bearings, 3, 1)."""
         found = np.zeros((len(self.supports), 3, 1))
         for row, (number, own, other) in enumerate(self.supports):
             mass = sum(mass or 0.0 for link, mass in self.masses.items() if self._inside(self.links[number], link))
@@ -211,7 +214,9 @@ class BearingLoads:
 
     @cached_property
     def thrust(self) -> Floats:
-        """Friction torque of the shoulder of each link by the weights along its axis [N m], shape (links, 1)."""
+        """Friction torque on the shoulder of each link that is caused by the weights along its axis [N m], shape
+        (links, 1).
+        """
         down = self._down or (0.0,) * 3
         along = np.abs(self.ways(self.links)[:, :, 0] @ down)
         carried = [sum(m or 0.0 for end, m in self.masses.items() if self._inside(link, end)) for link in self.links]
@@ -220,7 +225,7 @@ class BearingLoads:
         return found[:, None]
 
     def ways(self, links: Iterable[str]) -> Floats:
-        """Return the reference directions of the axes of the given links, shape (links, 3, 1)."""
+        """Return the unit vectors of the reference directions of the axes of the given links, shape (links, 3, 1)."""
         labels, axes = [self.setting.tree.axis(link) or "" for link in links], self.setting.axes
         ways = [scaled(self.setting.train.axes.get(label, Axis()).way, axes.sign(label)) for label in labels]
         return np.array(ways).reshape(-1, 3, 1)
@@ -249,7 +254,9 @@ class BearingLoads:
         return found
 
     def _turned(self, vectors: Floats, angles: Floats) -> Floats:
-        """Return forces rotated about the axes of their carriers by Rodrigues' formula, shape (forces, 3, n)."""
+        """Return the forces `vectors` rotated by `angles` [rad] about the axes of their carriers by Rodrigues' formula,
+        shape (forces, 3, n).
+        """
         way = self.ways(force.carrier for force in self.forces)
         inside = way * (vectors * way).sum(axis=1, keepdims=True)
         turn = angles[:, None]
@@ -268,10 +275,11 @@ class BearingLoads:
     def friction_torques(
         self, balance: TorqueBalance, flow: FlowPattern, applied: Mapping[str, Fraction]
     ) -> Mapping[str, tuple[float, float]] | None:
-        """Return the friction torque [N m] and the load [N] of each bearing for one pattern of power flow; None if no
-        friction torques are consistent with the loads, because bearing friction locks the train.
+        """Return the friction torque [N m] and the load [N] of each bearing, by link, for one pattern of power flow;
+        None if no friction torques are consistent with the loads, because bearing friction locks the train.
 
-        Torques of pairs are linear in the friction torques M, so M = rho |R(M)| is solved by fixed-point iteration.
+        The torques of pairs, and thus the bearing loads R, are linear in the friction torques M, so M = rho |R(M)| is
+        solved by fixed-point iteration, where rho is the radius of the friction circle.
 
         applied   known external torques without friction, by link
         """
@@ -289,9 +297,9 @@ class BearingLoads:
         return {link: (torque, load) for link, torque, load in rows}
 
     def _responses(self, balance: TorqueBalance, flow: FlowPattern, applied: Mapping[str, Fraction]) -> Floats | None:
-        """Return the carrier torque of each force, first without load-dependent friction, then for a unit friction
-        torque in each bearing, shape (forces, 1 + links). Equal planets have one column, which belongs to the first of
-        them.
+        """Return the carrier torque of each force, shape (forces, 1 + links). The first column is without
+        load-dependent friction; the other columns are for a unit friction torque in each bearing. Equal planets have
+        one column, which belongs to the first of them.
         """
         like = equal_planets(balance)
         known: dict[str, LinearForm] = {link: {_KNOWN: torque} for link, torque in balance.known.items()}
@@ -329,7 +337,9 @@ class BearingLoads:
 
 
 def _share(own: float | None, other: float | None, place: float | None) -> float:
-    """Return the fraction of a force that a bearing carries, by the law of the lever."""
+    """Return the fraction of a force at the position `place` that the bearing at `own` carries, by the law of the
+    lever; the other bearing is at `other` [m].
+    """
     if own is None or other is None:
         return 1.0
     return 0.5 if place is None else (other - place) / (other - own)
@@ -338,7 +348,8 @@ def _share(own: float | None, other: float | None, place: float | None) -> float
 def fixed_point(function: Callable[[Floats], Floats], size: int) -> Floats | None:
     """Return a column x = f(x) of non-negative numbers by damped fixed-point iteration from 0; None if it diverges.
 
-    The mean of x and f(x) is used, because it converges even if f reverses deviations: friction may relieve a bearing.
+    Each iteration uses the mean of x and f(x), which converges even if f reverses the sign of deviations, as when
+    friction relieves a bearing.
     """
     found = np.zeros((size, 1))
     first = float(np.max(function(found), initial=0.0))

@@ -1,12 +1,12 @@
 """Driver of each gear pair and coupling, from the power that flows through it relative to its carrier.
 
 The rules are in docs/torques.md, section 3, "Who drives a pair". If loads are declared, torques determine the driver of
-all pairs that transmit a load. Otherwise the motion of every pointer on a dial is assumed to be resisted by an
-unknown torque. Without losses, the multiplier x of a pair is linear in these torques T_o >= 0 of the pointers o, x =
-sum c_o T_o. If all c_o of a pair have one sign, the power flows in one direction for any torques of the pointers;
-otherwise the direction is undetermined. For pairs through which no pointer takes power, resistance is assumed at the
-outputs on shafts, then at all outputs, all shafts, and finally every joint. The result does not depend on the order of
-declaration.
+all pairs that transmit a load. Otherwise the motion of every pointer on a dial is assumed to be resisted by an unknown
+torque. Without losses, the multiplier x of a pair is linear in these torques T_o >= 0 of the pointers o, x = sum c_o
+T_o. If all c_o of a pair have the same sign, the power flows in one direction for any torques of the pointers. If their
+signs differ, the direction is undetermined. For pairs that transmit no power to a pointer, resistance is assumed at the
+outputs on shafts, then at all outputs, at all shafts, and finally at every joint. The result does not depend on the
+order of declaration.
 
 The coefficients c_o are exact. One elimination treats all loads at once: each load is a symbol, and every unknown
 torque is a linear form of the symbols.
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
 
 UnitLoads = Mapping[str, Mapping[str, Fraction]]
-"""Unit loads of each resisting output or link, by its name: torque on each link."""
+"""Unit loads of each output or link that resists its motion, by its name: torque on each link."""
 
 _NAMED = 3  # loads listed by name; the others are only counted
 
@@ -48,7 +48,7 @@ LoadGroup = frozenset[str]
 
 
 def group_text(group: LoadGroup) -> str:
-    """Return up to three names of a set of loads in alphabetical order, followed by the number of further names."""
+    """Return up to three names of a group of loads in alphabetical order, followed by the number of further names."""
     names = sorted(group)[:_NAMED]
     if rest := len(group) - len(names):
         names.append(f"{rest} more")
@@ -56,8 +56,8 @@ def group_text(group: LoadGroup) -> str:
 
 
 class FlowDirections(NamedTuple):
-    """Directions of power in a pair: names of the loads whose power flows from the first wheel to the second, and of
-    those whose power flows back.
+    """Directions of power in a pair: names of the loads for which power flows from the first wheel to the second, and
+    names of the loads for which it flows in the opposite direction.
     """
 
     ahead: LoadGroup = frozenset()
@@ -65,7 +65,7 @@ class FlowDirections(NamedTuple):
     shared: bool = False
     """True if redundant pairs share the power in undetermined proportions."""
     note: str = ""
-    """Note on outputs to which no power flows through this pair."""
+    """Note on outputs to which this pair transmits no power; empty if there are none."""
 
     def __bool__(self) -> bool:
         return bool(self.ahead or self.back or self.shared)
@@ -100,12 +100,12 @@ def find_flow_directions(balance: TorqueBalance, loads: UnitLoads) -> dict[str, 
 
 
 def find_drivers(train: Train, circuits: Sequence[Circuit], setting: LoadCase | None) -> Mapping[str, MeshDriver]:
-    """Return the driving wheel of every pair and the driving link of every coupling in one state, computed on first
-    access.
+    """Return a lazy mapping of the driving wheel of every pair and the driving link of every coupling in one state.
 
     circuits   circuits of the pairs and couplings to include
-    setting    load case with the speeds of the state; None if they are undetermined: then only declared drivers are
-               certain
+    setting    load case with the speeds of the state, or None if the speeds are undetermined. In that case, only
+    declared
+               drivers are certain.
     """
     if setting is None:
         return _undetermined(train, circuits, "the speeds of the train are not determined")
@@ -113,7 +113,9 @@ def find_drivers(train: Train, circuits: Sequence[Circuit], setting: LoadCase | 
 
 
 def _undetermined(train: Train, circuits: Iterable[Circuit], why: str) -> dict[str, MeshDriver]:
-    """Return the drivers for a train whose speeds are unknown for the reason `why`; only declared ones are certain."""
+    """Return the drivers of a train whose speeds are unknown for the reason `why`. Only declared drivers are
+    certain.
+    """
     declared = _declared(train)
     text = f"undetermined: {why}"
     return {
@@ -144,8 +146,8 @@ class _Drivers:
 
     @cached_property
     def _idle(self) -> Collection[str]:
-        """Pairs that transmit no load, so that their efficiencies are not required. They are determined only if
-        efficiencies require teeth.
+        """Pairs that transmit no load, so that their efficiencies are not required. They are determined only if the
+        computation of efficiencies requires teeth.
         """
         return find_idle_pairs(self.setting) if self.setting.meshes else ()
 
@@ -173,8 +175,8 @@ def _under_loads(loaded: Torques) -> dict[str, MeshDriver]:
 
 
 def _ways(setting: LoadCase, wanted: Collection[str]) -> dict[str, FlowDirections]:
-    """Return the directions of power through the pairs `wanted`, assuming resistance at pointers, outputs, shafts or
-    joints.
+    """Return the directions of power through the pairs in `wanted`, by pair, assuming resistance at pointers, outputs,
+    shafts or joints.
     """
     found: dict[str, FlowDirections] = {}
     note = ""
@@ -189,13 +191,13 @@ def _ways(setting: LoadCase, wanted: Collection[str]) -> dict[str, FlowDirection
 
 
 def _pointers(setting: LoadCase) -> UnitLoads:
-    """Return a unit load at every output with a dial, opposite to its motion."""
+    """Return a unit load at every output with a dial, which opposes the motion of the output."""
     outputs = setting.case.outputs
     return {name: drag for name, drag in _outputs(setting).items() if outputs[name].dial is not None}
 
 
 def _output_shafts(setting: LoadCase) -> UnitLoads:
-    """Return a unit load at every output shaft that turns in the frame, opposite to its motion.
+    """Return a unit load at every output shaft that turns in the frame, which opposes its motion.
 
     Outputs on carriers, or relative to a carrier, are treated as displays that take no power.
     """
@@ -206,19 +208,19 @@ def _output_shafts(setting: LoadCase) -> UnitLoads:
 
 
 def _outputs(setting: LoadCase) -> UnitLoads:
-    """Return a unit load at every output, opposite to its motion."""
+    """Return a unit load at every output, which opposes the motion of the output."""
     frame = setting.train.frame
     ends = {name: output.links(name, frame) for name, output in setting.case.outputs.items()}
     return {name: drag for name, (of, base) in ends.items() if (drag := drag_torques(setting, of, base))}
 
 
 def _shafts(setting: LoadCase) -> UnitLoads:
-    """Return a unit load at every link that turns in the frame, opposite to its motion."""
+    """Return a unit load at every link that turns in the frame, which opposes the motion of the link."""
     return {link: drag for link, drag in _joints(setting).items() if setting.bearer(link) == setting.train.frame}
 
 
 def _joints(setting: LoadCase) -> UnitLoads:
-    """Return a unit load at every link, opposite to its rotation in its bearing."""
+    """Return a unit load at every link, which opposes its rotation in its bearing."""
     links = (link for link in setting.train.links if link != setting.train.frame)
     return {link: drag for link in links if (drag := drag_torques(setting, link, setting.bearer(link)))}
 
@@ -230,14 +232,14 @@ _RESISTING: Sequence[tuple[Callable[[LoadCase], UnitLoads], str]] = (
     (_shafts, ""),
     (_joints, ""),
 )
-"""Kinds of assumed resistance in order of precedence, each with the subject of a note on pairs that transmit no power
-to them.
+"""Kinds of assumed resistance in order of precedence. Each has the subject of a note on pairs that transmit no power to
+such loads.
 """
 
 
 def drag_torques(setting: LoadCase, of: str, base: str) -> dict[str, Fraction]:
-    """Return a unit torque between two links that opposes their relative rotation, by link; empty if they do not move
-    relative to each other.
+    """Return a unit torque between the links `of` and `base` that opposes their relative rotation, by link; empty if
+    the links do not move relative to each other.
     """
     own, other = setting.sense(of), setting.sense(base)
     relative = setting.relative(of, base) or Fraction(0)
@@ -263,7 +265,8 @@ def _directions(setting: LoadCase, loads: UnitLoads) -> dict[str, FlowDirections
 
 
 def _sources(setting: LoadCase) -> Iterator[tuple[str, ...]]:
-    """Yield the possible sets of links with unknown torque. Each set has as many links as there are inputs.
+    """Yield the possible sets of links with unknown torque. The number of links in each set equals the number of
+    inputs.
 
     If the crank is not an input, the sets are all combinations of the crank with further links.
     """
@@ -277,8 +280,8 @@ def _sources(setting: LoadCase) -> Iterator[tuple[str, ...]]:
 
 
 def _spread(load: Mapping[str, Fraction], like: Mapping[str, tuple[str, ...]]) -> dict[str, Fraction]:
-    """Return a load that is repeated on all planets equal to the loaded one; the torque on other links is multiplied by
-    the number of planets.
+    """Return a load that is repeated on all planets equal to the loaded planet. The torque on other links is multiplied
+    by the number of these planets.
     """
     most = max((len(like.get(link, (link,))) for link in load), default=1)
     return {
@@ -323,8 +326,8 @@ def _assumed_driver(train: Train, circuit: Circuit) -> str:
     """Return the assumed driver of a pair whose driver is undetermined: the declared driving link of a coupling, or the
     wheel with fewer teeth.
 
-    An external wheel takes precedence over a ring gear; if tooth counts are equal, the first name in alphabetical order
-    does.
+    An external wheel takes precedence over a ring gear. If tooth counts are equal, the wheel whose name is first in
+    alphabetical order is chosen.
     """
     if circuit.kind != "gear":
         return circuit.j

@@ -1,10 +1,10 @@
 """Patterns of power flow that are consistent with the losses; see equations (5), (7) and (8) of docs/torques.md.
 
 The balance is piecewise linear, with one linear system for each pattern. If all pieces have the same orientation, there
-is exactly one solution (Samelson, Thrall and Wesler); otherwise there may be none (self-locking) or several. In block
-triangular form, an ordinary train has one unknown per block, and only the patterns of coupled meshes within a block are
-enumerated. For a block with too many meshes with losses, a fixed-point iteration gives one pattern, and the result is
-marked as not exhaustively checked.
+is exactly one solution (Samelson, Thrall and Wesler). If not, there may be no solution (self-locking) or several. In
+block triangular form, an ordinary train has one unknown per block, and only the patterns of coupled meshes within a
+block are enumerated. If a block contains too many meshes with losses, a fixed-point iteration gives one pattern, and
+the result is marked as not exhaustively checked.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ Sides = Mapping[int, int]
 """Driving side of each unknown torque, by column of the balance; see `TorqueUnknown`."""
 
 KnownTorques = Mapping[int, LinearForm]
-"""Known torques of each row of the balance, as linear forms of symbols, which have columns below 0."""
+"""Known torque of each row of the balance, as a linear form of symbols, whose columns are negative numbers."""
 _MOST_TRIED = 14  # lossy torques of a block with exhaustive enumeration: 2^14 small systems
 _MOST_OPEN = 10  # the same if torques remain undetermined anyway and the iteration has found a solution
 _MOST_ROUNDS = 50  # maximum iterations; a repeated pattern ends them sooner
@@ -48,7 +48,7 @@ def solve_block(
 ) -> dict[int, LinearForm | None] | None:
     """Return the unknown torques of a block as linear forms of symbols; None for each undetermined torque.
 
-    The result is None if no torques balance the known ones.
+    The result is None if no torques balance the known torques.
     """
     if len(block.rows) == len(block.columns) == 1:
         # fast path: an ordinary train may have thousands of such blocks
@@ -73,7 +73,9 @@ class FlowPattern:
 
 @dataclass
 class _Partial:
-    """Solution of the first blocks: driving sides and torques by column, and the sum of the torques in each row."""
+    """Solution of the first blocks of the balance: driving sides and torques by column, and the sum of the torques in
+    each row.
+    """
 
     sides: dict[int, int]
     values: Values
@@ -97,7 +99,7 @@ def find_flow_patterns(balance: TorqueBalance) -> tuple[tuple[FlowPattern, ...],
 
 
 def _solve_blocks(balance: TorqueBalance, blocks: Sequence[Block]) -> tuple[list[_Partial], bool] | None:
-    """Return all combinations of the solutions of the blocks, and True if all patterns were tried.
+    """Return all combinations of the solutions of the blocks, and True if all patterns of power flow were tried.
 
     The result is None if a block does not determine a torque that a later block may require or determine.
     """
@@ -119,7 +121,9 @@ def _solve_blocks(balance: TorqueBalance, blocks: Sequence[Block]) -> tuple[list
 def _branches(
     columns: Sequence[TorqueUnknown], partial: _Partial, found: Sequence[tuple[Sides, Values]]
 ) -> Iterator[_Partial]:
-    """Yield `partial` extended by each solution of one block. The last one is `partial` itself, changed in place."""
+    """Yield `partial` extended by each solution of one block. The last item is `partial` itself, which is changed in
+    place.
+    """
     for at, (sides, values) in enumerate(found):
         branch = partial.copy() if at + 1 < len(found) else partial
         branch.sides.update(sides)
@@ -162,7 +166,9 @@ def _flow(balance: TorqueBalance, partial: _Partial) -> FlowPattern:
 def _solutions(
     columns: Sequence[TorqueUnknown], block: Block, rows: Mapping[int, Fraction]
 ) -> tuple[list[tuple[Sides, Values]], bool]:
-    """Return all consistent combinations of sides and torques of one block, and True if all sides were tried."""
+    """Return all consistent combinations of driving sides and torques of one block, and True if all combinations of
+    sides were tried.
+    """
     known = {row: rows[row] for row in block.rows}
     lossy = [column for column in block.columns if len(columns[column].sides) > 1]
     base = {column: columns[column].sides[0] for column in block.columns}
@@ -217,7 +223,7 @@ def _is_consistent(
 def _solve(
     columns: Sequence[TorqueUnknown], block: Block, sides: Sides, known: Mapping[int, Fraction]
 ) -> Values | None:
-    """Return all torques of a block; None if no torques balance the known ones."""
+    """Return all torques of a block, by column; None if no torques balance the known torques."""
     found = solve_block(columns, block, sides, _forms(known))
     if found is None:
         return None
@@ -234,8 +240,8 @@ def _iterate(
     """Return a consistent pattern found by fixed-point iteration from the lossless solution; None if it does not
     converge.
 
-    In each iteration, the assumed direction is reversed for every mesh in which power flows against it. The iteration
-    ends if no such mesh remains, or if a pattern repeats.
+    In each iteration, the assumed direction of power flow is reversed for every mesh in which power flows in the
+    opposite direction. The iteration ends if no such mesh remains, or if a pattern repeats.
     """
     sides: Sides = {**base, **dict.fromkeys(lossy, 0)}
     seen: list[Sides] = []

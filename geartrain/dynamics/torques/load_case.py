@@ -1,7 +1,8 @@
-"""Train in one load case: its speeds, teeth, pins and loads, and an equilibrium check by virtual work.
+"""Train in one load case: its speeds, teeth, pins and loads, and a check of equilibrium by virtual work.
 
-The equations are (14) to (16) of docs/torques.md. Loads are in equilibrium if they do no work in any motion compatible
-with the constraints. This condition does not contain speeds, so a torque may be determined although a speed is not.
+The equations are (14) to (16) of docs/torques.md. Loads are in equilibrium if they do no work in any motion that is
+compatible with the constraints. This condition does not contain speeds, so a torque may be determined although a speed
+is undetermined.
 """
 
 from __future__ import annotations
@@ -45,7 +46,7 @@ def unbalanced_motions(
     """Return a basis of the virtual motions if the loads do work in at least one of them, equation (15); empty if the
     loads are in equilibrium.
 
-    still   links with unknown torques; they are at rest in all these motions, so their torques do no work
+    still   links with unknown torques; the links are at rest in all these motions, so that their torques do no work
     """
     held = [WillisEquation(f"still {link}", "fixed", ((link, 1),)) for link in still]
     forms = _forms(system.links, [*(row for row in system.equations if row.kind != "input"), *held])
@@ -59,7 +60,7 @@ def unbalanced_motions(
 
 
 def balancing_torque(motions: Sequence[VirtualMotion], link: str) -> Fraction | None:
-    """Return the torque on one link that balances the loads in every motion, equation (16); None if none does."""
+    """Return the torque on `link` that balances the loads in every motion, equation (16); None if no torque does."""
     found: Fraction | None = None
     for motion in motions:
         speed = motion.speeds.get(link, Fraction(0))
@@ -92,25 +93,29 @@ _ONE = Fraction(1)  # efficiency without loss
 
 @dataclass(frozen=True)
 class MeanEfficiencies:
-    """Mean efficiencies of one pair. Each tuple has the values for the first link and for the second link driving."""
+    """Mean efficiencies of one pair. In each tuple, the first value is for the first link as the driver, the second
+    value for the second link as the driver.
+    """
 
     driver: tuple[Fraction, Fraction] = (_ONE, _ONE)
-    """Efficiencies if the driver's torque is constant over a revolution; they are at most 1."""
+    """Efficiencies if the torque of the driver is constant over a revolution; they are at most 1."""
     load: tuple[Fraction, Fraction] = (_ONE, _ONE)
-    """Efficiencies if the driven side's torque is constant over a revolution."""
+    """Efficiencies if the torque of the driven link is constant over a revolution."""
     exact: bool = True
-    """True for declared values; False for means over tooth positions, which are floats rounded to 15 digits."""
+    """True for declared values; False for mean values over tooth positions, which are floats rounded to 15 digits."""
 
     @property
     def differ(self) -> bool:
-        """True if the efficiency depends on which torque is constant, the driver's or the driven side's."""
+        """True if the efficiency depends on whether the torque of the driver or the torque of the driven link is
+        constant.
+        """
         return self.driver != self.load
 
     def given(self, side: int, driving: bool) -> tuple[Fraction, Fraction]:
-        """Return the efficiencies with the first and with the second link driving, which depend on which torque is
-        constant.
+        """Return the efficiency if the first link drives and the efficiency if the second link drives, for the given
+        constant torque.
 
-        side      1 if the first link's torque is constant, -1 if the second link's is, 0 if neither is
+        side      1 if the torque of the first link is constant, -1 if the torque of the second link is, 0 if neither is
         driving   True if loads supply power to the train; only used if neither torque is constant
         """
         if side > 0:
@@ -128,7 +133,9 @@ class LoadCase:
     tree: Tree
     circuits: Sequence[Circuit]
     signs: Mapping[str, int]
-    """Signs by link: -1 if the axis points against the reference direction of its parallel axes, else 1."""
+    """Sign of each link's axis: -1 if it points against the reference direction of its parallel axes, 1 if it
+    does not.
+    """
     case: StateCase
     speeds: Mapping[str, Fraction]
     """Speed of each link whose speed is determined [unit of the train]."""
@@ -137,7 +144,7 @@ class LoadCase:
     varying: Sequence[CouplingMesh] = ()
     """Couplings that have a variable ratio and declared dimensions."""
     forms: Mapping[str, LinearForm] = field(default_factory=dict)
-    """Speeds of all links as linear forms in the free speeds if the train is underdetermined; otherwise empty."""
+    """Speeds of all links as linear forms in the free speeds, if the train is underdetermined; empty if it is not."""
     means: dict[str, MeanEfficiencies] = field(default_factory=dict, init=False, repr=False, compare=False)
     """Mean efficiencies computed so far, by name of the pair or coupling."""
 
@@ -163,7 +170,7 @@ class LoadCase:
 
     @cached_property
     def axes(self) -> Axes:
-        """Directions and positions of the axes of all links."""
+        """Directions and positions of the axes of all links, by link."""
         return Axes(self.train, self.tree)
 
     @property
@@ -172,7 +179,9 @@ class LoadCase:
         return dict.fromkeys(self.tree.lines, TRAVEL_ARM)
 
     def axis_labels(self, circuit: Circuit) -> tuple[str, str]:
-        """Return the labels of the axes of a circuit's first and second link, as seen from its carrier."""
+        """Return the labels of the axes of a circuit's first and second link, about which they turn relative to its
+        carrier.
+        """
         seen_from = self.tree.axis_seen_from
         return seen_from(circuit.carrier, circuit.i), seen_from(circuit.carrier, circuit.j)
 
@@ -183,18 +192,20 @@ class LoadCase:
 
     @property
     def open(self) -> tuple[str, ...]:
-        """Links whose speed is not determined."""
+        """Names of the links whose speed is not determined."""
         return tuple(link for link in self.train.links if link not in self.speeds)
 
     def sense(self, link: str) -> int:
-        """Return -1 if the link's axis points against the reference direction of its parallel axes, else 1."""
+        """Return -1 if the link's axis points against the reference direction of its parallel axes, and 1 if it does
+        not.
+        """
         return self.signs.get(link, 1)
 
     def relative(self, link: str, carrier: str) -> Fraction | None:
         """Return the speed of a link relative to `carrier`, about the reference direction [unit of the train]; None if
         it is undetermined.
 
-        The relative speed of two links may be determined even if neither speed is.
+        The relative speed of two links may be determined even if neither absolute speed is determined.
         """
         return self._difference(link, self.tree.reference(link, carrier))
 
@@ -209,8 +220,8 @@ class LoadCase:
         return None if free else form.get(PRESCRIBED, Fraction(0))
 
     def has_friction(self, part: GearPair | Coupling) -> bool:
-        """Return True if the declared friction of a pair or coupling is greater than 0 or depends on speed, or if its
-        tooth form declares the losses.
+        """Return True if the declared friction of a pair or coupling is greater than 0 or depends on speed, or if the
+        losses follow from its tooth form.
         """
         mesh = self.meshes.get(part.name)
         if mesh is not None and not mesh.has_shape:
@@ -219,11 +230,13 @@ class LoadCase:
         return friction is not None and friction.has_friction
 
     def bearer(self, link: str) -> str:
-        """Return the link that carries the axis of `link`, independent of the order of coaxial joints."""
+        """Return the link that carries the axis of `link`. It does not depend on the order in which coaxial joints are
+        declared.
+        """
         return self.tree.top.get(link, link)
 
     def reacts_on(self, link: str) -> str:
-        """Return the link on which the reaction to an unknown torque acts, which is usually the frame.
+        """Return the link on which the reaction to an unknown torque on `link` acts, which is usually the frame.
 
         For the escape wheel, it is the link on which the pallets are mounted.
         """
@@ -231,16 +244,18 @@ class LoadCase:
         return self.train.frame if escapement is None or link != escapement.link else pallet_link(escapement, self.tree)
 
     def turn(self, circuit: Circuit) -> Fraction | None:
-        """Return the speed of a circuit's first link relative to its carrier; if it is 0, no power flows."""
+        """Return the speed of a circuit's first link relative to its carrier, or None if it is undetermined. If it is
+        0, no power flows.
+        """
         return self._difference(circuit.i, circuit.subtracted[0])
 
     def bearings(self, loaded: Mapping[str, tuple[float, float]], steady: bool = True) -> tuple[BearingTorque, ...]:
         """Return the friction torque of every bearing with friction, which opposes the rotation of its link, equation
-        (10). It includes the mean torque of jumpers that act on the link.
+        (10). The torque includes the mean torque of jumpers that act on the link.
 
         The torque is 0 if the relative speed in the bearing is 0 or undetermined.
 
-        loaded   load-dependent friction torque and load, by link
+        loaded   load-dependent friction torque and bearing load, by link
         steady   True to include friction that does not depend on the load
         """
         own = {(link, self.tree.borne_by(link)): Fraction(torque) for link, (torque, _) in loaded.items()}
@@ -255,8 +270,8 @@ class LoadCase:
         return tuple(found)
 
     def friction_senses(self, link: str, carrier: str | None = None) -> Iterator[tuple[str, int]]:
-        """Yield the link and, unless it is the frame, the link that carries it, each with the sense about its own axis
-        of a unit friction torque in the bearing between them, which opposes the relative speed.
+        """Yield a link and the link that carries it, unless it is the frame. Each has the sense, about its own axis, of
+        a unit friction torque in the bearing between them, which opposes the relative speed.
         """
         carrier = self.tree.borne_by(link) if carrier is None else carrier
         relative = self.relative(link, carrier) or Fraction(0)
@@ -267,7 +282,9 @@ class LoadCase:
 
     @cached_property
     def _rubbing(self) -> Mapping[tuple[str, str], Fraction]:
-        """Positive friction torques that do not depend on the load, by link and the link that carries it."""
+        """Positive friction torques of bearings that do not depend on the load, by link and the link that
+        carries it.
+        """
         own = (
             (link, self.tree.borne_by(link), friction) for link in self.train.links if (friction := self.bearing(link))
         )
@@ -293,8 +310,8 @@ class LoadCase:
 def power_inputs(setting: LoadCase) -> tuple[str, ...]:
     """Return the links at which power may enter the train: the inputs, or the crank if it is another link.
 
-    A crank replaces a single input, which then only prescribes the speed; several inputs remain in addition to the
-    crank.
+    A crank replaces a single input, which then only prescribes the speed. If there are several inputs, power may enter
+    at the crank and at all inputs.
     """
     inputs, crank = tuple(setting.case.inputs), setting.train.crank
     if crank is None or crank in inputs:
@@ -305,8 +322,8 @@ def power_inputs(setting: LoadCase) -> tuple[str, ...]:
 def input_and_output(train: Train, case: StateCase) -> tuple[str, str] | None:
     """Return the links at which power enters and leaves the train; None if they are not unique.
 
-    Power enters at the crank if it is declared, else at the only input. It leaves at the only loaded link, or if there
-    is none, at the only output.
+    Power enters at the declared crank, or, if none is declared, at the only input. Power leaves at the only loaded
+    link, or, if no link is loaded, at the only output.
     """
     if len(case.inputs) != 1:
         return None

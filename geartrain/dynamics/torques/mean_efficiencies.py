@@ -1,10 +1,10 @@
-"""Mean efficiency of a pair: declared, or computed from its teeth or its pin, by equations (17) to (20) of
+"""Mean efficiency of a pair. It is declared, or computed from the pair's teeth or pin by equations (17) to (20) of
 docs/torques.md.
 
-Over a revolution the torques on the two sides of a pair cannot both be constant. Let tau be the speed ratio and eta the
-efficiency at each position. If the driver's torque is constant, the mean efficiency is mean(eta). If the driven side's
-torque is constant, it is mean(tau)/mean(tau/eta). A torque is constant if it follows from the balance of its own link
-only.
+Over a revolution, the torques on the two links of a pair cannot both be constant. Let tau be the speed ratio and eta
+the efficiency at each position. If the driver's torque is constant, the mean efficiency is mean(eta). If the driven
+side's torque is constant, it is mean(tau)/mean(tau/eta). A torque is constant if it follows from the balance of its own
+link only.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ def find_mean_efficiencies(setting: LoadCase, circuit: Circuit) -> MeanEfficienc
 
 
 def _of_circuit(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
-    """Return the efficiencies of a circuit; they are 1 if no loss is declared or if dimensions are unknown."""
+    """Return the efficiencies of a circuit. They are 1 if no loss is declared or if dimensions are unknown."""
     if circuit.kind != "gear":
         return _of_coupling(setting, circuit)
     gear = setting.gears[circuit.id]
@@ -61,7 +61,9 @@ def _of_circuit(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
 
 
 def _of_screw(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies | None:
-    """Return the efficiencies of a worm drive or of crossed helical gears; None if angles or friction are unknown."""
+    """Return the efficiencies of a worm drive or of crossed helical gears; None if the helix angles or the friction are
+    unknown.
+    """
     gear = setting.gears[circuit.id]
     friction = setting.train.friction_of(gear)
     if friction is None or friction.sliding is None:
@@ -78,8 +80,8 @@ def _of_screw(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies | None:
 
 
 def _of_coupling(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
-    """Return the efficiencies of a coupling, first with the declared driven link as the driver; they are 1 for a pin
-    follower, whose mean power is 0.
+    """Return the efficiencies of a coupling; the first value is for the declared driven link as the driver. They are 1
+    for a pin follower, whose mean power is 0.
     """
     coupling = setting.couplings[circuit.id]
     if (losses := coupling.losses) is not None and circuit.b:
@@ -98,7 +100,9 @@ def _of_both(ahead: SlidingEfficiency, back: SlidingEfficiency) -> MeanEfficienc
 
 
 def _mean(efficiency: float | None) -> Fraction:
-    """Return a mean efficiency as a fraction with 15 digits; 0 for None, which means that friction locks the pair."""
+    """Return a mean efficiency as a fraction with 15 digits. Return 0 for None, which means that friction locks the
+    pair.
+    """
     if efficiency is None:
         return Fraction(0)
     # rounding in the quadrature may exceed 1 slightly; decimal digits keep 0.98 equal to 49/50
@@ -108,9 +112,10 @@ def _mean(efficiency: float | None) -> Fraction:
 def apply_mean_efficiencies(
     balance: TorqueBalance, means: Mapping[str, MeanEfficiencies], driving: bool
 ) -> tuple[TorqueBalance, tuple[str, ...]]:
-    """Return the balance with the applicable mean efficiency of each pair, and the pairs without a constant torque.
+    """Return the balance with the applicable mean efficiency of each pair, and the names of the pairs without a
+    constant torque.
 
-    A pair is only listed if its efficiency depends on which torque is constant, and neither torque is.
+    A pair is listed only if neither of its torques is constant and its efficiency depends on which torque is constant.
     """
     if not any(each.differ for each in means.values()):
         return balance, ()
@@ -126,8 +131,8 @@ def _with(mesh: LoadedPair, means: MeanEfficiencies, side: int, driving: bool) -
 
 
 def _given(balance: TorqueBalance) -> dict[str, int]:
-    """Return for each pair whose torque follows from the balance of one of its links: 1 for the first link, -1 for the
-    second.
+    """Return 1 or -1 for each pair whose torque follows from the balance of one of its links: 1 for the first link, -1
+    for the second link.
     """
     found: dict[str, int] = {}
     for block in balance.parts:

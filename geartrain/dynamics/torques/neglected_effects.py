@@ -37,8 +37,8 @@ def find_neglected_effects(
 
     neither   pairs in which neither torque is constant over a revolution
     idle      pairs that transmit no torque and have no losses
-    bearings  True if constant friction of bearings was included
-    loads     loads of the bearings whose friction depends on them
+    bearings  True if load-independent friction of bearings was included
+    loads     loads of the bearings whose friction depends on the load, or None
     loose     pairs whose torque is undetermined
     """
     busy = [circuit for circuit in setting.circuits if circuit.id not in set(idle)]
@@ -74,7 +74,7 @@ def unknown_forces(
 
 
 def _drag(setting: LoadCase) -> Iterator[NeglectedEffect]:
-    """Yield the effect of the viscous drag on links, which a balance of exact mean torques does not include."""
+    """Yield the effect of the viscous drag on links, which is not included in a balance of exact mean torques."""
     if links := tuple(link for link, part in setting.train.links.items() if part.drag is not None and part.drag.value):
         yield NeglectedEffect(
             "viscous drag", links, "it depends on speed: torques over a turn include it if speeds have units"
@@ -82,9 +82,9 @@ def _drag(setting: LoadCase) -> Iterator[NeglectedEffect]:
 
 
 def neglected_over_turn(setting: LoadCase, at_means: Sequence[str]) -> tuple[NeglectedEffect, ...]:
-    """Return the effects that are neglected in the torques over a revolution.
+    """Return the effects that are neglected in the torques at all positions of a revolution.
 
-    Torques over a revolution include the friction of pins and bearings and its variation, if the data are declared.
+    These torques include the friction of pins and bearings and its variation, if the data are declared.
 
     at_means   pairs with a declared tooth form for which the mean efficiency is used at all positions
     """
@@ -112,7 +112,7 @@ def _pins(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffec
 
 
 def _of_couplings(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
-    """Yield the effects of couplings that are not computed, such as side loads."""
+    """Yield the effects of couplings that are not modelled, such as side loads."""
     named: dict[tuple[str, str], list[str]] = {}
     for circuit in busy:
         if circuit.kind != "gear" and (effect := setting.couplings[circuit.id].NEGLECTED) is not None:
@@ -127,7 +127,7 @@ def _pins_without_dimensions(setting: LoadCase, busy: Sequence[Circuit]) -> Iter
 
 
 def _rubbing_pins(setting: LoadCase, busy: Sequence[Circuit]) -> list[Circuit]:
-    """Return the circuits of pins with friction."""
+    """Return the circuits of pins that have friction."""
     pins = {pin.name for pin in setting.train.pin_couplings if setting.has_friction(pin)}
     return [circuit for circuit in busy if circuit.id in pins]
 
@@ -135,7 +135,9 @@ def _rubbing_pins(setting: LoadCase, busy: Sequence[Circuit]) -> list[Circuit]:
 def _teeth(
     setting: LoadCase, busy: Sequence[Circuit], means: Mapping[str, MeanEfficiencies]
 ) -> Iterator[NeglectedEffect]:
-    """Yield the effect of friction declared for teeth without a tooth form, or for worms with unknown helix angle."""
+    """Yield the effect of friction that is declared for teeth without a tooth form, or for worms with an unknown helix
+    angle.
+    """
     bare: dict[str, list[str]] = {_NO_FORM: [], _NO_HELIX: [], _NO_SLIDING: []}
     for circuit in busy:
         gear, mesh = setting.gears.get(circuit.id), setting.meshes.get(circuit.id)
@@ -154,7 +156,9 @@ def _teeth(
 
 
 def _slides(setting: LoadCase, circuit: Circuit) -> bool:
-    """Return True if a pair is a worm drive or a crossed helical pair, for which tooth forms give no mean loss."""
+    """Return True if a pair is a worm drive or a crossed helical pair, for which tooth forms do not give a mean
+    loss.
+    """
     wheels = [setting.train.wheels[name][1] for name in circuit.wheels]
     helical = any(wheel.is_helical for wheel in wheels) and not setting.axes.are_parallel(setting.axis_labels(circuit))
     return helical or any(wheel.kind == "worm" for wheel in wheels)
@@ -205,7 +209,7 @@ def _bearings(setting: LoadCase) -> Iterator[NeglectedEffect]:
 
 
 def _variation(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
-    """Yield the effect of pairs whose torques vary with position."""
+    """Yield the effect of pairs whose torques vary with position within a revolution."""
     found = []
     for circuit in busy:
         tooth = setting.meshes.get(circuit.id)
@@ -221,7 +225,7 @@ def _variation(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[Neglected
 
 
 def _inertia(setting: LoadCase) -> Iterator[NeglectedEffect]:
-    """Yield the effect of the inertia of links that non-uniform pairs accelerate."""
+    """Yield the effect of the inertia of links that are accelerated by pairs with a variable ratio."""
     heavy = tuple(link for link, part in setting.train.links.items() if part.inertia is not None)
     nonuniform = any(circuit.swings for circuit in setting.circuits)
     if heavy and (nonuniform or any(not tooth.rigid for tooth in setting.meshes.values())):

@@ -3,14 +3,14 @@
 A clutch between links a and b permits relative rotation in the sense s = 1 (forward) or -1 (backward). It satisfies the
 complementarity conditions s (w_b - w_a) >= 0, s T >= 0 and T (w_b - w_a) = 0, where w are speeds and T is the torque on
 b. The patterns of holding clutches are enumerated. A pattern is rejected if its speeds contradict each other, if the
-slip of an overrunning clutch is not positive (at equal speeds a clutch holds), if a holding clutch has a torque in the
-sense in which it overruns, or if the loads set the train in motion. Speeds are exact, and torques include declared
-losses.
+slip of an overrunning clutch is not positive (at equal speeds a clutch holds), if a holding clutch transmits a torque
+in the sense in which it overruns, or if the loads set the train in motion. Speeds are exact, and torques include
+declared losses.
 
 If no loads are declared, each output in turn is assumed to resist its rotation. An output that no pattern can drive is
 ignored.
 
-If an oscillating link drives another link through a clutch in steps, the clutch is regarded as overrunning
+If an oscillating link drives another link stepwise through a clutch, the clutch is regarded as overrunning
 (`SteppedLink`).
 """
 
@@ -43,17 +43,19 @@ _REJECTED = ("unbalanced", "overrunning")
 
 @dataclass(frozen=True)
 class ClutchPattern:
-    """Set of holding clutches with the resulting prescriptions, speeds, and slip of the overrunning clutches."""
+    """Set of holding clutches with the resulting prescribed speeds, the load case, and the slip of the overrunning
+    clutches.
+    """
 
     holding: tuple[str, ...]
     case: StateCase
     setting: LoadCase | None
     """Load case of the pattern; None if the speeds contradict each other."""
     slips: Mapping[str, Fraction | None]
-    """Speed at which each clutch that does not hold overruns [unit of the train]; None if undetermined."""
+    """Slip speed of each clutch that does not hold [unit of the train], by clutch; None if it is undetermined."""
 
     moves: bool
-    """True if all clutches that do not hold can overrun, for some values of the undetermined speeds."""
+    """True if all clutches that do not hold can overrun for some values of the undetermined speeds."""
 
     @property
     def stopped(self) -> tuple[str, ...]:
@@ -62,7 +64,8 @@ class ClutchPattern:
 
 
 def decide_case(train: Train, state: str | None) -> StateCase:
-    """Return the prescriptions of a state, including the one-way clutches that hold, and the action of each clutch.
+    """Return the prescribed speeds, loads and engaged clutches of a state, including the one-way clutches that hold,
+    and whether each one-way clutch holds or overruns.
 
     The case has `problems` if the declaration does not determine which clutches hold, if the links of a clutch are on
     different axes, or if there are more than `MOST_CLUTCHES` clutches.
@@ -74,9 +77,9 @@ def decide_case(train: Train, state: str | None) -> StateCase:
 
 
 def can_be_positive(forms: Sequence[LinearForm], column: int) -> bool:
-    """Return True if linear forms can all be positive for the same values of the unknowns.
+    """Return True if all linear forms can be positive at the same values of the unknowns.
 
-    column   index of an unused column, for an additional unknown t
+    column   index of a column that is not used in `forms`, for an additional unknown t
 
     The constants are multiplied by t >= 1, so that any positive solution can be scaled until all forms are at least 1.
     """
@@ -140,7 +143,9 @@ class _Decision:
         return ClutchPattern(holding, case, setting, slips, moves)
 
     def _clutch(self, name: str) -> tuple[Clutch, str, str, int]:
-        """Return a clutch, its first link (the frame for a brake), its second link, and its overrunning sense."""
+        """Return a clutch, its first link (the frame for a brake), its second link, and the sense in which it overruns
+        (1 or -1).
+        """
         clutch = self.train.declaration.clutches[name]
         first, second = clutch.locks or (self.train.declaration.frame, clutch.fixes or "")
         (sense,) = clutch.senses
@@ -160,8 +165,8 @@ class _Decision:
         return [each for each in self._patterns.values() if each.moves]
 
     def _contradictory(self) -> ClutchPattern:
-        """Return a pattern with contradictory speeds. If possible, it is reached by locking the clutches that would
-        slip in the wrong sense.
+        """Return a pattern with contradictory speeds. If possible, the contradiction results from locking the clutches
+        that would slip in the wrong sense.
         """
         pattern = self._patterns[()]
         while pattern.setting is not None and pattern.stopped:
@@ -174,7 +179,9 @@ class _Decision:
 
     @cached_property
     def _loads(self) -> Mapping[str, tuple[str, str] | None]:
-        """Loads that are applied one at a time: an output with its two links, or None for all declared loads."""
+        """Loads that are applied one at a time: an output, given by its two links, or None for all declared loads
+        together.
+        """
         declared, case = self.train.declaration, self._patterns[()].case
         if case.loads:
             return {" and ".join(case.loads): None}
@@ -204,11 +211,13 @@ class _Decision:
 
     @cached_property
     def _fitting(self) -> Mapping[str, Sequence[ClutchPattern]]:
-        """Patterns that satisfy the conditions of all clutches, for each load."""
+        """Patterns that satisfy the conditions of all clutches under each load, by load."""
         return {load: [each for each in self._moving if self._fits(each, load)] for load in self._loads}
 
     def _released(self) -> tuple[ClutchPattern, tuple[str, ...]]:
-        """Return the pattern with the fewest violations, without the clutches that cannot hold, and these clutches."""
+        """Return the pattern with the fewest violations after removing the clutches that cannot hold from it, and the
+        names of these clutches.
+        """
         found = []
         for pattern in self._moving:
             kinds = [each.verdict for load in self._loads if (each := self._torques(pattern, load)) is not None]
@@ -221,12 +230,16 @@ class _Decision:
         return self._patterns[tuple(name for name in holding if name not in released)], released
 
     def _members(self, pattern: ClutchPattern, named: set[str]) -> tuple[str, ...]:
-        """Return the holding clutches of a pattern that occur in `named`, in joined names such as `A and B`."""
+        """Return the holding clutches of a pattern that occur in `named`, which may contain joined names such as `A and
+        B`.
+        """
         joined = {pattern.case.clutches[links] for links in pattern.case.senses} & named
         return tuple(name for name in pattern.holding if pattern.case.clutches[self._clutch(name)[0].links] in joined)
 
     def _reversed(self, pattern: ClutchPattern, deciding: Mapping[str, Torques | None]) -> Iterator[str]:
-        """Yield a note for each load that would release a clutch if it drove the train instead of being driven."""
+        """Yield a note for each load that would release a clutch if this load drove the train instead of being
+        driven.
+        """
         for load, forward in deciding.items():
             if forward is None or not pattern.holding:
                 continue
@@ -260,7 +273,9 @@ class _Decision:
     def _torque(
         self, pattern: ClutchPattern, name: str, deciding: Mapping[str, Torques | None]
     ) -> tuple[Fraction | None, str]:
-        """Return the torque of a holding clutch on its second link, and the unit; None if it depends on the loads."""
+        """Return the torque of a holding clutch on its second link, and the unit of the torque. The torque is None if
+        it depends on which load is applied.
+        """
         links, found, unit = self._clutch(name)[0].links, set[Fraction | None](), ""
         source = power_inputs(pattern.setting)[:1] if pattern.setting is not None else ()
         for load, torques in deciding.items():
@@ -284,7 +299,9 @@ class _Decision:
         return clutch.links not in pattern.case.senses and sense * torque < 0
 
     def _shared(self, pattern: ClutchPattern, relieved: Collection[str]) -> Iterator[str]:
-        """Yield notes on clutches that hold the same links together, and on slips that vary within a revolution."""
+        """Yield notes on clutches that hold the same two links together, and on clutches whose slip varies within a
+        revolution.
+        """
         case = pattern.case
         for links in dict.fromkeys(self._clutch(name)[0].links for name in pattern.holding):
             clutches = self.train.declaration.clutches
@@ -315,7 +332,9 @@ class _Decision:
         return replace(case, problems=(*case.problems, Problem(what, why, fix, place)))
 
     def _undecided(self, chosen: Sequence[tuple[str, ...]]) -> tuple[str, str, str]:
-        """Return description, reason and fix of the problem that several patterns are possible in a state."""
+        """Return the description, the reason and the fix of the problem that several clutch patterns are possible in a
+        state.
+        """
         common = set(chosen[0]).intersection(*chosen[1:])
         open_ = [name for name in self.names if any(name in each for each in chosen) and name not in common]
         ways = {
@@ -333,9 +352,11 @@ class _Decision:
 
     @cached_property
     def _varying(self) -> Mapping[str, Sequence[Circuit]]:
-        """Couplings with variable ratio on which the slip of each clutch depends; clutches without any are omitted.
+        """Variable-ratio couplings on which the slip of each clutch depends, by clutch. Clutches that depend on no such
+        coupling are omitted.
 
-        Each row of such a coupling has a symbol, and the slip depends on the coupling if it contains the symbol.
+        The equation of each coupling is assigned a symbol. A slip depends on the coupling if its expression contains
+        this symbol.
         """
         setting = self._patterns[()].setting
         varying = [each for each in setting.circuits if each.swings] if setting is not None else []
@@ -359,7 +380,7 @@ class _Decision:
         return [name for name, couplings in self._varying.items() if not all(each.ratio for each in couplings)]
 
     def _steps(self, pattern: ClutchPattern) -> StateCase:
-        """Return the case in which oscillating links drive one link in steps, or a case with `problems`."""
+        """Return the state case in which oscillating links drive one link stepwise, or a case with `problems`."""
         setting, frame, names = pattern.setting, self.train.declaration.frame, _joined(self._swinging)
         assert setting is not None
         driven, drivers, senses = set[str](), dict[str, int](), set[int]()
@@ -408,6 +429,8 @@ class _Decision:
 
 
 def _joined(names: Sequence[str], verb: str = "") -> str:
-    """Return names joined by commas and `and`, followed by a verb in singular or plural form; empty without names."""
+    """Return names joined by commas and `and`, followed by the verb in its singular or plural form; empty if there are
+    no names.
+    """
     text = " and ".join(filter(None, (", ".join(names[:-1]), *names[-1:])))
     return f"{text} {verb}{'s' if len(names) == 1 else ''}" if verb and names else text

@@ -2,7 +2,8 @@
 
 The power from a link to a pair is -T w, where T is the pair's torque on the link and w the link's absolute speed. The
 powers into and out of a pair differ by its loss; the powers into and out of a shaft are equal. Links that are locked
-together form one shaft. A bearing with friction is treated as a pair of its link and the carrier that only has losses.
+together form one shaft. A bearing with friction is treated as a pair that connects its link and the carrier, and that
+only has losses.
 """
 
 from __future__ import annotations
@@ -54,7 +55,7 @@ class PowerStream(Result):
     power: Fraction
     """Power of the stream, above 0 [unit of torque times the train's unit of speed]."""
     circling: Fraction = Fraction(0)
-    """Part of `power` that recirculates in closed loops [unit of torque times the train's unit of speed]."""
+    """Part of `power` that recirculates in a closed loop [unit of torque times the train's unit of speed]."""
 
 
 @dataclass(frozen=True)
@@ -115,7 +116,9 @@ def find_circulation(
 
 
 def _widest(streams: Sequence[PowerStream], left: Sequence[Fraction]) -> list[int]:
-    """Return the cycle with the largest minimum power (bottleneck cycle), found by bisection; empty if none exists."""
+    """Return the cycle whose minimum power is the largest (bottleneck cycle), as indices of streams; empty if there is
+    no cycle. It is found by bisection.
+    """
     best = _closed(streams, [at for at, power in enumerate(left) if power])
     if not best:
         return []
@@ -130,7 +133,7 @@ def _widest(streams: Sequence[PowerStream], left: Sequence[Fraction]) -> list[in
 
 
 def _closed(streams: Sequence[PowerStream], open_: Iterable[int]) -> list[int]:
-    """Return one cycle that the selected streams form; empty if none exists."""
+    """Return one cycle that is formed by the streams in `open_`, as indices of streams; empty if there is no cycle."""
     stream_of: dict[tuple[PowerNode, PowerNode], int] = {}
     before: dict[PowerNode, list[PowerNode]] = {}
     for at in open_:
@@ -173,7 +176,7 @@ class PowerLoss(Result):
     node: PowerNode
     """Pair or bearing in which the power is lost."""
     power: Fraction
-    """Power loss of the pair or bearing [unit of torque times the train's unit of speed]."""
+    """Power that is lost in the pair or bearing [unit of torque times the train's unit of speed]."""
     power_in: Fraction
     """Power that enters the train [unit of torque times the train's unit of speed]."""
     loss: Fraction
@@ -282,7 +285,9 @@ def find_power_flow(found: Torques) -> PowerFlow:
 
 
 def _shafts(locks: Iterable[tuple[str, ...]]) -> dict[str, PowerNode]:
-    """Return the shaft of every locked link; the name of a shaft consists of the names of all its links."""
+    """Return the shaft to which each locked link belongs, by link. The name of a shaft consists of the names of all its
+    links.
+    """
     pairs = list(locks)
     groups = joined_groups(chain(*pairs), pairs)
     return {link: PowerNode("shaft", " + ".join(group)) for group in groups for link in group}
@@ -306,8 +311,8 @@ def _takers(found: Torques) -> Iterator[tuple[PowerNode, Sequence[tuple[str, Fra
 
 
 def watts_per_unit(train: Train, case: StateCase) -> float | None:
-    """Return the unit of power, N m times the train's unit of speed [W]; None if torques or speeds are numbers without
-    a unit.
+    """Return the unit of power, which is N m times the train's unit of speed, expressed in W; None if torques or speeds
+    are numbers without a unit.
 
     Speeds have a unit if the train declares a `rate`, which is the speed of the first input that turns, or if its
     inputs have units.

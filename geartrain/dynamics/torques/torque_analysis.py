@@ -1,7 +1,7 @@
 """Torques of a declared train in one load case: known and unknown torques, losses, and the verdict.
 
-A verdict describes why no torques balance the loads, which of several solutions is returned, or that the input must
-supply power in addition to the loads (sections 5, 6, 8 and 11 of docs/torques.md).
+A verdict states why no torques balance the loads, which of several solutions is returned, or that the input must supply
+power in addition to the loads (sections 5, 6, 8 and 11 of docs/torques.md).
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ _GREAT = 10**12  # lambda of section 6: factor of the load that makes constant f
 
 @dataclass(frozen=True)
 class LoadedBalance:
-    """Torque balance whose known torques are loads and friction of bearings."""
+    """Torque balance whose known torques are the loads and the friction of bearings."""
 
     balance: TorqueBalance
     speeds: Mapping[str, Fraction]
@@ -56,7 +56,9 @@ class LoadedBalance:
     open: tuple[str, ...] = ()
     """Links whose speed is undetermined."""
     bearings: tuple[BearingTorque, ...] = ()
-    """Friction torques of the bearings; `bearing_friction` is their load-independent sum on each link."""
+    """Friction torques of the bearings. `bearing_friction` is the sum of the load-independent friction torques on each
+    link.
+    """
     bearing_loads: BearingLoads | None = None
     """Loads of the bearings whose friction depends on the load; None if there are none."""
 
@@ -67,7 +69,7 @@ class LoadedBalance:
 
     @property
     def load(self) -> str:
-        """Name of the load for use in sentences: "the load", or "the friction of the bearings"."""
+        """Name of the load for use in sentences: "the load" or "the friction of the bearings"."""
         return "the load" if self.loads else "the friction of the bearings"
 
     @property
@@ -77,22 +79,23 @@ class LoadedBalance:
 
     @property
     def has_friction(self) -> bool:
-        """True if there is a load, and bearing friction that is not proportional to it."""
+        """True if there is a load, and if some bearing friction is not proportional to the load."""
         masses = {} if self.bearing_loads is None else self.bearing_loads.masses
         return any(self.loads.values()) and any((*masses.values(), *self.bearing_friction.values()))
 
     def sorted_flows(self, balance: TorqueBalance) -> tuple[list[FlowPattern], bool]:
         """Return the patterns of power flow of a balance, and True if all patterns were tried.
 
-        The patterns are sorted by the number of undetermined torques, then by losses.
+        The patterns are sorted by the number of undetermined torques, and for equal numbers by losses.
         """
         found, complete = find_flow_patterns(balance)
         # the known powers are the same in all flows, so the power of the unknown torques orders the losses
         return sorted(found, key=lambda flow: (len(flow.solved.open), self.power(flow))), complete
 
     def solve(self) -> tuple[LoadedBalance, list[FlowPattern], bool]:
-        """Return the balance with the friction of loaded bearings, its patterns of power flow as in `sorted_flows`, and
-        True if all patterns were tried. The friction is consistent with the bearing loads in the first pattern.
+        """Return the balance including the load-dependent friction of bearings, its patterns of power flow as in
+        `sorted_flows`, and True if all patterns were tried. The friction is consistent with the bearing loads in the
+        first pattern.
         """
         found, loads = self, self.bearing_loads
         flows, complete = self.sorted_flows(self.balance)
@@ -111,22 +114,28 @@ class LoadedBalance:
         return self, [], complete
 
     def power(self, flow: FlowPattern) -> Fraction:
-        """Return the power that the unknown torques supply [unit of torque times the train's unit of speed]."""
+        """Return the power that the unknown torques supply in one pattern of power flow [unit of torque times the
+        train's unit of speed].
+        """
         return self._power(flow.solved.external)
 
     def _power(self, torques: Mapping[str, Fraction]) -> Fraction:
-        """Return the total power of the given torques on links whose speed is determined."""
+        """Return the total power of the given torques on links whose speed is determined [unit of torque times the
+        train's unit of speed].
+        """
         return sum((torque * self.speeds.get(link, 0) for link, torque in torques.items()), Fraction(0))
 
     def heavily_loaded(self) -> tuple[FlowPattern, ...]:
-        """Return the patterns of power flow under a load so large that constant friction is negligible."""
+        """Return the patterns of power flow for a load that is so large that load-independent friction is
+        negligible.
+        """
         loads = {link: _GREAT * torque for link, torque in self.loads.items()}
         known = _acting(loads, self.bearing_friction)
         return tuple(replace(self, loads=loads, balance=replace(self.balance, known=known)).solve()[1])
 
 
 def find_imbalance(setting: LoadCase, known: Mapping[str, Fraction], requested: Sequence[str]) -> TorqueVerdict | None:
-    """Return the verdict if the unknown torques cannot balance the loads even without losses; None if they can."""
+    """Return a verdict if the unknown torques cannot balance the loads even without losses; return None if they can."""
     motions = unbalanced_motions(setting.system, known, requested)
     if not motions:
         return None
@@ -154,7 +163,7 @@ def _some(links: Sequence[str]) -> str:
 def find_torque_verdict(
     question: LoadedBalance, flows: Sequence[FlowPattern], complete: bool, neglected: Sequence[NeglectedEffect] = ()
 ) -> TorqueVerdict:
-    """Return the verdict on patterns of power flow that are sorted by the number of undetermined torques, then by
+    """Return the verdict on the patterns of power flow. They are sorted by the number of undetermined torques, then by
     losses; the first pattern is the result.
     """
     if not flows:
@@ -188,8 +197,8 @@ def _neglected_note(neglected: Sequence[NeglectedEffect]) -> str:
 
 
 def _unbalanced(question: LoadedBalance, complete: bool) -> TorqueVerdict:
-    """Return the verdict that no torques balance the load, with the cause: declared shares, or friction of bearings or
-    teeth.
+    """Return the verdict that no torques balance the load. It names the cause: declared shares, friction of bearings,
+    or friction of teeth.
     """
     names = question.names
     if not question.enough:
@@ -217,7 +226,9 @@ def _unbalanced(question: LoadedBalance, complete: bool) -> TorqueVerdict:
 
 
 def _locked_bearings(question: LoadedBalance) -> TorqueVerdict:
-    """Return the verdict that no torques balance the load because bearing friction is proportional to the load."""
+    """Return the verdict that no torques balance the load, because bearing friction that is proportional to the load
+    locks the train.
+    """
     assert question.bearing_loads is not None
     links = ", ".join(question.bearing_loads.links)
     if question.has_friction and question.heavily_loaded():
@@ -233,7 +244,7 @@ def _locked_bearings(question: LoadedBalance) -> TorqueVerdict:
 
 
 def _driving_note(question: LoadedBalance, flow: FlowPattern) -> str:
-    """Return a note on a load that supplies power but cannot drive the train by itself; "" for other loads."""
+    """Return a note if a load supplies power but cannot drive the train by itself; "" for other loads."""
     if question.driving <= 0 or question.power(flow) <= 0:
         return ""
     heavy = question.heavily_loaded() if question.has_friction else ()
@@ -266,7 +277,9 @@ def _indeterminate(flows: Sequence[FlowPattern], question: LoadedBalance) -> Tor
 
 
 def _ambiguous(question: LoadedBalance, flows: Sequence[FlowPattern]) -> TorqueVerdict:
-    """Return the verdict on several patterns of power flow; it describes the returned one and mentions the others."""
+    """Return the verdict for several patterns of power flow, which describes the returned pattern and mentions the
+    other patterns.
+    """
     given, *others = (question.power(flow) for flow in flows)
     rest = " or ".join(_describe_flow(question, power, given < 0) for power in others)
     text = (
@@ -290,7 +303,8 @@ _Key = tuple[object, ...]
 
 
 def find_shares(train: Train, circuits: Sequence[Circuit], loaded: Collection[str]) -> tuple[LoadShares, ...]:
-    """Return the declared fractions of the torque of each wheel, if two or more of its pairs have a `share`.
+    """Return, for each wheel with two or more pairs that declare a `share`, the fraction of its torque that each of
+    these pairs transmits.
 
     loaded   links with an external torque or a brake
 
@@ -316,7 +330,7 @@ def find_ties(
     known: Mapping[str, Fraction],
     singled: Collection[str],
 ) -> tuple[tuple[str, ...], ...]:
-    """Return groups of pairs of equal planets; the torques of the pairs in a group are equal.
+    """Return groups of corresponding pairs of equal planets. All pairs in a group have equal torques.
 
     Planets are equal if they have the same carrier and external torque, and if they mesh with the same wheels or with
     equal planets, with equal tooth counts and efficiencies. They are found by colour refinement.
@@ -342,7 +356,9 @@ def find_ties(
 def _planet_meshes(
     circuits: Sequence[Circuit], meshes: Sequence[LoadedPair], apart: Collection[str]
 ) -> dict[str, list[tuple[str, str, _Key]]]:
-    """Return the meshes of each planet: name, link of the mate, and a key that equal planets have in common."""
+    """Return the meshes of each planet, by planet: name of the mesh, link of the mate, and a key that is the same for
+    equal planets.
+    """
     found: dict[str, list[tuple[str, str, _Key]]] = {}
     for circuit, mesh in zip(circuits, meshes, strict=True):
         first, second = circuit.wheels if circuit.kind == "gear" else (circuit.i, circuit.j)
@@ -361,7 +377,9 @@ def _planet_meshes(
 def _planet_classes(
     meshing: Mapping[str, Sequence[tuple[str, str, _Key]]], known: Mapping[str, Fraction]
 ) -> dict[str, int]:
-    """Return the number of the class of equal planets that contains each planet, found by colour refinement."""
+    """Return the index of the class of equal planets to which each planet belongs, by planet. The classes are found by
+    colour refinement.
+    """
     classes: dict[str, int] = {}
     while True:
         keys: dict[str, _Key] = {}
@@ -376,7 +394,7 @@ def _planet_classes(
 
 @dataclass(frozen=True)
 class TorqueQuestion:
-    """Loads in one load case [N m, or numbers without a unit], and the links whose torques are to be computed."""
+    """Loads in one load case [N m, or numbers without a unit], and the links whose torques are computed."""
 
     loads: Mapping[str, Fraction]
     links: tuple[str, ...]
@@ -386,13 +404,14 @@ class TorqueQuestion:
     If the number of unknown torques is smaller, the loads must be in equilibrium without additional torques.
     """
     undecided: TorqueVerdict | None = None
-    """Verdict that requests a further unknown torque, which is returned if the loads are not in equilibrium; None if no
+    """Verdict that requests a further unknown torque, which is returned if the loads are not in equilibrium. None if no
     further torque is required.
     """
 
 
 def find_torques(setting: LoadCase, flows_only: bool = False) -> Torques:
-    """Compute the torques under the declared loads and the friction of bearings; see equations (3) to (8) and (10).
+    """Compute the torques under the declared loads and the friction of bearings; see equations (3) to (8) and (10) of
+    docs/torques.md.
 
     flows_only   True to omit the search for neglected effects, which requires the teeth of every pair
     """
@@ -418,7 +437,7 @@ def find_idle_pairs(setting: LoadCase) -> Collection[str]:
 
 
 def find_question(setting: LoadCase, solve_for: str | None) -> TorqueQuestion | TorqueVerdict:
-    """Return the loads and the links with unknown torques; return a verdict if no load is declared, or if no torque can
+    """Return the loads and the links with unknown torques. Return a verdict if no load is declared, or if no torque can
     be requested.
     """
     loads = {link: torque.base for link, torque in setting.case.loads.items()}
@@ -433,12 +452,14 @@ def find_question(setting: LoadCase, solve_for: str | None) -> TorqueQuestion | 
 
 
 def torques_unknown(state: str | None) -> Torques:
-    """Return the result for a state whose speeds are undetermined."""
+    """Return the torques, with a verdict but without values, for a state whose speeds are undetermined."""
     return Torques(state, TorqueVerdict("still", "the speeds of this state are not determined"))
 
 
 def resist(setting: LoadCase, drag: Mapping[str, Fraction]) -> Torques:
-    """Compute the torques if power enters at the inputs and the torques `drag` act; bearing friction is neglected."""
+    """Compute the torques if power enters at the inputs and the torques in `drag` act on links. Bearing friction is
+    neglected.
+    """
     if (verdict := _without_axis(setting, drag)) is not None:
         return Torques(setting.case.state, verdict)
     links = power_inputs(setting)
@@ -450,20 +471,20 @@ class EscapementTorques(NamedTuple):
     """Torque that drives a clock, and the resulting torque at its escape wheel [N m]."""
 
     source: str
-    """Link at which power enters the train."""
+    """Name of the link at which power enters the train."""
     torque: float
     """Torque at `source`, in its sense of rotation [N m]."""
     at_escape: float
     """Torque at the escape wheel, in its sense of rotation [N m]; 0 or less if friction stops the train."""
     without_bearings: float
-    """Torque at the escape wheel if bearing friction that does not depend on the load is omitted [N m]."""
+    """Torque at the escape wheel if load-independent bearing friction is omitted [N m]."""
     lost_in_bearings: float
-    """Fraction of the power that is lost in bearings."""
+    """Fraction of the input power that is lost in bearings."""
 
 
 def escapement_torques(setting: LoadCase) -> EscapementTorques | None:
-    """Return the torque at the escape wheel of a clock under its only load, or else under its drive. None if neither
-    drives the train with a known torque [N m], or if no torques balance.
+    """Return the torque at the escape wheel of a clock under its only load, or, if there is no load, under its drive.
+    Return None if neither drives the train with a known torque [N m], or if no torques balance.
     """
     escapement, case = setting.train.escapement, setting.case
     (source, torque), *more = case.loads.items() or [(power_inputs(setting)[0], None)]
@@ -493,7 +514,9 @@ def escapement_torques(setting: LoadCase) -> EscapementTorques | None:
 
 
 def drive(setting: LoadCase, load: str, source: str) -> Torques:
-    """Compute the torques if `source` drives and unit power leaves at `load`; bearing friction is neglected."""
+    """Compute the torques if the link `source` drives and a unit of power leaves at the link `load`. Bearing friction
+    is neglected.
+    """
     if (verdict := _without_axis(setting, (load, source))) is not None:
         return Torques(setting.case.state, verdict)
     for link in (load, source):
@@ -508,7 +531,9 @@ def drive(setting: LoadCase, load: str, source: str) -> Torques:
 
 
 def _requested(setting: LoadCase, loads: Mapping[str, Fraction], solve_for: str | None) -> TorqueQuestion:
-    """Return the links with unknown torques, as many as there are inputs, or fewer if the choice is not unique."""
+    """Return the question with as many links with unknown torque as there are inputs, or fewer if the choice is not
+    unique.
+    """
     inputs, enter = setting.case.inputs, power_inputs(setting)
     free = tuple(link for link in enter if link not in loads)
     needed = len(inputs)
@@ -541,7 +566,8 @@ def _requested(setting: LoadCase, loads: Mapping[str, Fraction], solve_for: str 
 
 
 def _without_axis(setting: LoadCase, links: Iterable[str]) -> TorqueVerdict | None:
-    """Return a verdict if the speed of one of the links is a sum of joint speeds about non-parallel axes; else None.
+    """Return a verdict if the speed of one of the links is a sum of joint speeds about non-parallel axes; None if it is
+    not.
 
     Such a sum is not a rotation, so the power of a torque on the link is not unique.
     """
@@ -554,7 +580,7 @@ def _without_axis(setting: LoadCase, links: Iterable[str]) -> TorqueVerdict | No
 
 
 def _at_rest(setting: LoadCase, requested: tuple[str, ...]) -> TorqueVerdict | None:
-    """Return a verdict if the only requested link is at rest while the train moves; else None."""
+    """Return a verdict if the only requested link is at rest while the train moves; None if it is not."""
     speeds = setting.speeds
     if len(requested) == 1 and speeds.get(requested[0]) == 0 and any(speeds[link] for link in setting.case.inputs):
         return TorqueVerdict("still", f"'{requested[0]}' does not turn, so a torque on it does no work")
@@ -605,8 +631,8 @@ def _balanced(setting: LoadCase, unknown: TorqueQuestion, bearings: bool = True,
 
 
 def _overrunning(setting: LoadCase, flow: FlowPattern) -> tuple[str, ...]:
-    """Return the one-way clutches that hold but transmit a torque in the sense in which they overrun; if there are
-    none, those whose torque is undetermined.
+    """Return the one-way clutches that hold but transmit a torque in the sense in which they overrun. If there are
+    none, return the clutches whose torque is undetermined.
     """
     senses = setting.case.senses
     held = [each for each in _held(setting, flow) if each.links in senses]
@@ -615,9 +641,9 @@ def _overrunning(setting: LoadCase, flow: FlowPattern) -> tuple[str, ...]:
 
 
 def _with_reason(question: TorqueQuestion, lacking: TorqueVerdict) -> TorqueVerdict:
-    """Return one verdict from two: which torque could be requested, and what prevents a balance without it.
+    """Return one verdict that states which torque could be requested, and what prevents a balance without this torque.
 
-    The first part is omitted if no further torque can be requested.
+    The first statement is omitted if no further torque can be requested.
     """
     if question.undecided is None:
         return lacking
@@ -661,7 +687,7 @@ def build_balance(
 
 def _reactions(setting: LoadCase, requested: Iterable[str]) -> dict[str, tuple[str, int]]:
     """Return, for each unknown torque whose reaction does not act on the frame, the link on which the reaction acts,
-    and the reaction to a unit torque.
+    and the sign of the reaction to a unit torque.
     """
     bases = ((link, setting.reacts_on(link)) for link in requested)
     return {
@@ -678,7 +704,7 @@ def _locks(setting: LoadCase) -> tuple[tuple[str, str], ...]:
 
 
 def _mesh(setting: LoadCase, circuit: Circuit, means: MeanEfficiencies | None) -> LoadedPair:
-    """Return a circuit as a loaded pair with its losses, or without losses if its relative speed is undetermined."""
+    """Return the loaded pair of a circuit with its losses. It has no losses if its relative speed is undetermined."""
     # a travel reacts on a link that slides and on a link that turns, other pairs on one link
     links = (circuit.i, circuit.j, *(circuit.subtracted if circuit.travels else circuit.subtracted[:1]))
     senses = tuple(map(setting.sense, links))
@@ -700,7 +726,9 @@ def _acting(loads: Mapping[str, Fraction], bearing_friction: Mapping[str, Fracti
 
 
 def _bearing_friction(setting: LoadCase, bearings: Sequence[BearingTorque]) -> dict[str, Fraction]:
-    """Return the total friction torque of bearings on each link, also as the carrier of a bearing."""
+    """Return the total friction torque of bearings on each link, by link, including reactions on links that carry
+    bearings.
+    """
     found: dict[str, Fraction] = {}
     for bearing in bearings:
         for link, torque in ((bearing.link, bearing.torque), (bearing.carrier, bearing.reaction)):
@@ -753,7 +781,9 @@ def _torques(
 
 
 def _load(arms: Mapping[str, Fraction], link: str, torque: Fraction) -> Fraction:
-    """Return the force on a sliding link [N] that a torque represents; other torques are unchanged."""
+    """Return the force [N] on a sliding link that a torque represents. For a link that turns, the torque is returned
+    unchanged.
+    """
     return torque / arms[link] if link in arms else torque
 
 
@@ -781,7 +811,7 @@ def _pair(setting: LoadCase, mesh: LoadedPair, circuit: Circuit, flow: FlowPatte
 def _held(setting: LoadCase, flow: FlowPattern) -> tuple[HoldingTorque, ...]:
     """Return the brakes and locks with their torques, each about the axis of its link.
 
-    The torque of a lock on its second link is the reaction to the torque on the first.
+    The torque of a lock on its second link is the reaction to the torque on its first link.
     """
     solved = flow.solved
     found = []

@@ -2,8 +2,8 @@
 
 The equations are (1) to (7) of docs/torques.md. A mesh of links i and j with carrier k and the equation a (w_i - w_k) +
 b (w_j - w_k) = 0 has one multiplier x. Without losses, its torques are a x on i, b x on j, and minus their sum on k. If
-i drives relative to the carrier, the torque on j is multiplied by the efficiency eta; if j drives, the torque on i is.
-The loss is the driver's power relative to the carrier times 1 - eta; it is never negative.
+i drives relative to the carrier, the torque on j is multiplied by the efficiency eta. If j drives, the torque on i is
+multiplied by eta. The loss is the driver's power relative to the carrier times 1 - eta; it is never negative.
 """
 
 from __future__ import annotations
@@ -18,10 +18,12 @@ from geartrain.numerics.block_triangular import Block, dulmage_mendelsohn_blocks
 from geartrain.numerics.elimination import LinearForm
 
 DrivingSides = Mapping[str, int]
-"""Driving side of each mesh relative to the carrier: 1 for the first link, -1 for the second link, 0 without losses."""
+"""Driving side of each mesh relative to the carrier: 1 for the first link, -1 for the second link, 0 for a mesh without
+losses.
+"""
 
 LoadShares = tuple[str, Mapping[str, Fraction]]
-"""Link, and meshes of one of its wheels, each with the fraction of the wheel's torque that it transmits."""
+"""A link, and the meshes of one of its wheels, each with the fraction of the wheel's torque that it transmits."""
 _SCALES = 1_000_003, 1_414_213  # factors of the coefficients of a row, so that nothing cancels by chance
 
 
@@ -31,7 +33,9 @@ class LoadedPair:
 
     id: str
     links: tuple[str, ...]
-    """Links i, j and k (first, second, carrier); four links if the two sides react on different links."""
+    """Names of the links i, j and k (first, second, carrier); four links if the two members react on different
+    links.
+    """
     senses: tuple[int, ...]
     """Senses of the axes of `links` relative to the reference direction, 1 or -1."""
     a: int
@@ -39,10 +43,12 @@ class LoadedPair:
     b: int
     """Coefficient of the second link in the pair's Willis equation."""
     rolling: Fraction
-    """Rolling speed a (w_i - w_k) = -b (w_j - w_k), where w are angular speeds; 0 without relative motion."""
+    """Rolling speed a (w_i - w_k) = -b (w_j - w_k), where w are angular speeds and a and b the coefficients; 0 without
+    relative motion.
+    """
     forward: Fraction = Fraction(1)
-    """Efficiency with the first link driving, at most 1; 0 or less means self-locking. `backward` is the efficiency
-    with the second link driving.
+    """Efficiency if the first link drives, at most 1; 0 or less means self-locking. `backward` is the efficiency if the
+    second link drives.
     """
     backward: Fraction = Fraction(1)
 
@@ -61,7 +67,9 @@ class LoadedPair:
 
     @property
     def turn(self) -> int:
-        """Sign of the rolling speed; power flows from first to second link if the multiplier has the opposite sign."""
+        """Sign of the rolling speed. Power flows from the first to the second link if the multiplier has the opposite
+        sign.
+        """
         return (self.rolling > 0) - (self.rolling < 0)
 
     @property
@@ -74,7 +82,9 @@ class LoadedPair:
         return tuple(side for side in (1, -1) if self.efficiency(side) > 0) or (1,)
 
     def efficiency(self, side: int) -> Fraction:
-        """Return the efficiency with the first link driving (`side` 1) or the second (-1); it is 1 for side 0."""
+        """Return the efficiency if the first link drives (`side` 1) or if the second link drives (`side` -1); it is 1
+        for side 0.
+        """
         return self.forward if side > 0 else self.backward if side < 0 else Fraction(1)
 
     def torques(self, side: int) -> tuple[Fraction, ...]:
@@ -85,29 +95,29 @@ class LoadedPair:
         return tuple(sense * torque for sense, torque in zip(self.senses, (left, right, *reactions), strict=True))
 
     def relative_signs(self, other: LoadedPair, alike: bool) -> tuple[int, int]:
-        """Return the signs of the torques on both links relative to the torques of `other`, an equal pair with the same
-        unknown torque.
+        """Return the sign of the torque on each of the two links relative to the torque of `other`, an equal pair with
+        the same unknown torque. A reversed axis of a planet changes the sign.
 
-        alike   True if both pairs have their links in the same order; a reversed axis of a planet changes the sign
+        alike   True if both pairs have their links in the same order
         """
         coefficients = (other.a, other.b) if alike else (other.b, other.a)
         first, second = (-1 if a * b < 0 else 1 for a, b in zip((self.a, self.b), coefficients, strict=True))
         return first, second
 
     def power(self, multiplier: Fraction) -> Fraction:
-        """Return the power from the first link to the second relative to the carrier, before losses if the first
-        drives; equation (4).
+        """Return the power that flows from the first link to the second relative to the carrier, before losses if the
+        first link drives; see equation (4).
         """
         return -multiplier * self.rolling
 
 
 @dataclass(frozen=True)
 class TorqueUnknown:
-    """Unknown torque that is common to one or more meshes, with its coefficient in each row of the balance."""
+    """Unknown torque that one or more meshes have in common, with its coefficient in each row of the balance."""
 
     pieces: Mapping[int, LinearForm]
-    """Coefficients of the torque, by driving side and row of the balance. A side refers to the first mesh with losses;
-    side 0 means without losses.
+    """Coefficients of the torque, by driving side and row of the balance. A driving side refers to the first mesh with
+    losses; side 0 is used for meshes without losses.
     """
     meshes: tuple[LoadedPair, ...] = ()
     sides: tuple[int, ...] = (0,)
@@ -115,7 +125,7 @@ class TorqueUnknown:
     turn: int = 0
     """Sign of the rolling speed of the first mesh with losses."""
     barred: bool = False
-    """True if no power can flow, which requires the torque to be 0."""
+    """True if no power can flow through the mesh, so that the torque must be 0."""
     sense: int = 0
     """Required sign of the torque of a one-way clutch, 1 or -1; 0 if any sign is permitted."""
 
@@ -126,8 +136,8 @@ class TorqueUnknown:
         return side == 0 or ((torque > 0) - (torque < 0)) * side * self.turn <= 0
 
     def side_of(self, mesh: LoadedPair, side: int) -> int:
-        """Return the driving side of one mesh with this unknown torque, whose links may be in the reverse order; 0
-        without losses.
+        """Return the driving side of one mesh with this unknown torque, given the side of the first mesh; the links of
+        the mesh may be in the reverse order. Return 0 if the mesh has no losses.
         """
         return side * mesh.turn * self.turn if mesh.loses else 0
 
@@ -139,8 +149,8 @@ class TorqueBalance:
     links     all links except the frame
     known     link -> external torque, which includes loads and friction of bearings; 0 for other links
     unknown   links with unknown external torque
-    reactions link with unknown torque -> link on which the reaction acts if it is not the frame, and the reaction to a
-              unit torque
+    reactions link with unknown torque -> link on which the reaction acts if it is not the frame, and the sign of the
+              reaction to a unit torque
     held      links braked to the frame; `locks` are pairs of links that are locked together, with both senses
     ties      groups of meshes with equal multipliers, such as meshes of equal planets
     shares    declared fractions of the torque of a wheel
@@ -220,7 +230,9 @@ class TorqueBalance:
 
     @property
     def whole(self) -> Block:
-        """Whole balance as one block; used if a block does not determine an unknown that a later block requires."""
+        """Whole balance as one block, which is used if a block does not determine an unknown that a later block
+        requires.
+        """
         return Block(tuple(self.rows), tuple(range(len(self.columns))))
 
     @cached_property
@@ -231,8 +243,8 @@ class TorqueBalance:
     def _parts(self) -> Mapping[str, Sequence[tuple[int, str, Fraction]]]:
         """Rows of declared shares that contain the torque of a mesh, by name of the mesh.
 
-        Such a row states that the torque of a mesh on the link, divided by its share, equals this quotient of the first
-        mesh.
+        Such a row states that the torque of a mesh on the link divided by its share is equal to the torque of the first
+        mesh divided by its share.
         """
         found: dict[str, list[tuple[int, str, Fraction]]] = {}
         row = len(self.links)
@@ -257,7 +269,9 @@ class TorqueBalance:
         return TorqueUnknown(pieces, meshes, sides, turn, blank.barred)
 
     def places(self, mesh: LoadedPair) -> Iterator[tuple[int, int, Fraction]]:
-        """Yield the entries of a mesh's torques in the balance: row, index of the link in `links`, and factor."""
+        """Yield the entries of a mesh's torques in the balance: index of the row, index of the link in `links`, and
+        factor.
+        """
         yield from ((self._at[link], at, Fraction(1)) for at, link in enumerate(mesh.links) if link in self._at)
         yield from ((row, mesh.links.index(link), factor) for row, link, factor in self._parts.get(mesh.id, ()))
 
@@ -267,13 +281,13 @@ class TorqueBalance:
 
 
 def _direction(entries: Sequence[tuple[int, int, Fraction]], known: Fraction) -> tuple[object, ...]:
-    """Return a row divided by its first entry, which is equal for proportional rows."""
+    """Return a row divided by its first entry. The result is equal for all proportional rows."""
     scale = entries[0][2] if entries else known
     return (known / scale, *((at, side, value / scale) for at, side, value in entries))
 
 
 def _row(entries: Iterable[tuple[int, Fraction]]) -> LinearForm:
-    """Return the sums of the entries of one row by column, without zeros."""
+    """Return the entries of one row with entries of the same column added; entries that are 0 are omitted."""
     row: LinearForm = {}
     for at, value in entries:
         row[at] = row.get(at, Fraction(0)) + value
@@ -282,7 +296,9 @@ def _row(entries: Iterable[tuple[int, Fraction]]) -> LinearForm:
 
 @dataclass(frozen=True)
 class SolvedTorques:
-    """Torques for one pattern of power flow: multipliers of meshes, external torques, torques of brakes and locks."""
+    """Torques for one pattern of power flow: multipliers of meshes, external torques, and torques of brakes and
+    locks.
+    """
 
     multipliers: Mapping[str, Fraction]
     external: Mapping[str, Fraction]
@@ -290,7 +306,7 @@ class SolvedTorques:
     locks: tuple[Fraction | None, ...]
     """Torque of each lock on its first link, about the reference direction of parallel axes; None if undetermined."""
     loose: tuple[str, ...]
-    """Meshes with undetermined torque, such as those of several planets; here their multiplier is set to 0."""
+    """Names of the meshes with undetermined torque, such as those of several planets. Their multiplier is set to 0."""
     open: tuple[str, ...]
     """Requested or braked links whose torque is undetermined. They are omitted from `external` and `brakes`."""
 
@@ -318,7 +334,9 @@ def without_pairs(balance: TorqueBalance, names: set[str]) -> TorqueBalance:
 
 
 def generic_balance(balance: TorqueBalance) -> TorqueBalance:
-    """Return the balance with generic coefficients, which do not cancel; it determines the order of solution."""
+    """Return the balance with generic coefficients, which do not cancel. It is used to determine the order of
+    solution.
+    """
     group = {name: at for at, names in enumerate(balance.ties, 1) for name in names}
     meshes = tuple(
         replace(
@@ -336,7 +354,7 @@ def generic_balance(balance: TorqueBalance) -> TorqueBalance:
 
 
 def equal_planets(balance: TorqueBalance) -> dict[str, tuple[str, ...]]:
-    """Return for each planet the names of the planets that are equal to it, including its own."""
+    """Return, for each planet, the names of all planets equal to it, including its own name."""
     ends = {mesh.id: mesh.links[:2] for mesh in balance.meshes}
     found: dict[str, tuple[str, ...]] = {}
     for group in balance.ties:

@@ -26,7 +26,7 @@ class LinkTorque(Result):
     is undetermined.
     """
     requested: bool
-    """True if the torque was computed, False if it was declared."""
+    """True if the torque was computed because it was requested, False if it was declared."""
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ class HoldingTorque(Result):
     KEYS = ("links", "clutch", Key("cause", "declared_cause"), Key("torques", "by_link", as_float))
 
     links: tuple[str, ...]
-    """Name of the braked link, or names of the two links that are locked together."""
+    """Name of the braked link, or names of the two links that are locked together, as a tuple."""
     torques: tuple[Fraction, ...] | None
     """Torque on each of the links about its own axis [N m, or a number without a unit]; None if undetermined."""
     clutch: str | None = None
@@ -116,17 +116,17 @@ class PairTorque(Result):
     torques: tuple[Fraction, ...]
     """Torques on `links` about their own axes, or forces on sliding links [N m or N, or numbers without a unit]."""
     multiplier: Fraction
-    """Multiplier x of the pair's Willis equation. Without losses, the torque on the first link is x times its
-    coefficient a.
+    """Multiplier x of the pair's Willis equation a (w_i - w_k) + b (w_j - w_k) = 0. Without losses, the torque on the
+    first link is a x.
     """
     rolling: Fraction | None
     """Rolling speed, which is the coefficient a of the Willis equation times the speed of the first link relative to
     the carrier; None if undetermined.
 
-    The power from the first link to the second is -x times this speed.
+    The power from the first link to the second is -x times this speed, where x is the `multiplier` of the pair.
     """
     share: Fraction
-    """Efficiency of the pair with the carrier at rest and `driver` driving; 1 for a pair without losses."""
+    """Efficiency of the pair if its carrier is at rest and `driver` drives; 1 for a pair without losses."""
     loose: bool = False
     """True if the balance of torques does not determine the torque of the pair."""
     exact: bool = True
@@ -134,12 +134,14 @@ class PairTorque(Result):
 
     @property
     def forces(self) -> tuple[bool, ...]:
-        """True for each of the `links` on which a force acts, False if a torque acts on it."""
+        """Flag for each of the `links`: True if a force acts on the link, False if a torque acts on it."""
         return (True, False, True, False) if len(self.links) == 4 else (False,) * 3
 
     @property
     def efficiency(self) -> Fraction | float:
-        """Basic efficiency (carrier at rest) if `driver` drives; a float for a mean over positions of the teeth."""
+        """Basic efficiency (carrier at rest) if `driver` drives; a float if it is a mean over positions of the
+        teeth.
+        """
         return self.share if self.exact else float(self.share)
 
     @property
@@ -190,7 +192,7 @@ class TorqueVerdict(Result):
 
     - `determined`: all torques follow from the loads, and no declared effect is neglected.
     - `incomplete`: all torques follow from the loads, but `Torques.neglected` lists neglected effects.
-    - `self-locking`: no torques balance the load, however large, while the train turns in this sense.
+    - `self-locking`: no torques, however large, balance the load while the train turns in this sense.
     - `stalled`: no torques balance this load, which is too small to overcome the friction of bearings.
     - `ambiguous`: several patterns of power flow balance the load; the one with minimum loss is returned.
     - `indeterminate`: some pairs share a load in proportions that the declaration does not determine.
@@ -213,7 +215,9 @@ class TorqueVerdict(Result):
     text: str
     """Verdict and its reason in one sentence."""
     candidates: tuple[str, ...] = ()
-    """Links whose torque may be requested (`solve_for`) or balances the loads, or pairs with unknown torques."""
+    """Links whose torque may be requested (`solve_for`), links whose torque can balance the loads, or pairs whose
+    torques are unknown, depending on `kind`.
+    """
 
     def _summary(self) -> str:
         return f"{self.kind}: {self.text}"
@@ -235,8 +239,8 @@ class NeglectedEffect(Result):
 
     @property
     def counts(self) -> bool:
-        """True if the neglected effect changes mean values; False for variations within a revolution, and for the
-        choice between two mean values.
+        """True if the neglected effect changes mean values. False if it causes only variations within a revolution, or
+        determines only which of two known mean values applies.
         """
         return self.what not in ("variation within a turn", "mean efficiency")
 
@@ -259,7 +263,7 @@ class DrivenWay(NamedTuple):
 class Torques(FrozenFields, Tabular, TrainResult):
     """Exact torques and powers of a train in one state, from A^T x + T = 0, equation (3) of docs/torques.md.
 
-    Torques are in N m if loads have units, and otherwise are numbers without a unit. The unit of power is the unit of
+    Torques are in N m if loads have units, and numbers without a unit if they do not. The unit of power is the unit of
     torque times the train's unit of speed. Powers are positive if they flow into the train.
 
     Examples
@@ -325,16 +329,16 @@ class Torques(FrozenFields, Tabular, TrainResult):
     neglected: tuple[NeglectedEffect, ...] = ()
     """Declared effects that are not included in the torques."""
     reactions: Mapping[str, tuple[str, Fraction]] = field(default_factory=dict)
-    """Reactions that do not act on the frame. For a link in `requested`: the link on which the reaction acts, such as
-    the link of the pallets, and its torque, which is included in `external`.
+    """Reactions that do not act on the frame. For each such link in `requested`, they are the link on which the
+    reaction acts, such as the link of the pallets, and the torque on that link, which is included in `external`.
     """
     overrunning: Mapping[str, Fraction | None] = field(default_factory=dict)
-    """Speed at which each overrunning one-way clutch slips [unit of the train], by clutch; None if undetermined. It
-    transmits no torque.
+    """Slip speed of each overrunning one-way clutch [unit of the train], by clutch; None if it is undetermined. An
+    overrunning clutch transmits no torque.
     """
     arms: Mapping[str, Fraction] = field(default_factory=dict)
-    """Lever arm of the force on each link that slides [m]. Power is force times arm times angular speed, where a travel
-    of 1 mm counts as one turn.
+    """Lever arm of the force on each link that slides [m]. The power is the force times this arm times the angular
+    speed, where a travel of 1 mm corresponds to one turn.
     """
 
     def power(self, link: str, load: Fraction) -> Fraction:
@@ -396,7 +400,7 @@ class Torques(FrozenFields, Tabular, TrainResult):
         }
 
     def plot(self) -> Any:
-        """Draw the power flow under these torques as a matplotlib figure."""
+        """Return a matplotlib figure of the power flow under these torques."""
         return imported_function("drawing.power_sankey", "power_figure")(self, self.state or "")
 
     @property

@@ -34,7 +34,7 @@ def drive_both_ways(train: TrainMechanics, state: str | None) -> list[DrivenWay]
     """Compute the torques if the input drives the output, and if the output drives the input, for a unit of power at
     the driven link.
 
-    By default, the first state is used. The list is empty if the output link is not unique.
+    If `state` is None, the first state is used. The list is empty if the output link is not unique.
     """
     train = train.unfolded
     declared = train.declaration
@@ -47,7 +47,7 @@ def drive_both_ways(train: TrainMechanics, state: str | None) -> list[DrivenWay]
 
 
 def _without_rests(train: TrainMechanics, torques: Torques) -> Torques:
-    """Return the torques, with the verdict `self-locking` if power would flow back through a coupling that locks its
+    """Return the torques; their verdict is `self-locking` if power would flow back through a coupling that locks its
     driven link in a dwell.
     """
     wheels = train.declaration.wheels

@@ -1,5 +1,5 @@
-"""Torque over a revolution: the balance at every position with the actual ratio and friction (docs/torques.md, section
-16).
+"""Torque over a revolution: torque balance at every position with the actual speed ratio and friction (docs/torques.md,
+section 16).
 
 train_turn           main functions: torque of a train over revolutions of its input, and the results of a run
 turn_run             positions at which torques are computed, and integrals over the run

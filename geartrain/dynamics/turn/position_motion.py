@@ -1,7 +1,7 @@
 """Motion of all links at given positions of the input: speeds of the links, and driver angles of the pairs.
 
-If the torque of a pair acts on the coast flanks, its error follows from their transmission function. The flank in
-contact may change from position to position.
+If the torque of a pair acts on the coast flanks, the transmission error of the pair follows from the transmission
+function of these flanks. The flank in contact may change from position to position.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ class PositionMotion:
 
     @cached_property
     def links(self) -> Mapping[str, int]:
-        """Row of each link in the arrays of speeds."""
+        """Row index of each link in the arrays of speeds, by link."""
         return {link: row for row, link in enumerate(self.motion.outputs)}
 
     @cached_property
@@ -64,12 +64,14 @@ class PositionMotion:
 
     @property
     def period(self) -> Fraction | None:
-        """Revolutions of the input after which the evaluated pairs repeat their positions; None without such pairs."""
+        """Revolutions of the input after which the evaluated pairs repeat their positions; None if no pairs are
+        evaluated.
+        """
         return common_period(self.composition.used)
 
     @property
     def way(self) -> int:
-        """Sign of the input's speed about its own axis; motion is positive in the sense of the input."""
+        """Sign of the input's speed about its own axis. Positions increase in the sense in which the input turns."""
         return self.motion._problem.way
 
     @cached_property
@@ -83,9 +85,10 @@ class PositionMotion:
         return np.array([float(self.motion._problem.ratio(link)) for link in self.links])
 
     def at(self, turns: Floats, coasting: Mapping[str, Bools]) -> LinkMotion:
-        """Return the speeds and angles at no more than one chunk of positions of the input [revolutions].
+        """Return the link speeds and driver angles at positions of the input [revolutions], at most one chunk of
+        positions.
 
-        coasting   pair -> boolean mask of the positions at which its coast flanks are in contact
+        coasting   boolean mask of the positions at which the coast flanks of a pair are in contact, by pair
         """
         speeds = np.empty((len(self.links), len(turns)))
         angles = {name: np.empty(len(turns)) for name in self.sources}
@@ -113,7 +116,9 @@ class PositionMotion:
         return KinkSearch(self.coasting_all_along(coasting)).over(0.0, span).turns
 
     def coasting_all_along(self, pairs: Collection[str]) -> ErrorComposition:
-        """Return the error composition with the coast flanks of the given pairs always in contact."""
+        """Return the error composition for which the coast flanks of the given pairs are in contact at all
+        positions.
+        """
         if not pairs:
             return self.composition
         sources = tuple(

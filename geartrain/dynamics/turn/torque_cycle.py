@@ -1,4 +1,4 @@
-"""Results of the torques over a run: torque at every position, energies, and extremes with their positions."""
+"""Results of the torques over a run: torque at every position, energies, and extreme torques with their positions."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ class TorqueExtreme(NamedTuple):
     """Extreme value of the torque, and its position in the run."""
 
     torque: float
-    """Torque at the requested link [N m, or a number without a unit]; positive if it drives in the link's mean sense of
-    rotation.
+    """Torque at the requested link [N m, or a number without a unit]. It is positive if it drives the link in its mean
+    sense of rotation.
     """
     turns: float
     """Position in the run [revolutions of the input]."""
@@ -70,22 +70,24 @@ class CycleEnergy(Result):
 
     @property
     def net_in(self) -> float:
-        """Energy supplied minus energy absorbed by the unknown torques [J, or rad if torques are numbers without a
-        unit].
+        """Energy supplied by the unknown torques minus energy absorbed by them [J, or rad if torques are numbers
+        without a unit].
         """
         return self.put_in - self.returned
 
     @property
     def net_out(self) -> float:
-        """Energy absorbed minus energy supplied by the loads [J, or rad if torques are numbers without a unit]."""
+        """Energy absorbed by the loads minus energy supplied by the loads [J, or rad if torques are numbers without a
+        unit].
+        """
         return self.taken_out - self.loads_put_in
 
     @property
     def efficiency(self) -> float | None:
         """Energy output divided by energy input; None if neither the unknown torques nor the loads have a net input.
 
-        If the unknown torques have no net input, the loads drive, and the output is the energy that the unknown torques
-        absorb.
+        If the unknown torques have no net input, the loads drive the train, and the energy output is the energy that
+        the unknown torques absorb.
         """
         if self.net_in > 0:
             return max(self.net_out, 0.0) / (self.net_in + max(-self.net_out, 0.0))
@@ -100,7 +102,7 @@ class CycleEnergy(Result):
 
 @dataclass(frozen=True)
 class PairCycle(Result):
-    """Loss, energy input and torque of one gear pair, coupling or bearing over a run."""
+    """Energy loss, energy input and maximum torque of one gear pair, coupling or bearing over a run."""
 
     kind: str
     """Kind of the pair: `mesh`, `pin` or `bearing`."""
@@ -111,12 +113,13 @@ class PairCycle(Result):
     bearing, it equals the loss.
     """
     flank_changes: int = 0
-    """Number of sign changes of the torque that the pair transmits. The teeth cross their backlash at each sign change.
+    """Number of sign changes of the torque that the pair transmits. The teeth traverse their backlash at each sign
+    change.
 
     If the run is an integer number of periods, a change between the end and the beginning of the run is included.
     """
     maximum: float = 0.0
-    """Maximum magnitude of the torque on the driven side [N m, or a number without a unit]; 0 for a bearing."""
+    """Maximum magnitude of the torque on the driven link [N m, or a number without a unit]; 0 for a bearing."""
 
 
 @dataclass(frozen=True)
@@ -177,16 +180,16 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     returned. If no torque can be requested, the verdict is that of `Torques`, and the other fields are empty.
     """
     link: str = ""
-    """Link at which the torque is requested."""
+    """Name of the link at which the torque is requested."""
     newton_metres: bool = True
     """True if torques are in N m, False if they are numbers without a unit."""
     span: float = 0.0
-    """Length of the run, in revolutions of the input."""
+    """Length of the run [revolutions of the input]."""
     period: float | None = None
     """Revolutions of the input after which all positions repeat; None if the torque is constant."""
     turns: Floats | None = None
-    """Positions of the input [revolutions], in ascending order, shape (n,). At a jump, the same position occurs twice,
-    once for each side.
+    """Positions of the input [revolutions], in ascending order, shape (n,). A position at which the torque jumps occurs
+    twice, for the limits from below and from above.
     """
     torque: Floats | None = None
     """Torque at `link` in the solution with minimum loss [N m, or a number without a unit], shape (n,).
@@ -217,15 +220,15 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     minimum: TorqueExtreme | None = None
     """Minimum torque in the solution with minimum loss, with its position; None if the train is always locked."""
     starting: TorqueExtreme | None = None
-    """Maximum breakaway torque over all positions, which starts the train at any of them; None if no torque starts it
-    at some position.
+    """Maximum breakaway torque over all positions, which is sufficient to start the train at any position. None if no
+    torque starts it at some position.
     """
     energy: CycleEnergy | None = None
     """Energy balance of the run; None if the train locks at some position."""
     parts: Mapping[str, PairCycle] = field(default_factory=dict)
     """Loss and torque of each gear pair and coupling by name, and of each bearing as `bearing LINK`."""
     locked_share: float = 0.0
-    """Fraction of the run in which no torque balances the loads."""
+    """Fraction of the run in which no torque balances the loads, so that the train is locked."""
     held_share: float = 0.0
     """Fraction of the run in which the loads and the requested link both supply power, all of which is lost to
     friction.
@@ -319,7 +322,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
 
     @property
     def flank_changes(self) -> Mapping[str, int]:
-        """Number of times that the teeth of each gear pair, or the pin of each coupling, cross their backlash."""
+        """Number of times that the teeth of each gear pair, or the pin of each coupling, traverse their backlash."""
         return {name: part.flank_changes for name, part in self.parts.items() if part.kind != "bearing"}
 
     @property

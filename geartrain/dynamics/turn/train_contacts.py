@@ -5,8 +5,8 @@ The theory is in section 17 of docs/torques.md.
 The multiplier x of a pair is the torque on its driven side, in the mean sense of its rotation. The drive flanks are in
 contact for x >= 0, and the coast flanks for x <= 0. Let tau be the speed ratio of the flank in contact at this
 position. The torque on the driven side is x n, and the torque from the driver is x tau d, where n and d are 1 without
-friction. Friction reverses with the sliding velocity. If a flank has the efficiency eta(f) with a coefficient of
-friction f, its efficiency when driven from the other side is therefore eta'(f) = 1/eta(-f) (23).
+friction. Friction reverses with the sliding velocity. If a flank has the efficiency eta(f) at a coefficient of friction
+f, its efficiency when the driven side drives is therefore eta'(f) = 1/eta(-f), equation (23).
 """
 
 from __future__ import annotations
@@ -36,8 +36,8 @@ if TYPE_CHECKING:
 
 
 class ContactTorques(NamedTuple):
-    """Torques on the driven side and from the driver for a multiplier of 1, in the mean senses of rotation, shape (n,)
-    each.
+    """Torques on the driven link and from the driver for a multiplier of 1, in the mean senses of rotation, each of
+    shape (n,).
     """
 
     driven: Floats
@@ -45,12 +45,12 @@ class ContactTorques(NamedTuple):
     barred: Bools | None = None
     """Boolean mask of the positions at which no power can flow; None if power can flow at all positions."""
     lean: Floats | None = None
-    """Separating force divided by the tangential force [1]; None to use the mean value."""
+    """Separating force divided by the tangential force [1], shape (n,); None to use the mean value."""
 
 
 class PairForce(NamedTuple):
-    """Torques on the two links of a circuit for a multiplier of 1, about the reference direction of parallel axes,
-    shape (n,) each.
+    """Torques on the two links of a circuit for a multiplier of 1, about the reference direction of parallel axes, each
+    of shape (n,).
     """
 
     first: Floats
@@ -58,16 +58,18 @@ class PairForce(NamedTuple):
     barred: Bools | None
     """Boolean mask of the positions at which no power can flow; None if power can flow at all positions."""
     lean: Floats | None = None
-    """Separating force divided by the tangential force [1]; None to use the mean value."""
+    """Separating force divided by the tangential force [1], shape (n,); None to use the mean value."""
 
 
 class DriverState(NamedTuple):
-    """Position and speed of the driver of a pair, shape (n,) each."""
+    """Angle and speed of the driver of a pair, each of shape (n,)."""
 
     S: Floats
     """Angle of the driver in its mean sense of rotation [rad]; empty if no property of the pair depends on it."""
     turning: Floats
-    """Speed of the driver relative to the carrier, in its mean sense, divided by the speed of the input [1]."""
+    """Speed of the driver relative to the carrier, in its mean sense of rotation, divided by the speed of the input
+    [1].
+    """
 
 
 class ContactLosses:
@@ -84,24 +86,26 @@ class ContactLosses:
     def torques(
         self, tau: Floats, transmission: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
     ) -> ContactTorques:
-        """Return the torques on the driven side and from the driver for a multiplier of 1.
+        """Return the torques on the driven link and from the driver for a multiplier of 1.
 
-        tau   speed ratio of the flank in contact, which is given by `transmission`
-        way   1 if the driver of the transmission function drives, -1 if the other side drives, 0 without relative
+        tau   speed ratio of the flank in contact, which follows from `transmission`
+        way   1 if the driver of the transmission function drives, -1 if the driven link drives, 0 without relative
               motion
         """
         del transmission, at, way, static
         return ContactTorques(np.ones_like(tau), tau)
 
     def kinks(self, at: DriverState) -> Floats | None:
-        """Return values whose signs change where the torques, but not the speed ratio, have kinks; None by default."""
+        """Return values that change sign where the torques, but not the speed ratio, have kinks; None if there are no
+        such values.
+        """
         del at
         return None
 
 
 @dataclass(frozen=True)
 class BasicEfficiency(ContactLosses):
-    """Declared efficiencies of a pair, one for each driving side. If the value is 0 or less, the pair locks when that
+    """Declared efficiencies of a pair, one for each driving side. If a value is 0 or less, the pair locks when that
     side drives.
     """
 
@@ -114,7 +118,7 @@ class BasicEfficiency(ContactLosses):
     ) -> ContactTorques:
         """Return the torques, reduced by the efficiency of the driving side.
 
-        If the ratio is negative, as on the return stroke of a pin follower, the other side drives.
+        If the speed ratio is negative, as on the return stroke of a pin follower, the opposite side drives.
         """
         del transmission, at, static
         ahead, back = way * tau > 0, way * tau < 0
@@ -130,10 +134,10 @@ class SlidingFriction(ContactLosses):
 
     has_friction: ClassVar[bool] = True
     sliding: float | Callable[[Floats, Floats], Floats]
-    """Coefficient of sliding friction: a number, or a function of two speeds.
+    """Coefficient of sliding friction: a number, or a function of two speed ratios.
 
-    The arguments are the sliding speed divided by the pitch-line speed, and the driver's speed divided by the input
-    speed.
+    The arguments of the function are the sliding speed divided by the pitch-line speed, and the driver's speed divided
+    by the input speed.
     """
     static: float
     """Coefficient of static friction of the contact."""
@@ -149,7 +153,7 @@ class ToothFriction(SlidingFriction):
     """Friction of teeth: each tooth pair in contact multiplies the torque by (1 + f out)/(1 + f into).
 
     Here `into` and `out` are the friction terms of the input and output power, and f is the coefficient of friction,
-    which is negative if the driven side of the transmission function drives.
+    which is negative if the driven link of the transmission function drives.
     """
 
     turned: int = 1
@@ -159,7 +163,7 @@ class ToothFriction(SlidingFriction):
         """Return the separating force divided by the tangential force [1], equation (29) of docs/torques.md.
 
         rubbing   friction terms `into` and `out` of each tooth pair, NaN for tooth pairs that are not in contact
-        f         coefficient of friction, which is negative if the driven side of the transmission function drives
+        f         coefficient of friction, which is negative if the driven link of the transmission function drives
         """
         into, out = rubbing
         # components of the normal and of the sliding direction across the line of centres, times D/n2
@@ -174,7 +178,9 @@ class ToothFriction(SlidingFriction):
     def torques(
         self, tau: Floats, transmission: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
     ) -> ContactTorques:
-        """Return the torques; tooth pairs in contact share the torque of the driving side equally."""
+        """Return the torques on the driven link and from the driver. The tooth pairs in contact share the torque of the
+        driving side equally.
+        """
         assert transmission is not None
         sliding, into, out = transmission.rubbing(at.S)
         touching = ~np.isnan(out)  # NaN marks pairs of teeth that do not touch at this position
@@ -206,15 +212,17 @@ class PinFriction(SlidingFriction):
     def torques(
         self, tau: Floats, transmission: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
     ) -> ContactTorques:
-        """Return the torques, computed from lever arms, which are finite even at dead points."""
+        """Return the torques on the driven link and from the driver, computed from lever arms that are finite even at
+        dead points.
+        """
         del transmission
         # by the law of sines sin d = e sin S / rho, so the arm is r e |sin S| / rho^2
         arm = self.transmission.r * self.transmission.e * np.abs(np.sin(at.S)) / self.transmission._reach(at.S)[1]
         return ContactTorques(np.ones_like(tau), tau + way * (self.static if static else self.sliding) * arm)
 
     def kinks(self, at: DriverState) -> Floats:
-        """Return the sine of the driver angle, which is 0 if the pin is on the line through both axes; there the
-        sliding velocity reverses.
+        """Return the sine of the driver angle. It is 0 if the pin is on the line through both axes, where the sliding
+        velocity reverses.
         """
         return np.sin(at.S)
 
@@ -229,11 +237,13 @@ class PairContact:
     way: int
     """Sense of the driver's mean motion relative to the carrier, about the reference direction of parallel axes.
 
-    `sense` is the corresponding sense of the driven side.
+    `sense` is the corresponding sense of the driven link.
     """
     sense: int
     ratio: float
-    """Magnitude of the constant speed ratio, driven speed divided by driver speed; used if `source` is None."""
+    """Magnitude of the constant speed ratio (driven speed divided by driver speed), which is used if `source`
+    is None.
+    """
     losses: ContactLosses
     source: PairErrorSource | None = None
     """Source of the transmission error; None for a pair with constant ratio, which is not evaluated at positions."""
@@ -304,7 +314,7 @@ def find_contacts(
 
     positions   motion of the train, with the pairs that are evaluated at every position; other pairs have a constant
                 ratio
-    teeth       meshes with a declared tooth form; their driver is the driver of the transmission function
+    teeth       meshes with a declared tooth form; the driver of a mesh is the driver of its transmission function
     """
     found = {}
     for circuit in setting.circuits:
@@ -319,7 +329,7 @@ def find_contacts(
 def mean_friction_pairs(
     setting: LoadCase, sources: Mapping[str, PairErrorSource], teeth: Mapping[str, GearMesh]
 ) -> Iterator[str]:
-    """Yield the redundant pairs with friction of teeth, whose mean friction is used because the motion does not
+    """Yield the names of redundant pairs with tooth friction. Their mean friction is used because the motion does not
     determine their position.
     """
     names = {circuit.id for circuit in setting.circuits} - sources.keys()
@@ -358,7 +368,7 @@ def _coupling_losses(setting: LoadCase, circuit: Circuit) -> ContactLosses:
 def _losses(
     setting: LoadCase, circuit: Circuit, first: bool, source: PairErrorSource | None, mesh: GearMesh | None
 ) -> ContactLosses:
-    """Return the losses of a gear pair: tooth friction at each position, or a constant efficiency."""
+    """Return the losses of a gear pair: tooth friction that depends on position, or a constant efficiency."""
     if source is not None and mesh is not None and _by_friction(setting, mesh):
         return _tooth_friction(setting, circuit, source, mesh)
     return _constant_efficiency(setting, circuit, first)
@@ -384,7 +394,9 @@ def _tooth_friction(setting: LoadCase, circuit: Circuit, source: PairErrorSource
 
 
 class BearingTorques(NamedTuple):
-    """Friction torques of a bearing in motion and at rest, and its viscous drag torque divided by the input speed."""
+    """Friction torques of a bearing in motion and at rest, and its viscous drag torque at the input speed. The drag
+    torque is proportional to the speed of the bearing divided by the input speed.
+    """
 
     sliding: float
     static: float
@@ -394,8 +406,8 @@ class BearingTorques(NamedTuple):
 
 
 def find_bearings(setting: LoadCase) -> dict[str, BearingTorques]:
-    """Return the friction of each link's bearing, if it has friction; viscous drag is included if speeds and torques
-    have units.
+    """Return the friction torques of each link's bearing that has friction, by link. Viscous drag is included if speeds
+    and torques have units.
     """
     train, unit = setting.train, _radians_per_second(setting)
     found = {}

@@ -1,4 +1,4 @@
-"""Torque of a train over revolutions of its input, with the speed ratio and the friction at every position.
+"""Torque of a train over revolutions of its input, computed with the speed ratio and the friction at every position.
 
 The theory is in docs/torques.md, sections 16 to 18.
 """
@@ -53,8 +53,8 @@ _ODD = Fraction(1_414_213, 1_000_003)  # factor of friction that cancels no decl
 def find_extreme(
     value_at: Callable[[Floats], Floats], cells: RunCells, way: int, values: Floats
 ) -> tuple[float, float] | None:
-    """Return the position [revolutions] and value of the maximum (`way` 1) or minimum (-1) of a quantity over a run;
-    None if no value is finite.
+    """Return the position [revolutions] and the value of the maximum (`way` 1) or minimum (`way` -1) of a quantity over
+    a run; None if no value is finite.
 
     value_at   function that returns the values at given positions
     values     values at the positions of the run, NaN where the train is locked
@@ -90,7 +90,7 @@ def solve(
     of: str | None = None,
     on_done: Callable[[int], object] | None = None,
 ) -> TorqueCycle:
-    """Compute the torque at every position over several revolutions of the input. See `GearTrain.torques`."""
+    """Compute the torque at every position over several revolutions of the input; see `GearTrain.torques`."""
     check_numbers(turns=turns)
     check_whole_numbers(samples=samples)
     train = train.unfolded
@@ -134,7 +134,7 @@ def find_torque_period(train: TrainMechanics, state: str | None = None, of: str 
 def find_turn_balance(setting: LoadCase, problem: MotionProblem, of: str | None) -> TurnBalance | TorqueVerdict:
     """Return the torque balance of a train for any position; return a verdict if the torques cannot be determined.
 
-    of   link whose torque is unknown; by default the declared one
+    of   link whose torque is unknown; None for the declared link
     """
     question = find_question(setting, of or setting.case.solve_for)
     if isinstance(question, TorqueVerdict):
@@ -195,7 +195,7 @@ class _RunResults:
 
     @cached_property
     def _row(self) -> int:
-        """Row of the reported link among the links with unknown torque."""
+        """Row index of the reported link among the links with unknown torque."""
         requested = self.run.train.requested
         return requested.index(self.of) if self.of in requested else 0
 
@@ -206,11 +206,15 @@ class _RunResults:
         return -1 if setting.sense(link) * (setting.relative(link, setting.reacts_on(link)) or 0) < 0 else 1
 
     def _torque(self, found: PositionTorques) -> Floats:
-        """Return the torque at the reported link in the solution with minimum loss, positive in its mean sense."""
+        """Return the torque at the reported link in the solution with minimum loss, positive in the link's mean sense
+        of rotation.
+        """
         return np.asarray(self._way * found.torque[self._row] / self._arm)
 
     def _highest(self, found: PositionTorques) -> Floats:
-        """Return the torque at the reported link in the solution with maximum loss, positive in its mean sense."""
+        """Return the torque at the reported link in the solution with maximum loss, positive in the link's mean sense
+        of rotation.
+        """
         return np.asarray(self._way * found.highest[self._row] / self._arm)
 
     @property
@@ -219,7 +223,7 @@ class _RunResults:
 
     @property
     def _arm(self) -> float:
-        """Lever arm of the force if the reported link slides [m]; 1 if it turns."""
+        """Lever arm of the force if the reported link slides [m]; 1 if the link turns."""
         return float(self.run.train.setting.arms.get(self._link, 1))
 
     def cycle(self) -> TorqueCycle:
@@ -311,7 +315,9 @@ class _RunResults:
         return PlaceInRun(turns, turns / speed * float(train.unit_days) if speed else None)
 
     def _extreme(self, way: int, static: bool) -> TorqueExtreme | None:
-        """Return the maximum (`way` 1) or minimum (-1) torque, refined between positions; None if not finite."""
+        """Return the maximum torque (`way` 1) or the minimum torque (`way` -1), refined between positions; None if no
+        value is finite.
+        """
         torque = self._highest if way > 0 else self._torque
         values = torque(self.run.standing if static else self.run.found)
         extreme = find_extreme(lambda turns: torque(self.run.train.at(turns, static)), self.run.cells, way, values)
@@ -331,7 +337,7 @@ class _RunResults:
         driving, loading = found.powers[:requested], found.powers[requested:]
 
         def summed(powers: Floats) -> float:
-            """Return the integral of the positive parts of the given powers over the run."""
+            """Return the integral over the run of the positive parts of the given powers."""
             return float(weights @ np.maximum(powers, 0).sum(axis=0))
 
         lost = dict.fromkeys(("mesh", "pin", "bearing"), 0.0)
@@ -359,7 +365,7 @@ class _RunResults:
 
     @property
     def _closes(self) -> bool:
-        """True if the run is an integer number of periods."""
+        """True if the length of the run is an integer number of periods."""
         period = self.run.train.motion.period
         return period is None or (self.run.span / float(period)) % 1 == 0
 
@@ -380,8 +386,8 @@ class _RunResults:
 
 
 def _changes(signs: Floats, closes: bool) -> int:
-    """Return the number of sign changes in a sequence without its zeros. If `closes`, the change from its end to its
-    beginning is included.
+    """Return the number of sign changes in a sequence after its zeros are removed. If `closes` is True, a change from
+    its end to its beginning is included.
     """
     own = signs[signs != 0]
     if not len(own):

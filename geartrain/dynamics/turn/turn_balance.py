@@ -42,10 +42,12 @@ ROUNDS = 6  # maximum iterations to find consistent flanks and speeds
 
 @dataclass(frozen=True)
 class ColumnPieces:
-    """Coefficients of one unknown torque in each row of the balance, for each sign of the torque."""
+    """Coefficients of one unknown torque in each row of the balance, for each sign of this torque."""
 
     pieces: Mapping[int, Mapping[int, Floats]]
-    """Coefficients, shape (n,), by side (sign 1 or -1 of the torque; 0 if the sign has no effect) and row."""
+    """Coefficients of shape (n,), by side and row. The side is the sign of the torque, 1 or -1, or 0 if the sign has no
+    effect.
+    """
     barred: Mapping[int, Bools]
     """Boolean mask of the positions at which the torque must be 0, by side."""
 
@@ -57,13 +59,13 @@ class ColumnPieces:
 
 @dataclass
 class BalanceLayer:
-    """Solution of the torque balance at each position at which a solution exists."""
+    """One solution of the torque balance at each position at which it exists."""
 
     values: Floats
-    """Torques by column, shape (columns, n). `rows` is the sum of the torques in each row, shape (rows, n)."""
+    """Torques by column, shape (columns, n). `rows` contains the sum of the torques in each row, shape (rows, n)."""
     rows: Floats
     valid: Bools
-    """True at positions where the torques of all rows are balanced."""
+    """Boolean mask of the positions at which the torques of all rows are balanced."""
 
     def copy(self) -> BalanceLayer:
         """Return a copy that does not share arrays with this object."""
@@ -145,7 +147,9 @@ def _solve(
 
 
 def _divided(coefficient: Floats | None, known: Floats) -> tuple[Floats, Bools]:
-    """Return the solution of an equation with one unknown, and a mask of the positions at which it is regular."""
+    """Return the solution of an equation with one unknown, and a boolean mask of the positions at which the coefficient
+    is not 0.
+    """
     if coefficient is None:
         return np.zeros_like(known), known[0] == 0
     # a coefficient may be 0 at dead points; without a load the torque is 0 there too
@@ -158,7 +162,9 @@ def _divided(coefficient: Floats | None, known: Floats) -> tuple[Floats, Bools]:
 def _eliminated(
     own: Sequence[ColumnPieces], block: Block, layer: BalanceLayer, sides: Sequence[int]
 ) -> tuple[Floats, Bools]:
-    """Return the torques that solve several rows, by LAPACK; their norm is minimal if they are not unique."""
+    """Return the torques that solve several rows, computed by LAPACK. If they are not unique, the torques of minimum
+    norm are returned.
+    """
     known = layer.rows[list(block.rows)]
     scale = np.max(np.abs(layer.values), axis=0, initial=0.0)
     size = known.shape[1]
@@ -185,8 +191,8 @@ def _eliminated(
 
 
 def _iterated(own: Sequence[ColumnPieces], block: Block, layer: BalanceLayer) -> list[_Trial]:
-    """Return consistent solutions found by fixed-point iteration, in which every torque that contradicts the pattern is
-    reversed.
+    """Return consistent solutions that are found by fixed-point iteration. In each iteration, the assumed direction of
+    every torque that contradicts the pattern is reversed.
     """
     patterns = {tuple(each.sides[0] for each in own): None}
     found: list[_Trial] = []
@@ -211,7 +217,9 @@ def _iterated(own: Sequence[ColumnPieces], block: Block, layer: BalanceLayer) ->
 def _joined(
     columns: Sequence[ColumnPieces], block: Block, layers: Sequence[BalanceLayer], trials: Sequence[_Trial]
 ) -> list[BalanceLayer]:
-    """Return the layers extended by the solutions of one block; their number is the maximum over all positions."""
+    """Return the layers extended by the solutions of one block. The number of layers is the maximum number of solutions
+    over all positions.
+    """
     # fast path: at most one solution at every position needs no further layers
     if len(layers) == 1 and not np.any(sum((trial.valid.astype(int) for trial in trials), np.zeros(1)) > 1):
         (layer,) = layers
@@ -249,14 +257,18 @@ _CHUNK = 8192  # positions evaluated at once, to bound the memory
 
 
 class PositionTorques(NamedTuple):
-    """Torques at n positions (the last axis of all arrays). Powers and losses are divided by the speed of the input."""
+    """Torques at n positions, which are the last axis of all arrays. Powers and losses are divided by the speed of the
+    input.
+    """
 
     turns: Floats
     """Positions of the input [revolutions], shape (n,)."""
     valid: Bools
-    """True at positions at which a solution balances the loads. `layers` is the number of solutions."""
+    """Boolean mask of the positions at which a solution balances the loads. `layers` is the number of solutions."""
     unresolved: Bools
-    """True where a link rests within its backlash, or where no choice of flanks is consistent with the torques."""
+    """Boolean mask of the positions at which a link rests within its backlash, or at which no choice of flanks is
+    consistent with the torques.
+    """
     layers: Floats
     torque: Floats
     """Unknown torque on each requested link in the solution with minimum loss, shape (requested, n)."""
@@ -264,7 +276,7 @@ class PositionTorques(NamedTuple):
     """Unknown torque on each requested link in the solution with maximum loss, shape (requested, n)."""
     speeds: Floats
     """Speeds of the links with external torques about their own axes, divided by the speed of the input, shape
-    (outside, n).
+    (outside, n), where `outside` is the number of these links.
     """
     powers: Floats
     """Power of each external torque, positive into the train, shape (outside, n)."""
@@ -276,17 +288,19 @@ class PositionTorques(NamedTuple):
     pressed: Floats
     """Multiplier of each pair, shape (pairs, n); it is positive if the drive flanks are in contact."""
     turning: Floats
-    """Speed of each pair's driver in its mean sense, divided by the speed of the input, shape (pairs, n)."""
+    """Speed of each pair's driver in its mean sense of rotation, divided by the speed of the input, shape
+    (pairs, n).
+    """
     slipping: Floats
     """Speed of each bearing divided by the speed of the input, shape (bearings, n)."""
     kinks: Floats
-    """Values whose signs change where the torques, but no transmission function, have kinks, shape (kinks, n)."""
+    """Values that change sign where the torques, but no transmission function, have kinks, shape (kinks, n)."""
 
 
 class _State(NamedTuple):
-    """State of a train at some positions: link speeds, driver angles of pairs, and torques by side.
+    """State of a train at some positions: link speeds, driver angles of pairs, and torques of pairs by side.
 
-    Torques are given only for the first of several equal planets.
+    If there are several equal planets, torques are stored only for the first of them.
     """
 
     motion: LinkMotion
@@ -310,12 +324,14 @@ class TurnBalance:
     contacts: Mapping[str, PairContact]
     """Contact of each pair, in the order of the circuits."""
     loads: Mapping[str, float]
-    """Load on each link about its own axis. `bearings` contains friction and drag by link."""
+    """Load on each link about its own axis, by link. `bearings` contains the friction and drag of each link's
+    bearing.
+    """
     bearings: Mapping[str, BearingTorques]
     bearing_loads: BearingLoads | None = None
     """Loads of the bearings whose friction depends on the load; None if there are none."""
     complete: bool = True
-    """False if some patterns of power flow were not tried."""
+    """False if there were too many patterns of power flow to try all of them."""
     on_done: Callable[[int], object] | None = None
     """Progress function, called with the number of positions computed since the last call."""
 
@@ -326,17 +342,17 @@ class TurnBalance:
 
     @property
     def requested(self) -> tuple[str, ...]:
-        """Links whose torque is unknown."""
+        """Names of the links whose torque is unknown."""
         return self.balance.unknown
 
     @cached_property
     def outside(self) -> tuple[str, ...]:
-        """Links with a requested torque or a load, whose external torques may do work."""
+        """Names of the links with a requested torque or a load, whose external torques may do work."""
         return tuple(dict.fromkeys((*self.requested, *self.loads)))
 
     @cached_property
     def shared(self) -> tuple[str, ...]:
-        """Pairs whose torque is not determined by the balance."""
+        """Names of the pairs whose torque is not determined by the balance."""
         open_ = [block for block in self.balance.parts if len(block.columns) > len(block.rows)]
         return tuple(mesh.id for block in open_ for at in block.columns for mesh in self.columns[at].meshes)
 
@@ -347,7 +363,7 @@ class TurnBalance:
 
     @cached_property
     def of_pair(self) -> Mapping[str, int]:
-        """Column of each gear pair's unknown torque in the matrix of the torque balance."""
+        """Column index of each gear pair's unknown torque in the matrix of the torque balance, by pair."""
         return {mesh.id: at for at, column in enumerate(self.columns) for mesh in column.meshes}
 
     @cached_property
@@ -379,11 +395,11 @@ class TurnBalance:
         return tuple(name for name, contact in self.contacts.items() if contact.has_flanks)
 
     def _chunk(self, turns: Floats, static: bool) -> PositionTorques:
-        """Return the torques at some positions. The flanks in contact are determined iteratively, beginning with the
+        """Return the torques at some positions. The flanks in contact are determined iteratively, starting with the
         drive flanks.
 
         If a link would turn backwards on its drive flanks and forwards on its coast flanks, it is at rest in the
-        backlash between them, and its bearing has no torque. If no choice of flanks is consistent, the result with
+        backlash between them, and its bearing has no torque. If no choice of flanks is consistent, the result for the
         drive flanks is returned.
         """
         left: Indices = np.arange(len(turns))
@@ -411,7 +427,9 @@ class TurnBalance:
         return some(joined([part for _, part in converged]), order)
 
     def _coasting(self, best: BalanceLayer) -> Bools:
-        """Return a mask of the positions at which each pair presses on its coast flanks, shape (pairs, n)."""
+        """Return a boolean mask of the positions at which the coast flanks of each pair are loaded, shape
+        (pairs, n).
+        """
         pressed = best.values[[self.of_pair[name] for name in self.flanked]]
         faint = FAINT * np.max(np.abs(best.values), axis=0, initial=0.0)
         found: Bools = best.valid & (pressed < -faint)
@@ -455,7 +473,8 @@ class TurnBalance:
     # -------------------------------------------------------------------------------------------------- the balance
 
     def _balanced(self, state: _State) -> tuple[_State, list[BalanceLayer], BalanceLayer]:
-        """Return the state with the friction of loaded bearings, all solutions, and the solution with minimum loss.
+        """Return the state including the load-dependent friction of bearings, all solutions, and the solution with
+        minimum loss.
 
         The friction is found by fixed-point iteration, which is damped if it converges slowly, because friction may
         relieve a bearing. If the iteration diverges at a position, no torques balance there.
@@ -479,7 +498,7 @@ class TurnBalance:
         return state, layers, best
 
     def _loaded_friction(self, bearings: BearingLoads, best: BalanceLayer, state: _State) -> Floats:
-        """Return the friction torque of each loaded bearing in one solution, shape (links, n)."""
+        """Return the load-dependent friction torque of each link's bearings in one solution, shape (links, n)."""
         turns = state.motion.turns
         reactions, angles, leans = np.zeros((3, len(bearings.forces), len(turns)))
         for row, force in enumerate(bearings.forces):
@@ -503,7 +522,9 @@ class TurnBalance:
         return bearings.friction(bearings.loads(reactions, angles, leans), self.balance)
 
     def _member_torques(self, name: str, best: BalanceLayer, state: _State) -> tuple[Floats, Floats]:
-        """Return the torques of a pair on its first and second link, about the reference direction of parallel axes."""
+        """Return the torques of a pair on its first link and on its second link, about the reference direction of
+        parallel axes.
+        """
         column = self.columns[self.of_pair[name]]
         pressed, forces = best.values[self.of_pair[name]], state.forces[column.meshes[0].id]
         ahead, back = (self._for_planet(name, forces.get(side, forces[1])) for side in (1, -1))
@@ -534,15 +555,17 @@ class TurnBalance:
         return found
 
     def _rubbing(self, state: _State, link: str, speed: Floats) -> Floats:
-        """Return the magnitude of a bearing's friction torque; drag is 0 for static friction and at rest."""
+        """Return the magnitude of a bearing's friction torque. The viscous drag is 0 for static friction and at
+        rest.
+        """
         own, loaded = self.bearings[link], state.loaded.get(link, np.zeros(len(speed)))
         if state.static:
             return own.static + loaded
         return np.where(state.resting[link], 0.0, own.sliding + loaded + own.drag * np.abs(speed))
 
     def _pieces(self, column: TorqueUnknown, state: _State) -> ColumnPieces:
-        """Return the coefficients of one unknown torque in each row. For equal planets, those of the first planet are
-        returned.
+        """Return the coefficients of one unknown torque in each row. For equal planets, the coefficients of the first
+        planet are returned.
         """
         if not column.meshes:
             size = len(state.motion.turns)
@@ -569,7 +592,7 @@ class TurnBalance:
         """Relation of each pair to the first pair with the same unknown torque.
 
         The relation consists of a flag, which is True if both pairs have their links in the same order, and the signs
-        of the two torques relative to the first pair.
+        of the torques on its two links relative to those of the first pair.
         """
         found = {}
         for first, mesh in ((column.meshes[0], mesh) for column in self.columns for mesh in column.meshes):
@@ -578,15 +601,15 @@ class TurnBalance:
         return found
 
     def _for_planet(self, name: str, force: PairForce) -> tuple[Floats, Floats]:
-        """Return the torques on both links of an equal planet, given the torques of the first planet; its axis may be
-        reversed.
+        """Return the torques on both links of a pair of an equal planet, computed from the torques of the first planet.
+        The axis of the planet may be reversed.
         """
         alike, signs = self.relation_to_first[name]
         first, second = (force.first, force.second) if alike else (force.second, force.first)
         return signs[0] * first, signs[1] * second
 
     def _extreme(self, layers: Sequence[BalanceLayer], state: _State, way: int) -> BalanceLayer:
-        """Return the solution with minimum (`way` 1) or maximum (-1) power input at each position."""
+        """Return the solution with minimum (`way` 1) or maximum (`way` -1) power input at each position."""
         if len(layers) == 1:
             return layers[0]
         speeds = self.outside_speeds(state.motion.speeds)[: len(self.requested)]
@@ -601,7 +624,7 @@ class TurnBalance:
 
     @cached_property
     def requested_columns(self) -> list[int]:
-        """Columns of the balance matrix that belong to unknown external torques."""
+        """Indices of the columns of the balance matrix that belong to unknown external torques."""
         first = next(at for at, column in enumerate(self.columns) if not column.meshes)
         return list(range(first, first + len(self.requested)))
 

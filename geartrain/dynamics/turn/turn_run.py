@@ -1,10 +1,10 @@
-"""Run over several revolutions: positions at which torques are computed, and which are chosen so that integrals are
+"""Run over several revolutions: positions at which torques are computed. They are chosen so that integrals are
 accurate.
 
-The run is divided into cells at equally spaced positions and on both sides of every kink. Each cell has three further
-positions inside. Torques are smooth within a cell and are integrated by Boole's rule. Where a transmission function has
-a kink, a motion reverses or the flank in contact changes, a cell ends and both one-sided limits are computed. A cell is
-bisected until this no longer changes the result of Simpson's rule.
+The run is divided into cells at equally spaced positions and at every kink. Each cell has three further positions
+inside. Torques are smooth within a cell and are integrated by Boole's rule. Where a transmission function has a kink, a
+motion reverses or the flank in contact changes, a cell ends and both one-sided limits are computed. A cell is bisected
+until bisection no longer changes the result of Simpson's rule.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 NODES = 5
-"""Number of positions per cell: its ends, its middle, and the middles of its halves."""
+"""Number of positions in each cell: its two ends, its middle, and the middles of its two halves."""
 
 _BOOLE = np.array([7.0, 32.0, 12.0, 32.0, 7.0]) / 90  # Boole's rule over a cell of unit width
 # error estimate: Simpson's rule on both halves less that on the whole, over 15 (Richardson extrapolation)
@@ -43,7 +43,7 @@ _DEPTH = 13  # maximum depth of bisection
 _MOST_TIMES = 12  # refinement stops when this multiple of the initial positions is exceeded
 _NONE = np.zeros(0, np.intp), np.zeros(0)  # no cuts: cell indices and places
 FAINT = 1e-9
-"""Fraction of the maximum torque or power of a run below which the sign of a value is set to 0."""
+"""Fraction of the maximum torque or power of a run. The sign of a value below this fraction is set to 0."""
 
 
 @dataclass(frozen=True)
@@ -57,7 +57,7 @@ class RunCells:
 
     @property
     def turns(self) -> Floats:
-        """Positions of the cells as reported [revolutions], shape (cells times `NODES`,)."""
+        """Positions in all cells as reported [revolutions], shape (cells times `NODES`,)."""
         share = np.arange(NODES) / (NODES - 1)
         found = self.low[:, None] + (self.high - self.low)[:, None] * share
         found[:, -1] = self.high
@@ -88,9 +88,9 @@ class RunCells:
         return np.asarray((self.low + self.high) / 2)
 
     def divided(self, cell: Indices, at: Floats) -> RunCells:
-        """Return the parts that result from dividing cells at the given positions.
+        """Return the parts that result from dividing cells at the positions `at` [revolutions].
 
-        cell   index of the cell that contains each position
+        cell   index of the cell that contains each position in `at`
         """
         cut = np.unique(cell)
         low, number = np.concatenate([self.low[cut], at]), np.concatenate([cut, cell])
@@ -122,7 +122,8 @@ def run_cells(span: float, steps: int, breaks: Floats, narrowest: float) -> RunC
 
 
 def find_kinks(signs_at: Callable[[Floats], Ints], cells: RunCells, signs: Ints) -> tuple[Indices, Floats]:
-    """Return the cell index and position of all sign changes within cells, which are located by repeated subdivision.
+    """Return the cell index and the position [revolutions] of each sign change within a cell, located by repeated
+    subdivision.
 
     signs_at   function that returns the signs of the tracked quantities at given positions, shape (signs, n)
     signs      signs at the positions of the cells
@@ -211,8 +212,8 @@ class TurnRun:
     def _cuts(
         self, cells: RunCells, found: PositionTorques, scales: RunScales, total: float, depth: int
     ) -> tuple[Indices, Floats]:
-        """Return the positions at which cells are to be divided, with cell indices. They are kinks, and middles of
-        cells that are too wide.
+        """Return the cell indices and the positions at which cells are to be divided. The positions are kinks, and
+        middles of cells that are too wide.
         """
         if depth == _DEPTH:
             return _NONE
@@ -244,7 +245,7 @@ class TurnRun:
         return self._refined[1]
 
     def signs(self, found: PositionTorques, scales: RunScales) -> Ints:
-        """Return the signs of all quantities that have a kink where their sign changes, shape (signs, n)."""
+        """Return the signs of all quantities whose sign changes indicate kinks, shape (signs, n)."""
         outside = found.powers.shape[0]
         requested = len(self.train.requested)
         return np.concatenate(
@@ -272,14 +273,14 @@ class TurnRun:
 
 @dataclass(frozen=True)
 class RunScales:
-    """Torque scale (maximum torque of any pair) and power scale (maximum power) of a run."""
+    """Torque scale (maximum torque of any pair) and power scale (maximum external power) of a run."""
 
     pressed: float
     power: float
 
     @classmethod
     def of(cls, found: PositionTorques) -> RunScales:
-        """Return the scales of the torques and powers at some positions."""
+        """Return the scales that follow from the torques and powers at some positions."""
         pressed = np.where(found.valid, np.abs(found.pressed), 0.0)
         return cls(float(np.max(pressed, initial=0.0)), float(np.nanmax(np.abs(found.powers), initial=0.0)))
 

@@ -1,8 +1,8 @@
 """Checks whether a declared train can be built: modules, positions, kinds of wheels, planets, clutches.
 
-Input is the declaration, its tree of turning pairs and its circuits. Results are `BuildFinding` records: errors if the
-train cannot be built as declared, and notes if its design is inadvisable. Checks that need a layout or tooth outlines
-add records of the same type.
+The input consists of the declaration, its tree of turning pairs and its circuits. The results are `BuildFinding`
+records: errors if the train cannot be built as declared, and notes if its design is inadvisable. Checks that require a
+layout or tooth outlines add records of the same type.
 """
 
 from __future__ import annotations

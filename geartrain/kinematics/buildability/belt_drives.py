@@ -1,4 +1,4 @@
-"""Distances between the axes of a belt's pulleys, from declared positions, and the length of a belt."""
+"""Distances between the axes of the pulleys of a belt, computed from declared positions, and the length of the belt."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from geartrain.train import Train
 
 
 class PulleyPair(NamedTuple):
-    """Two pulleys of a belt with declared diameters and declared positions of their axes."""
+    """Two pulleys of one belt, for which the diameters and the positions of the axes are declared."""
 
     belt: Belt
     pulleys: tuple[str, str]
@@ -56,7 +56,7 @@ def pulley_pairs(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> Itera
 
 
 def check_belts(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> Iterator[BuildFinding]:
-    """Yield findings of rule B1: pulleys of one belt overlap."""
+    """Yield findings of rule B1: two pulleys of a belt overlap."""
     for pair in pulley_pairs(train, tree, circuits):
         if not pair.fits:
             (first, second), apart = pair.pulleys, float(pair.distance)

@@ -1,8 +1,8 @@
 """Rules of buildability whose implementations are short (docs/buildability.md).
 
-They detect wheels without a gear pair, incompatible kinds of wheels, three axes whose distances violate the triangle
-inequality, brakes and clutches between links on different axes, wheels with two coaxial mates at different centre
-distances, and skew axes at a wrong distance. The other modules of this folder contain the longer rules.
+The rules detect wheels without a gear pair, incompatible kinds of wheels, three axes whose distances violate the
+triangle inequality, brakes and clutches between links on different axes, wheels with two coaxial mates at different
+centre distances, and skew axes at a wrong distance. The other modules of this folder contain the longer rules.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ def check_kinds(
     train: Train, tree: Tree, circuits: Sequence[Circuit], pairs: Sequence[PitchPair]
 ) -> Iterator[BuildFinding]:
     """Yield findings of rules K1, K2 and K5: the kind of a wheel does not suit its axis or its mate, or two bevel
-    wheels mesh with a third one from the same side.
+    wheels mesh with a third bevel wheel from the same side.
     """
     axes = Axes(train, tree)
     for one, other, shared in bevels_on_one_side(train, circuits, axes.is_rotation):
@@ -103,7 +103,9 @@ def _parallel_axes_problem(pair: PitchPair, shape: str, declared: bool) -> Probl
 
 
 def _crossing_axes_problem(pair: PitchPair, shape: str, offset: float | None) -> Problem | None:
-    """Return the problem of a pair on non-parallel axes with distance `offset` [m]; None if the pair is valid."""
+    """Return the problem of a gear pair on non-parallel axes that are at the distance `offset` [m]; None if the pair is
+    valid.
+    """
     first, second = pair.axes
     if shape == "spur":
         return Problem(
@@ -134,7 +136,7 @@ _EQUAL = Fraction(1, 10**6)  # tolerance relative to the longest side, because t
 def check_triangles(sizes: PitchDistances) -> Iterator[BuildFinding]:
     """Yield findings of rule P3: three axes whose distances violate the triangle inequality.
 
-    Only distances that are known multiples of a common length are compared; this length may be unknown.
+    Only distances that are known multiples of a common length are compared; the length itself may be unknown.
     """
     sides = {node[1:]: pairs[0] for node, pairs in sizes.between.items()}
     near: dict[str, dict[str, PitchPair]] = {}
@@ -349,7 +351,7 @@ def check_build(
 def _planets(
     train: Train, tree: Tree, circuits: Sequence[Circuit], sizes: PitchDistances, outlines: Outlines
 ) -> Iterator[BuildFinding]:
-    """Yield findings on equal planets; planets declared by `copies` are first expanded to separate links."""
+    """Yield findings on equal planets. Planets declared by `copies` are first expanded to separate links."""
     if has_copies(train):
         train = with_copies(train, tree)
         tree = find_tree(train)

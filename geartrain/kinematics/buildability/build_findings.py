@@ -1,4 +1,4 @@
-"""Finding of a buildability check: the rule, its severity, and the problem."""
+"""Findings of buildability checks: the violated rule, its severity, and the problem."""
 
 from __future__ import annotations
 
@@ -64,5 +64,5 @@ class BuildFinding(Result):
 
 
 def build_errors(findings: Iterable[BuildFinding]) -> tuple[BuildFinding, ...]:
-    """Return the findings whose level is "error"."""
+    """Return the findings whose level is `error`."""
     return tuple(found for found in findings if found.is_error)

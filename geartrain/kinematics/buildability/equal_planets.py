@@ -23,7 +23,9 @@ if TYPE_CHECKING:
     from geartrain.train import Train
 
 CountRef = str | int
-"""Tooth count as a term of an assembly rule: name of a wheel with a variable count, or an integer for a fixed count."""
+"""Tooth count as a term of an assembly rule: the name of a wheel whose tooth count is variable, or a fixed
+tooth count.
+"""
 
 Measure = Literal["", "plain", "m"]
 """Unit of a declared module: "" if no module is declared, "plain" for a number without a unit, "m" for a length."""
@@ -31,8 +33,8 @@ Measure = Literal["", "plain", "m"]
 
 @dataclass(frozen=True, slots=True)
 class AssemblyMesh:
-    """Gear pair relative to its carrier, with the data that the assembly rules require. Fields with two elements refer
-    to the first and the second wheel.
+    """Gear pair relative to its carrier, with the data that the assembly rules require. If a field has two elements,
+    they refer to the first and the second wheel.
     """
 
     name: str
@@ -46,7 +48,7 @@ class AssemblyMesh:
     axes: tuple[str, str]
     """Labels of the axes about which the two links turn relative to the carrier."""
     parts: tuple[CountRef, CountRef]
-    """Tooth counts of the wheels: the id of a wheel with a variable count, or a fixed count."""
+    """Tooth counts of the wheels: the name of a wheel with a variable tooth count, or a fixed tooth count."""
     sense: int
     """1 if the wheels turn in opposite senses relative to the carrier, -1 if they turn in the same sense."""
     ring: int | None
@@ -67,8 +69,8 @@ class AssemblyMesh:
 
     @property
     def terms(self) -> tuple[tuple[int, CountRef], tuple[int, CountRef]]:
-        """Two terms (sign, tooth count) with twice the centre distance [modules] as sum: z1 + z2, or z_ring -
-        z_mate.
+        """Two terms (sign, tooth count) whose sum is twice the centre distance [modules]: z1 + z2, or z_ring - z_mate,
+        where z are tooth counts.
         """
         first, second = self.parts
         return (-1 if self.ring == 1 else 1, first), (-1 if self.ring == 0 else 1, second)
@@ -76,7 +78,9 @@ class AssemblyMesh:
 
 @dataclass(frozen=True, slots=True)
 class Planet:
-    """Planet and its meshes: a node in the tree of planets in mesh with each other. The first planet is the root."""
+    """Planet with its meshes, as a node in the tree of planets that mesh with each other. The first planet is
+    the root.
+    """
 
     link: str
     inward: AssemblyMesh | None
@@ -111,8 +115,8 @@ class Planet:
 
     @property
     def mesh_of(self) -> dict[str, AssemblyMesh]:
-        """One mesh of each wheel of the planet that meshes in the set. If a wheel has several, an outward mesh is
-        preferred to a central one, and a central one to an inward one.
+        """One mesh of each wheel of the planet that meshes in the set. If a wheel has several meshes, an outward mesh
+        is preferred to a central mesh, and a central mesh to an inward mesh.
         """
         inward = [self.inward] if self.inward else []
         meshes = [*inward, *self.central, *(mesh for mesh, _ in self.outward)]
@@ -120,7 +124,9 @@ class Planet:
 
     @property
     def form(self) -> object:
-        """Canonical form of the meshes, which is equal for planets with equal meshes with the same central wheels."""
+        """Canonical form of the planet's meshes, which is equal for two planets that mesh in the same way with the same
+        central wheels.
+        """
         wheels = self.wheels
         central = tuple((wheels.index(self.own(mesh)), self.mate(mesh)) for mesh in self.central)
         outward = tuple((wheels.index(self.own(mesh)), other.form) for mesh, other in self.outward)
@@ -129,7 +135,9 @@ class Planet:
 
 @dataclass(frozen=True, slots=True)
 class PlanetSet:
-    """Planets of one carrier that mesh with each other, usually only one. Equal planets are compared set by set."""
+    """Planets of one carrier that mesh with each other; usually a single planet. Equal planets are compared set
+    by set.
+    """
 
     carrier: str
     planets: Planet | None
@@ -137,8 +145,8 @@ class PlanetSet:
     links: tuple[str, ...]
     """Names of the links of all planets in the set."""
     copies: tuple[PlanetSet, ...] = ()
-    """Other sets on the carrier that mesh in the same way with the same central wheels, if equal planets are declared
-    separately.
+    """Other sets of planets on the carrier that mesh in the same way with the same central wheels, if equal planets are
+    declared separately.
     """
 
     @property
@@ -165,20 +173,20 @@ class TrainAssembly:
 
     @classmethod
     def of(cls, train: Train, free: Iterable[str]) -> TrainAssembly:
-        """Return the assembly data of a train in which the wheels `free` have variable tooth counts."""
+        """Return the assembly data of a train in which the wheels in `free` have variable tooth counts."""
         tree = find_tree(train)
         return cls(train, frozenset(free), tree, find_circuits(train, tree))
 
     def part(self, wheel: str) -> CountRef:
-        """Return the tooth count of a wheel as a term of an assembly rule: the wheel's name if the count is variable,
-        else the count.
+        """Return the tooth count of a wheel as a term of an assembly rule: the name of the wheel if its tooth count is
+        variable, or its fixed tooth count.
         """
         count = self.train.wheels[wheel][1].count
         return wheel if wheel in self.free or count is None else count
 
     @cached_property
     def meshes(self) -> tuple[AssemblyMesh, ...]:
-        """All gear pairs relative to their carriers, in the order of declaration."""
+        """All gear pairs relative to their carriers, in the order in which they are declared."""
         return tuple(self._mesh(circuit) for circuit in self.circuits if circuit.kind == "gear")
 
     def _mesh(self, circuit: Circuit) -> AssemblyMesh:
@@ -204,8 +212,8 @@ class TrainAssembly:
         )
 
     def module(self, *wheels: str) -> tuple[Measure, Fraction | None]:
-        """Return the unit and value of the common module of the given wheels. It is declared for these wheels or for
-        wheels that must have the same module.
+        """Return the unit and the value of the common module of the given wheels. The module is declared for these
+        wheels, or for other wheels that must have the same module.
 
         The value is 1 if no module is declared, and None if different modules are declared.
         """
@@ -243,7 +251,9 @@ class TrainAssembly:
 
     @cached_property
     def sets(self) -> tuple[PlanetSet, ...]:
-        """Sets of planets on carriers other than the frame; isomorphic sets are `copies` of the first."""
+        """Sets of planets on carriers other than the frame. Sets that are isomorphic to an earlier set are its
+        `copies`.
+        """
         found: list[PlanetSet] = []
         by_carrier: dict[str, list[AssemblyMesh]] = {}
         for mesh in self.meshes:
@@ -304,10 +314,10 @@ def corresponding(first: PlanetSet, other: PlanetSet) -> Mapping[str, str]:
 def mesh_counts(planet: Planet, mesh: AssemblyMesh, other: Planet | None = None) -> tuple[CountRef, CountRef]:
     """Return the tooth counts of a planet and of its mate in one of its meshes, as terms of the assembly rule.
 
-    The assembly rule contains the tooth count z of a planet with one wheel only in the product z phi with the angle phi
-    of the planet, so this z is replaced by 1.
+    If a planet has one wheel, the assembly rule contains its tooth count z only in the product z phi, where phi is the
+    angle of the planet. This z is therefore replaced by 1.
 
-    other   the mate, if it is a child planet in the tree
+    other   the mate, if it is a child planet in the tree; None if it is not
     """
     side = planet.side(mesh)
     own = mesh.parts[side] if len(planet.wheels) > 1 else 1
@@ -325,14 +335,14 @@ class PhaseArithmetic:
     gcd: Callable[[Any, Any], Any]
     """Function gcd(a, b) that returns the greatest common divisor."""
     bezout: Callable[[Any, Any], tuple[Any, Any, Any]]
-    """Extended Euclidean algorithm: returns g, u, v with u a + v b = g = gcd(a, b)."""
+    """Function for the extended Euclidean algorithm: it returns g, u, v with u a + v b = g = gcd(a, b)."""
     reduced: Callable[[Any], Any]
-    """Function that reduces a number modulo the number of planets, or returns it unchanged."""
+    """Function that reduces a number modulo the number of planets, or that returns the number unchanged."""
 
 
 def phase_numbers(root: Planet, kind: PhaseArithmetic) -> list[Any]:
-    """Return the integers E of the assembly rule: if a set of planets is rotated by t turns about the carrier's axis,
-    it also meshes if E t is an integer for every E.
+    """Return the integers E of the assembly rule. A set of planets that is rotated by t turns about the carrier's axis
+    meshes again if E t is an integer for every E.
 
     A mesh of wheels a and b keeps z_a theta_a + z_b theta_b constant modulo 1, where z are tooth counts and theta are
     angles relative to the carrier [turn]; the sign is negative if one wheel is a ring. Rotation of a set in mesh by t
@@ -342,10 +352,10 @@ def phase_numbers(root: Planet, kind: PhaseArithmetic) -> list[Any]:
         z_p phi_p + z_c t is an integer for every central wheel c (minus for a ring),
         z_p phi_p + z_q phi_q is an integer for planets p and q in mesh.
 
-    Planets are processed from the leaves of their tree to its root. The remaining angles of a planet satisfy
-    D phi = b t (mod 1) for integers D and b. A central wheel c gives D = z_p, b = -z_c. Two such conditions are
-    compatible if gcd(D1, D2) divides (D1 b2 - D2 b1) t; they combine to one condition with D = gcd(D1, D2) and b = u b1
-    + v b2, where u D1 + v D2 = D.
+    Planets are processed from the leaves of their tree to its root. The remaining angles of a planet satisfy D phi = b
+    t (mod 1) for integers D and b. A central wheel c gives D = z_p, b = -z_c. Two such conditions are compatible if
+    gcd(D1, D2) divides (D1 b2 - D2 b1) t; they combine to one condition with D = gcd(D1, D2) and b = u b1 + v b2, where
+    u D1 + v D2 = D.
 
     A planet with one wheel gives the textbook rule: E = z_s + z_r for a sun s and a ring r, and n planets can be evenly
     spaced (t = 1/n) if n divides E. A planet with two wheels gives (z_s z_q + z_r z_p)/gcd(z_p, z_q), and two planets
@@ -359,8 +369,8 @@ def phase_numbers(root: Planet, kind: PhaseArithmetic) -> list[Any]:
 
 
 def _angle_conditions(planet: Planet, kind: PhaseArithmetic, found: list[Any]) -> list[tuple[Any, Any]]:
-    """Return (D, b) of each condition D phi = b t on a planet's angle phi, where t is the rotation of its set [turn];
-    append the integers E of its descendants to `found`.
+    """Return the pair (D, b) of each condition D phi = b t on a planet's angle phi, where t is the rotation of its set
+    [turn]. Append the integers E of the planet's descendants to `found`.
     """
     left = []
     for mesh in planet.central:
@@ -379,8 +389,8 @@ def _angle_conditions(planet: Planet, kind: PhaseArithmetic, found: list[Any]) -
 
 
 def _combined_condition(left: list[tuple[Any, Any]], kind: PhaseArithmetic, found: list[Any]) -> tuple[Any, Any]:
-    """Combine all conditions D phi = b t on a planet's angle phi into one and return its (D, b); append the integers E
-    of the conditions under which they are compatible to `found`.
+    """Combine all conditions D phi = b t on a planet's angle phi into one condition, and return its pair (D, b). Append
+    to `found` the integers E that express under which rotations t these conditions are compatible.
     """
     (D, b), *others = left
     for D2, b2 in others:
@@ -395,9 +405,9 @@ def _compatibility_number(one: tuple[Any, Any], other: tuple[Any, Any], common: 
 
 
 def bezout(a: int, b: int) -> tuple[int, int, int]:
-    """Return the greatest common divisor g of two non-negative integers, and u, v with u a + v b = g.
+    """Return the greatest common divisor g of two non-negative integers a and b, and u, v with u a + v b = g.
 
-    They are found by the extended Euclidean algorithm.
+    The numbers are found by the extended Euclidean algorithm.
 
     >>> bezout(24, 18)
     (6, 1, -1)
@@ -410,7 +420,7 @@ def bezout(a: int, b: int) -> tuple[int, int, int]:
 
 
 def assembly_number(planet: Planet) -> int:
-    """Return G: equal sets of planets mesh with the same central wheels at angles that are multiples of 1/G turn.
+    """Return the integer G for which equal sets of planets mesh with the same central wheels at multiples of 1/G turn.
 
     G is the largest such integer, or 0 if the sets mesh at any angle.
     """
@@ -422,22 +432,23 @@ def neighbour_terms(root: Any, reach: Any, tips: Any, chord: Any) -> tuple[Any, 
     """Return two terms whose sum is the tip clearance of n equally spaced planets, 2 a sin(pi/n) - tips [unit of
     `reach`].
 
-    reach   2 a, twice the distance of a planet's axis from the central axis: m (z_s + z_p), or m (z_r - z_p)
-    tips    m (z_p + 2 h) plus the required clearance
+    reach   2 a, twice the distance of a planet's axis from the central axis: m (z_s + z_p), or m (z_r - z_p), with the
+            module m and the tooth counts of sun, planet and ring
+    tips    m (z_p + 2 h) plus the required clearance, with the addendum h [modules]
     chord   sin(pi/n)
     """
     return reach * chord, -tips
 
 
 def passing_terms(root: Any, A: Any, B: Any, D: Any, tips: Any, c: Any, s: Any) -> tuple[Any, ...]:
-    """Return the terms whose sum is (2 distance)^2 - tips^2, where the distance is between the axes of a planet and of
-    its neighbour's mate. The sum is positive if these two planets clear each other.
+    """Return the terms whose sum is (2 d)^2 - tips^2, where d is the distance between the axis of a planet and the axis
+    of the mate of the neighbouring planet. The sum is positive if these two wheels clear each other.
 
     A, B   twice the distances of the two planets' axes from the central axis
     D      twice their centre distance in mesh, D^2 = A^2 + B^2 - 2 A B cos(delta)
     tips   sum of the tip diameters, and twice the required clearance
     c, s   cosine and sine of the angle psi to the neighbour; the angle between the two axes is psi - delta,
-           (2 distance)^2 = A^2 + B^2 - 2 A B (c cos(delta) + s sin(delta))
+           (2 d)^2 = A^2 + B^2 - 2 A B (c cos(delta) + s sin(delta))
     """
     Q = A * A + B * B - D * D
     # 2 A B sin(delta), because Q = 2 A B cos(delta)
@@ -447,7 +458,7 @@ def passing_terms(root: Any, A: Any, B: Any, D: Any, tips: Any, c: Any, s: Any) 
 
 _MISS, _NEGLIGIBLE = 0.1, 0.01  # phase errors (pitches): more than any backlash absorbs; less than any backlash
 ON_ECCENTRIC = 0.25
-"""Maximum distance between the axes of a wheel on an eccentric and of its carrier [radii of the wheel]."""
+"""Maximum distance between the axis of a wheel on an eccentric and the axis of its carrier [radii of the wheel]."""
 _CLEAR = 0.2  # recommended clearance of neighbours (modules)
 _FULL = 1.0  # addendum (modules) of undeclared teeth
 _STUB = _FULL - float(SHIFT)  # smallest addendum of undeclared teeth
@@ -539,8 +550,8 @@ class _EqualPlanets:
         yield BuildFinding(rule, "error" if worst > _MISS and rule == "A1" else "note", problem)
 
     def _uneven_spacing(self, rule: str) -> BuildFinding:
-        """Return the finding that planets cannot be evenly spaced: an error if every uneven spacing causes collisions,
-        else a note.
+        """Return the finding that planets cannot be evenly spaced. It is an error if every uneven spacing causes
+        collisions, and a note if not.
         """
         minimum = max((self._minimum_angle(planet, _STUB) for planet in self.planet.walk()), default=0.0)
         # 1e-9: an angle that is an integer number of steps to rounding needs no further step
@@ -613,8 +624,8 @@ class _EqualPlanets:
         return self._clearance_finding((wheel, wheel), gap, what, why, f"use at most {most} planets, or smaller ones")
 
     def _clearance_finding(self, wheels: tuple[str, str], gap: float, what: str, why: str, fix: str) -> BuildFinding:
-        """Return a finding on tip clearance `gap` [modules]: an error if the tips overlap even with the smallest
-        addendum assumed for undeclared teeth, else a note.
+        """Return a finding on the tip clearance `gap` [modules]. It is an error if the tips overlap even with the
+        smallest addendum that is assumed for undeclared teeth, and a note if they do not.
         """
         free = sum(wheel not in self.tips for wheel in wheels)
         # addendum at which the tips just touch if all undeclared teeth are shortened equally
@@ -631,7 +642,9 @@ class _EqualPlanets:
         return None if module is None else float(module) * self.train.wheels[wheel][1].slant
 
     def _neighbour_clearance(self, planet: Planet, mesh: AssemblyMesh, number: int) -> float | None:
-        """Return the clearance between the tips of equal wheels of neighbouring planets [modules]; None if unknown."""
+        """Return the clearance between the tips of equal wheels of neighbouring planets [modules]; None if it is
+        unknown.
+        """
         tips = self._tip_diameter(planet, mesh)
         # positions are known only for the first planet of each set
         if self.points is not None and planet is self.planet and number == self.number:
@@ -646,15 +659,17 @@ class _EqualPlanets:
         return None if reach is None else float(sum(neighbour_terms(sqrt, reach, tips, sin(pi / number))))
 
     def _is_on_eccentric(self, planet: Planet, mesh: AssemblyMesh) -> bool:
-        """Return True if a wheel is on an eccentric: the distance between its axis and the carrier's axis is not 0, but
-        less than `ON_ECCENTRIC` pitch radii.
+        """Return True if a wheel is on an eccentric. This is the case if the distance between its axis and the
+        carrier's axis is not 0, but less than `ON_ECCENTRIC` pitch radii.
         """
         wheel = planet.own(mesh)
         reach, count = self._axis_distance(planet, wheel), self.train.wheels[wheel][1].count or 0
         return reach is not None and 0 < reach < ON_ECCENTRIC * count
 
     def _tip_diameter(self, planet: Planet, mesh: AssemblyMesh, addendum: float = _FULL) -> float:
-        """Return the tip diameter of a planet's wheel [modules]; undeclared teeth have the given addendum [modules]."""
+        """Return the tip diameter of a planet's wheel [modules]. The value `addendum` [modules] is used for undeclared
+        teeth.
+        """
         wheel = planet.own(mesh)
         declared = self.tips.get(wheel)
         return (self.train.wheels[wheel][1].count or 0) + 2 * addendum if declared is None else 2 * declared
@@ -665,7 +680,9 @@ class _EqualPlanets:
         return float(sum(sign * int(part) for sign, part in mesh.terms)) if outline is None else 2 * outline.distance
 
     def _axis_distance(self, planet: Planet, wheel: str = "") -> float | None:
-        """Return twice the distance of a planet's axis from the central axis [modules of `wheel`]; None if unknown."""
+        """Return twice the distance of a planet's axis from the central axis [modules of `wheel`]; None if it is
+        unknown.
+        """
         meshes = sorted(planet.central, key=lambda mesh: (planet.own(mesh) != wheel, mesh.ring is not None))
         if not meshes:
             return None
@@ -696,7 +713,7 @@ class _EqualPlanets:
 
     def _minimum_angle(self, planet: Planet, addendum: float = _FULL) -> float:
         """Return the smallest angle between neighbouring planets at which their tips do not overlap [turn]; `addendum`
-        is as in `_tip_diameter`.
+        has the same meaning as in `_tip_diameter`.
         """
         found = 0.0
         for mesh in planet.mesh_of.values():
@@ -706,8 +723,8 @@ class _EqualPlanets:
         return found
 
     def _maximum_number(self) -> int:
-        """Return the maximum number of evenly spaced planets whose tips do not overlap; the declared number if
-        distances are unknown.
+        """Return the maximum number of evenly spaced planets whose tips do not overlap. If distances are unknown,
+        return the declared number of planets.
         """
         minimum = max((self._minimum_angle(planet) for planet in self.planet.walk()), default=0.0)
         # 1e-9: rounding must not reduce the number of planets whose tips just touch
@@ -715,7 +732,9 @@ class _EqualPlanets:
 
 
 def _planet_positions(train: Train, centre: str | None, axes: Sequence[str | None]) -> list[tuple[float, float]] | None:
-    """Return the x and y of planets relative to the axis of their carrier [mm]; None unless all are declared."""
+    """Return the x and y coordinates of the planets relative to the axis of their carrier [mm]; None unless all
+    positions are declared.
+    """
     places = [train.axes[label].point if label in train.axes else None for label in (centre or "", *map(str, axes))]
     spots = [place for place in places if place is not None]
     if len(spots) < len(places):

@@ -1,9 +1,10 @@
 """Checks of modules and centre distances: wheels in mesh have the same module, and two axes have one centre distance.
 
-Modules and distances are stored as multiples of each other. Wheels in mesh have the same module (1). The distance
-between two axes is k times the module of each pair between them, with k = (z1 + z2)/2 or (z_ring - z)/2 (2). Declared
-modules, positions and offsets give values in mm. These relations are stored in a weighted union-find structure with
-exact fractions. A relation between quantities that are already related is compared with the known relation.
+Modules and distances are stored as multiples of each other. Wheels in mesh have the same module (relation 1). The
+distance between two axes is k times the module of each pair between them, where k = (z1 + z2)/2 or (z_ring - z)/2 and z
+are tooth counts (relation 2). Declared modules, positions and offsets give values in mm. These relations are stored in
+a weighted union-find structure with exact fractions. A relation between quantities that are already related is compared
+with the known relation.
 """
 
 from __future__ import annotations
@@ -89,8 +90,8 @@ def _involute(angle: float) -> float:
 
 
 def minimum_ring(planet: int) -> int:
-    """Return the tooth count, at least 34, of the smallest ring without trochoid interference with a planet; both have
-    standard teeth.
+    """Return the tooth count, at least 34, of the smallest ring without trochoid interference with a planet of `planet`
+    teeth; both have standard teeth.
     """
     # the tip circle of a ring with fewer than 34 teeth lies within its base circle
     first = max(planet + 1, 34)
@@ -98,7 +99,9 @@ def minimum_ring(planet: int) -> int:
 
 
 def check_rings(pairs: Sequence[PitchPair]) -> Iterator[BuildFinding]:
-    """Yield findings of rules R1 to R3: ring smaller than its mate, trochoid interference, trimming interference."""
+    """Yield findings of rules R1 to R3: a ring is smaller than its mate, trochoid interference, or trimming
+    interference.
+    """
     for pair in pairs:
         if pair.ring is None or set(pair.kinds) != {"spur"}:
             continue
@@ -133,17 +136,19 @@ def check_rings(pairs: Sequence[PitchPair]) -> Iterator[BuildFinding]:
 
 
 def _radial_ring(planet: int) -> int:
-    """Return the tooth count of the smallest ring into which a planet with standard teeth can be inserted radially."""
+    """Return the tooth count of the smallest ring into which a planet of `planet` standard teeth can be inserted
+    radially.
+    """
     return next(z for z in count(max(minimum_ring(planet), 34)) if radial_margin(planet, z, PRESSURE, 1.0, 1.0) >= 0)
 
 
 SLACK = Fraction(1, 50)
-"""Maximum accepted difference between declared and required centre distance of a mesh [modules]; it is less than the
-backlash of cut teeth.
+"""Maximum accepted difference between the declared and the required centre distance of a mesh [modules]; it is less
+than the backlash of cut teeth.
 """
 
 SHIFT = Fraction(1, 2)
-"""Maximum change of centre distance that is accepted because profile shift can compensate it [modules]."""
+"""Maximum change of the centre distance that is accepted because profile shift can compensate it [modules]."""
 
 _FREE = Fraction(
     1, 40
@@ -152,8 +157,8 @@ _LOOSE = Fraction(1, 20)  # relative difference of distance of teeth with their 
 
 
 class PairOutline(NamedTuple):
-    """Actual dimensions of a pair with declared teeth: its centre distance, and the tip radius of each wheel
-    [transverse modules].
+    """Dimensions of a pair with declared teeth as cut: its centre distance and the tip radius of each wheel [transverse
+    modules].
     """
 
     distance: float
@@ -162,20 +167,24 @@ class PairOutline(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class PitchPair:
-    """Gear pair with its declared dimensions. Fields with two elements refer to the first and the second wheel."""
+    """Gear pair with its declared dimensions. If a field has two elements, they refer to the first and the second
+    wheel.
+    """
 
     name: str
     place: str
     wheels: tuple[str, str]
     declared: tuple[Wheel, Wheel]
     axes: tuple[str, str]
-    """Labels of the axes of the two wheels, as seen from the carrier."""
+    """Labels of the axes about which the two wheels turn relative to the carrier."""
     parallel: bool
     """True if the two axes are parallel."""
     ring: int | None
     """Index (0 or 1) of the wheel that is a ring; None for an external pair."""
     form: ToothForm | None
-    """Tooth form of the pair, by default of the train; None if none is declared or the form is ideal."""
+    """Tooth form declared for the pair, or for the train if the pair declares none; None if no form is declared or the
+    form is ideal.
+    """
 
     @property
     def counts(self) -> tuple[int, int]:
@@ -212,7 +221,8 @@ class PitchPair:
 
     @property
     def touching(self) -> Fraction:
-        """Centre distance at which the pitch circles touch [modules]: (z1 + z2)/2, or (z_ring - z)/2.
+        """Centre distance at which the pitch circles touch [modules]: (z1 + z2)/2, or (z_ring - z)/2, where z are tooth
+        counts.
 
         For helical teeth, this value is divided by the cosine of the helix angle.
         """
@@ -225,8 +235,8 @@ class PitchPair:
 
     @property
     def distance(self) -> Fraction:
-        """Design centre distance [modules]: the distance declared by the tooth form, else the distance at which the
-        pitch circles touch.
+        """Design centre distance [modules]: the distance that the tooth form declares, or, if it declares none, the
+        distance at which the pitch circles touch.
         """
         form = self.form
         own = getattr(form, "centre_distance", None) if form is not None and form.conjugate else None
@@ -310,7 +320,7 @@ Node = tuple[str, ...]
 
 
 def axis_distance(train: Train, axes: tuple[str, str]) -> Fraction | None:
-    """Return the distance between two parallel axes [mm]; None unless the positions of both are declared."""
+    """Return the distance between two parallel axes [mm]; None unless the positions of both axes are declared."""
     declared = [train.axes[label] for label in axes if label in train.axes]
     if len(declared) < 2 or declared[0].position is None or declared[1].position is None:
         return None
@@ -323,7 +333,7 @@ def axis_distance(train: Train, axes: tuple[str, str]) -> Fraction | None:
 
 
 class PitchDistances:
-    """Modules and centre distances of one train, as far as they follow from its declaration."""
+    """Modules and centre distances of one train that follow from its declaration."""
 
     def __init__(self, train: Train, tree: Tree, circuits: Sequence[Circuit], pairs: Sequence[PitchPair]) -> None:
         self.train, self.pairs = train, pairs
@@ -337,14 +347,14 @@ class PitchDistances:
         return self.sizes.ratio(("wheel", wheel), _MM)
 
     def distance(self, axes: tuple[str, str]) -> tuple[Node, Fraction]:
-        """Return a root quantity (a module or a distance), and the distance between two axes as a multiple of it.
-        Distances with the same root quantity can be compared.
+        """Return a root quantity (a module or a distance), and the distance between two axes as a multiple of the root
+        quantity. Distances with the same root quantity can be compared.
         """
         return self.sizes.root(("axes", *axes))
 
     def measure(self, pair: PitchPair) -> Callable[[Fraction], str]:
-        """Return a function that formats a multiple of the root quantity of a pair's distance: in mm if the root
-        quantity is known in mm, else in modules.
+        """Return a function that formats a multiple of the root quantity of a pair's distance. It is given in mm if the
+        root quantity is known in mm, and in modules if it is not.
         """
         root, _ = self.distance(pair.axis_pair)
         known, module = self.sizes.ratio(root, _MM), self.sizes.ratio(root, ("wheel", pair.wheels[0])) or Fraction(1)
@@ -383,8 +393,8 @@ class PitchDistances:
     # ------------------------------------------------------------------------------------------------------- distances
 
     def _offsets(self, tree: Tree, circuits: Sequence[Circuit]) -> Iterator[BuildFinding]:
-        """Record axis distances from declared positions, then from the offsets of pins in slots; yield findings for
-        contradictions.
+        """Record axis distances from declared positions, then from the offsets of pins in slots. Yield a finding for
+        each contradiction.
         """
         offsets = {each.name: each.offset for each in self.train.pin_couplings if each.offset is not None}
         for pair in self.pairs:
@@ -435,7 +445,7 @@ class PitchDistances:
 
     def _misplaced(self, pair: PitchPair, found: Fraction, by: str) -> Iterator[BuildFinding]:
         """Yield a finding if the required centre distance of a pair differs from the declared distance `found`
-        [modules]; `by` names the declaration.
+        [modules]; `by` names the declaration of this distance.
         """
         wanted, off = pair.distance, found - pair.distance
         if abs(off) <= _EQUAL * sum(pair.counts) / 2:
@@ -526,9 +536,9 @@ def _needed_shifts(pair: PitchPair, distance: Fraction) -> str:
     """Return the text of a fix with the profile shifts for which involute teeth have no backlash at a distance
     [modules]; "" if the sum of the shifts would be outside `_SHIFTS`, or if no involute pair has this distance.
 
-    inv a_w = inv a_t + 2 tan a_n (x1 + x2)/(z1 + z2) with cos a_w = cos a_t touching/distance and tan a_t = tan a_n /
-    cos(helix). In a pair with a ring, z and x of the mate are negative. The rack angle a_n is that of the tooth form,
-    by default 20 degrees.
+    The equation is inv a_w = inv a_t + 2 tan a_n (x1 + x2)/(z1 + z2), with cos a_w = cos a_t touching/distance, tan a_t
+    = tan a_n / cos(helix), the profile shifts x and the tooth counts z. In a pair with a ring, z and x of the mate are
+    negative. The rack angle a_n is declared by the tooth form; the default is 20 degrees.
     """
     from geartrain.teeth.conjugate.involute_geometry import inv
 
@@ -557,8 +567,8 @@ def _needed_shifts(pair: PitchPair, distance: Fraction) -> str:
 
 
 def _backlash_effect(pair: PitchPair, off: Fraction, module: Fraction) -> str:
-    """Describe the change of backlash caused by a deviation `off` of the centre distance [modules]; for involutes it is
-    2 off tan(alpha) with the pressure angle alpha.
+    """Return a description of the change of backlash caused by a deviation `off` of the centre distance [modules]. For
+    involute teeth, the change is 2 off tan(alpha), where alpha is the pressure angle.
     """
     tight = (off < 0) != (pair.ring is not None)
     if abs(off) <= SLACK and tight:

@@ -1,7 +1,7 @@
-"""Fundamental circuits of gear pairs and couplings with carrier and signed exact ratio; angles between shafts.
+"""Fundamental circuits of gear pairs and couplings, with their carriers and signed exact ratios, and shaft angles.
 
 The turning pairs form a tree. A gear pair (i, j) closes one circuit through it, and its carrier k is the link on the
-tree path where the axis label changes (the transfer vertex). Every link of an axis is attached to the link of that axis
+tree path where the axis label changes (the transfer vertex). Every link on an axis is attached to the link on that axis
 that is nearest to the frame. The result is then the same for every equivalent tree of coaxial joints, and each pair
 takes constant time.
 """
@@ -43,9 +43,9 @@ class Circuit(NamedTuple):
     kind: str
     """Kind of the circuit: "gear", or a key of `geartrain.teeth.coupling.COUPLINGS`."""
     i: str
-    """Link of the first wheel, or driven link of a coupling, such as the slot."""
+    """Link of the first wheel, or driven link of a coupling, such as the link with the slot."""
     j: str
-    """Link of the second wheel, or driving link of a coupling, such as the pin."""
+    """Link of the second wheel, or driving link of a coupling, such as the link with the pin."""
     carrier: str
     """Carrier k, which is the link that carries both axes (transfer vertex; Freudenstein and Yang 1972)."""
     a: int
@@ -55,7 +55,9 @@ class Circuit(NamedTuple):
     wheels: tuple[str, str]
     """Names of the two wheels; for a coupling without teeth, names of links i and j."""
     note: str = ""
-    """Remark: the sense of rotation is only a convention, or the links turn as one body; empty if there is none."""
+    """Remark on the circuit: its sense of rotation is only a convention, or its links turn as one body. It is empty if
+    neither applies.
+    """
     by_teeth: bool = True
     """True if a and b are, up to their signs, the tooth counts of `wheels`; False for couplings without teeth."""
     bases: tuple[str, ...] = ()
@@ -95,8 +97,8 @@ class Circuit(NamedTuple):
         """Links and their non-zero coefficients in the Willis equation a w_i + b w_j - (a + b) w_k = 0.
 
         Speeds are positive about the reference direction of parallel axes. The transposed row gives the torques of a
-        pair without losses, and the row modulo 1 gives the phases of its teeth. If a sliding carrier is involved, the
-        coefficients -a and -b belong to the two `bases`.
+        pair without losses. Applied to the link angles, the row gives the phase of the mesh, modulo one pitch. If a
+        sliding carrier is involved, the coefficients -a and -b belong to the two `bases`.
         """
         if self.bases:
             row: dict[str, int] = {}
@@ -114,7 +116,7 @@ class Circuit(NamedTuple):
         Parameters
         ----------
         counts : mapping of str to int
-            Wheel -> tooth count, 1 or more. Other wheels keep their counts.
+            Tooth counts of wheels, 1 or more, by wheel. Other wheels keep their tooth counts.
         """
         if not self.by_teeth or counts.keys().isdisjoint(self.wheels):
             return self
@@ -126,7 +128,7 @@ _SOLID = "with a ratio of 1, these coaxial links turn as one body, whatever the 
 
 
 class WillisEquation(NamedTuple):
-    """Equation of a Willis system: the sum of the products of coefficient and speed in `terms` equals `right`.
+    """Equation of a Willis system: the sum of coefficient times speed over all `terms` equals `right`.
 
     See Also
     --------
@@ -145,7 +147,7 @@ class WillisEquation(NamedTuple):
 
 @collector_paused()
 def find_circuits(train: Train, tree: Tree) -> tuple[Circuit, ...]:
-    """Return the circuits of all gear pairs, followed by those of all couplings, in the order of declaration."""
+    """Return the circuits of all gear pairs, followed by the circuits of all couplings, in the order of declaration."""
     problems: list[Problem] = []
     axes = Axes(train, tree)
     circuits = []
@@ -195,7 +197,9 @@ class _DeclaredCoupling(NamedTuple):
     at: int
 
     def circuits(self) -> Sequence[Circuit | Problem]:
-        """Return the circuits of the coupling, which have a common carrier, or the problems that prevent them."""
+        """Return the circuits of the coupling, which have a common carrier, or the problems because of which it has no
+        circuits.
+        """
         train, tree, name = self.train, self.axes.tree, self.coupling.name
         wheels = [name for kind, name, _ in self.coupling.references() if kind == "wheel"]
         if missing := _no_count(train, wheels):
@@ -234,7 +238,9 @@ class _DeclaredCoupling(NamedTuple):
         return self._travelling(circuit) if circuit.travels else self._rotating(circuit)
 
     def _rotating(self, circuit: Circuit) -> Circuit | Problem:
-        """Return the circuit of two turning links; the directions of their axes determine the sign of its ratio."""
+        """Return the circuit of two turning links, or a problem. The directions of their axes determine the sign of the
+        speed ratio.
+        """
         axes, coupling = self.axes, self.coupling
         labels = _labels(axes.tree, circuit.carrier, circuit.i, circuit.j)
         sign = 1
@@ -256,8 +262,8 @@ class _DeclaredCoupling(NamedTuple):
         return _turning(axes.tree, circuit._replace(b=sign * circuit.b))
 
     def _travelling(self, circuit: Circuit) -> Circuit | Problem:
-        """Return the circuit of a turning link j and a sliding link i; each is relative to the carrier's motion of the
-        same kind.
+        """Return the circuit of a turning link j and a sliding link i, or a problem. The motion of each link is
+        relative to the carrier's motion of the same kind.
         """
         axes, coupling, carrier, tree = self.axes, self.coupling, circuit.carrier, self.axes.tree
         along, about = _labels(tree, carrier, circuit.i, circuit.j)
@@ -282,7 +288,9 @@ class _DeclaredCoupling(NamedTuple):
         return circuit._replace(i=i, j=j, b=b, bases=(tree.moving(carrier, line), tree.moving(carrier, None)))
 
     def _wrong_angle(self, labels: tuple[str, str]) -> Problem | None:
-        """Return the problem of axes that are perpendicular or not at the coupling's angle; None if they are valid."""
+        """Return a problem if two axes are perpendicular, or if they are not at the angle that the coupling requires;
+        None if they are valid.
+        """
         between, declared = self.axes.angle(labels), getattr(self.coupling, "angle", None)
         what = f"coupling '{self.coupling.name}': "
         if between is not None and between > pi / 2 - _SAME_ANGLE:
@@ -320,7 +328,7 @@ def _turning(tree: Tree, circuit: Circuit) -> Circuit:
 def _shared_axis(tree: Tree, i: str, j: str) -> str | None:
     """Return the label of the common axis about which links i and j turn; None if they have different axes.
 
-    The link that carries the axis also belongs to it.
+    The link that carries an axis also belongs to this axis.
     """
     for link, other in ((i, j), (j, i)):
         axis = tree.axis(link)
@@ -330,8 +338,8 @@ def _shared_axis(tree: Tree, i: str, j: str) -> str | None:
 
 
 def _coaxial_carrier(tree: Tree, i: str, j: str, declared: str | None) -> str | None:
-    """Return the carrier of a coaxial pair: the declared one, or else the link that carries the axis. None if the pair
-    is not coaxial, or if the carrier is not a third link on its axis.
+    """Return the carrier of a coaxial pair: the declared carrier, or, if none is declared, the link that carries the
+    axis. Return None if the pair is not coaxial, or if the carrier is not a third link on its axis.
     """
     axis = _shared_axis(tree, i, j)
     if axis is None:
@@ -342,7 +350,9 @@ def _coaxial_carrier(tree: Tree, i: str, j: str, declared: str | None) -> str | 
 
 
 def couplings_on_axes(train: Train, tree: Tree) -> tuple[Coupling, ...]:
-    """Return the couplings of a train; the angles between their axes are filled in if they follow from `axes`."""
+    """Return the couplings of a train. The angles between their axes are filled in if they follow from the declared
+    `axes`.
+    """
     if not any(coupling.OBLIQUE for coupling in train.couplings):
         return tuple(train.couplings)
     axes, found = Axes(train, tree), []
@@ -401,7 +411,7 @@ def _no_carrier(train: Train, tree: Tree, name: str, i: str, j: str, loc: tuple[
 
 
 def _no_count(train: Train, wheels: Sequence[str]) -> list[Problem]:
-    """Return the problem of the first wheel without a tooth count, as a list; empty if all wheels have one."""
+    """Return a problem for the first wheel without a tooth count, as a list; empty if all wheels have a tooth count."""
     what, why = "wheel '{}' has no tooth count yet", "only `search` is declared, and speeds need a definite count"
     missing = [name for name in wheels if train.wheels[name][1].count is None][:1]
     places = (train.place("links", train.wheels[name][0], "wheels", name) for name in missing)
@@ -415,8 +425,9 @@ _MEET = 1e-3  # relative to the distance between two declared points: closer axe
 def shaft_angle(train: Train, tree: Tree, circuit: Circuit) -> float | None:
     """Return the shaft angle of a gear pair, in (0, pi) [rad]; None if its axes are parallel.
 
-    It is the sum of both pitch cone angles: the angle between the directions from the apex to the two wheels, which
-    follow from the axes and `facing`. Raises `RangeError` if axes with declared positions do not intersect.
+    It is the sum of the half angles of both pitch cones, which is the angle between the directions from the apex to the
+    two wheels. These directions follow from the axes and `facing`. Raises `RangeError` if axes with declared positions
+    do not intersect.
     """
     axes, labels = Axes(train, tree), _labels(tree, circuit.carrier, circuit.i, circuit.j)
     if axes.are_parallel(labels):
@@ -432,11 +443,11 @@ def shaft_angle(train: Train, tree: Tree, circuit: Circuit) -> float | None:
 def bevels_on_one_side(
     train: Train, circuits: Iterable[Circuit], is_rotation: Callable[[str, str], bool]
 ) -> Iterator[tuple[str, str, str]]:
-    """Yield the names (one, other, third) if two bevel wheels on one axis mesh with a third bevel wheel from the same
-    side.
+    """Yield the names (one, other, third) of two bevel wheels on one axis that mesh with a third bevel wheel from the
+    same side.
 
-    Their pitch cones have the same apex as the third, so the two wheels would occupy the same space. The sides follow
-    from `facing` and from the senses of rotation of the two circuits.
+    The pitch cones of all three wheels have the same apex, so the first two wheels would occupy the same space. The
+    sides follow from `facing` and from the senses of rotation of the two circuits.
 
     is_rotation   function that returns whether all axes between two links are parallel
     """
@@ -456,8 +467,8 @@ def bevels_on_one_side(
 
 
 def passing_distance(axes: Axes, labels: Sequence[str]) -> float | None:
-    """Return the distance between two non-parallel axes [m], which is 0 if they intersect; None if a position is not
-    declared.
+    """Return the distance between two non-parallel axes [m], which is 0 if they intersect; None if one of their
+    positions is not declared.
     """
     here, there = (axes.positions.get(label) for label in labels)
     if here is None or there is None:

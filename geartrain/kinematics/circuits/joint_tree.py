@@ -2,10 +2,10 @@
 
 The module also checks that helical wheels in mesh have compatible teeth, and determines their senses of rotation.
 
-Two links form a rigid body if their relative twist vanishes. The twist is the sum of the joint rates times the screws
-of the axes between the links. Screws of two or three different lines are independent, so every joint on the path is
-locked, not only the sum of their rates (docs/theory.md, section 4). Four or more axes may form a linkage with a
-variable ratio. Such a lock is rejected unless declared positions show that the linkage cannot move.
+Two links form a rigid body if their relative twist vanishes. The twist is the sum, over all joints between the links,
+of the joint rate times the screw of the joint axis. Screws of two or three different lines are independent, so every
+joint on the path is locked, not only the sum of their rates (docs/theory.md, section 4). Four or more axes may form a
+linkage with a variable ratio. Such a lock is rejected unless declared positions show that the linkage cannot move.
 """
 
 from __future__ import annotations
@@ -31,17 +31,19 @@ from geartrain.train.states import Escapement
 
 @dataclass(frozen=True, slots=True)
 class Tree(FrozenFields):
-    """Turning and sliding pairs of a train as a spanning tree rooted at the frame; it determines the carriers of pairs
-    and their axes.
+    """Turning and sliding pairs of a train as a spanning tree rooted at the frame. The tree determines the carriers of
+    gear pairs and their axes.
     """
 
     frame: str
     parent: Mapping[str, tuple[str, str]]
-    """Parent of each link (its neighbour towards the frame), and the declared label of the axis between them."""
+    """Parent of each link, which is its neighbour towards the frame, and the declared label of the axis between the two
+    links.
+    """
     top: Mapping[str, str]
     """Link that carries the axis of each link: the first link on the path to the frame that is not on that axis."""
     lines: Mapping[str, str] = field(default_factory=dict)
-    """Direction of travel of each sliding link: its axis label, or the first label of a parallel axis."""
+    """Direction of travel of each sliding link, as the label of the first declared axis that is parallel to it."""
 
     def reference(self, link: str, base: str) -> str:
         """Return the nearest link at or above `base` whose motion is comparable with the motion of `link`; the frame if
@@ -53,8 +55,8 @@ class Tree(FrozenFields):
         return self.moving(base, self.lines.get(link)) if self.lines else base
 
     def moving(self, link: str, line: str | None) -> str:
-        """Return the nearest link at or above `link` that slides along `line`, or that turns if `line` is None; the
-        frame if there is none.
+        """Return the nearest link that slides along `line`, or that turns if `line` is None, among `link` and the links
+        that carry it; return the frame if there is none.
         """
         while link != self.frame and self.lines.get(link) != line:
             link = self.parent[link][0]
@@ -62,13 +64,13 @@ class Tree(FrozenFields):
 
     def borne_by(self, link: str) -> str:
         """Return the link relative to which the motion in the joint of `link` is measured: its parent, or the nearest
-        link above the parent whose motion is comparable.
+        link above the parent whose motion is comparable with the motion of `link`.
         """
         return self.reference(link, self.parent[link][0])
 
     def bearer(self, link: str) -> str:
         """Return the link relative to which `link` moves on its axis: the link that carries the axis, or the nearest
-        link above that link whose motion is comparable.
+        link above it whose motion is comparable with the motion of `link`.
         """
         return self.reference(link, self.top[link])
 
@@ -87,8 +89,8 @@ class Tree(FrozenFields):
     def axis_seen_from(self, carrier: str, link: str) -> str:
         """Return the label of the axis about which a link of a circuit turns relative to the circuit's carrier.
 
-        It is the link's own axis if the carrier carries it. Otherwise the link is coaxial with the carrier, or carries
-        the carrier's axis, and the axis is the carrier's.
+        It is the link's own axis if the carrier carries this axis. If not, the link is coaxial with the carrier or
+        carries the carrier's axis, and the axis is that of the carrier.
         """
         return self.parent[link if self.bears(carrier, link) else carrier][1]
 
@@ -169,8 +171,8 @@ def find_tree(train: Train) -> Tree:
 def _lines(train: Train, parent: Mapping[str, tuple[str, str]], sliding: Mapping[str, str]) -> dict[str, str]:
     """Return the direction of travel of each sliding link, as the first axis label with that direction.
 
-    Slides with different labels have the same direction if their declared directions are parallel, and if all turning
-    links between them turn about this direction, so that it is constant.
+    Sliding pairs with different labels have the same direction if their declared directions are parallel and all
+    turning links between them turn about this direction, so that it is constant.
     """
     labels = dict.fromkeys(sliding.values())
     lines = {label: label for label in labels}
@@ -280,15 +282,16 @@ def check_parallel(first: Wheel, second: Wheel) -> None:
 
 
 def crossed_sense(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> tuple[int, str]:
-    """Return 1 if two helical wheels on skew axes turn in opposite senses, as spur wheels do, else -1; and a note,
-    which is empty unless the sense is only a convention.
+    """Return the sense of two helical wheels on skew axes, and a note. The sense is 1 if they turn in opposite senses,
+    as spur wheels do, and -1 if not. The note is empty unless the sense is only a convention.
 
     Let b1 and b2 be the helix angles (positive for right-hand helices), and S the angle from the first axis to the
     second, about the direction from the second to the first. Teeth are aligned if b1 + b2 = S, and then z1 w1 = -z2 w2;
     or if b1 + b2 = S plus half a turn, and then z1 w1 = z2 w2 (equations (12a) and (12b) of docs/theory.md).
 
     angle   angle between the directions of the axes [rad], 0 to pi
-    side    1 if it is about the direction from the second axis to the first, -1 if about the opposite, 0 if unknown
+    side    1 if the angle is about the direction from the second axis to the first, -1 if it is about the opposite
+            direction, 0 if unknown
 
     Raises `GearTrainError` if the teeth are not aligned.
     """
@@ -313,13 +316,13 @@ def crossed_sense(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> tuple
 
 
 def crossed_helix_angles(wheels: tuple[Wheel, Wheel], angle: float, side: int) -> tuple[float, float] | None:
-    """Return the helix angles of two wheels on skew axes [rad], positive for right-hand helices; None if none is
-    declared.
+    """Return the helix angles of two wheels on skew axes [rad], positive for right-hand helices; None if they are
+    unknown.
 
-    The helix angle of a worm and the shaft angle determine the helix angle of its wheel by equation (12a); it may also
-    be declared. If the helix angle of a worm is not declared, both are unknown. The parameters are as in
-    `crossed_sense`. Raises `GearTrainError` if the wheel of a worm declares another helix angle or hand than the worm
-    requires.
+    The helix angle of a worm and the shaft angle determine the helix angle of its wheel by equation (12a); the helix
+    angle of the wheel may also be declared. If the helix angle of a worm is not declared, both helix angles are
+    unknown. The parameters are the same as in `crossed_sense`. Raises `GearTrainError` if the wheel of a worm declares
+    another helix angle or hand than the worm requires.
     """
     kinds = [wheel.kind for wheel in wheels]
     if "worm" not in kinds:
@@ -379,19 +382,19 @@ class Axes:
         }
 
     def direction(self, label: str | None) -> ExactVector:
-        """Return the direction of an axis as a vector of any length; z if none is declared."""
+        """Return the declared direction of an axis as a vector of any length; z if no direction is declared."""
         return self.directions.get(label or "", _Z)
 
     def sign(self, label: str | None) -> int:
-        """Return -1 if an axis points against the reference direction of the axes parallel to it, else 1. The reference
-        direction is z, or for other directions the direction of the first declared axis.
+        """Return -1 if an axis points against the reference direction of the axes parallel to it, and 1 if it does not.
+        The reference direction is z, or, for other directions, the direction of the axis that is declared first.
         """
         return self._senses.get(label or "", 1)
 
     @property
     def link_signs(self) -> Mapping[str, int]:
-        """Signs by link: -1 for each link whose axis points against the reference direction of the axes parallel to it.
-        Links with the sign 1 are omitted.
+        """Sign of each link's axis, by link: -1 if it points against the reference direction of the axes parallel to
+        it. Links with the sign 1 are omitted.
         """
         if self.plain:
             return {}
@@ -399,8 +402,8 @@ class Axes:
 
     @property
     def joint_sums(self) -> frozenset[str]:
-        """Links that are separated from the frame by non-parallel joints. Their speed is a sum of joint speeds, not the
-        speed of a rotation.
+        """Links that are connected to the frame by joints with non-parallel axes. Their speed is a sum of joint speeds,
+        and not the speed of a rotation.
         """
         if self.plain:
             return frozenset()
@@ -433,7 +436,9 @@ class Axes:
         return min(angle, pi - angle)
 
     def sense(self, labels: tuple[str, str]) -> int:
-        """Return 1 if the angle between the reference directions of two axes is less than 90 degrees, else -1."""
+        """Return 1 if the angle between the reference directions of two axes is less than 90 degrees, and -1 if it is
+        not.
+        """
         first, second = (self.direction(label) for label in labels)
         return self.sign(labels[0]) * self.sign(labels[1]) * (-1 if dot(first, second) < 0 else 1)
 
@@ -445,8 +450,8 @@ class Axes:
         return parallel(self.direction(one), minus(_vector(there), _vector(here)))
 
     def screw(self, label: str) -> dict[int, Fraction] | None:
-        """Return the non-zero components of the screw of an axis, which are its direction and the velocity of the
-        origin; None if no position is declared.
+        """Return the non-zero components of the screw of an axis by index: the direction of the axis, and the velocity
+        of the origin. Return None if no position is declared.
         """
         here = self.positions.get(label)
         if here is None:
@@ -470,11 +475,14 @@ class Axes:
         return atan2(far, float(dot(first, second))), (side > 0) - (side < 0)
 
     def helix_angles(self, labels: tuple[str, str], wheels: tuple[Wheel, Wheel]) -> tuple[float, float] | None:
-        """Return the helix angles of two wheels on skew axes [rad]; None for parallel axes or undeclared angles."""
+        """Return the helix angles of two wheels on skew axes [rad]; None if the axes are parallel or the angles are not
+        declared.
+        """
         return None if self.are_parallel(labels) else crossed_helix_angles(wheels, *self.crossing(*labels))
 
     def coefficients(self, i: str, j: str, carrier: str, wheel_i: Wheel, wheel_j: Wheel) -> tuple[int, int, str]:
-        """Return a and b of the Willis equation, and a note (or "") if the sense of rotation is a convention.
+        """Return the coefficients a and b of the Willis equation, and a note, which is "" unless the sense of rotation
+        is only a convention.
 
         Raises `GearTrainError` for wheels that cannot mesh on their axes.
         """
@@ -504,7 +512,9 @@ class Axes:
         return z_i, z_j * side_i * side_j, ""
 
     def _worm(self, i: str, j: str, carrier: str, wheel_i: Wheel, wheel_j: Wheel) -> tuple[int, int, str]:
-        """Return a, b and the note for a worm drive. Its sense of rotation follows from the hand and the positions."""
+        """Return a, b and the note for a worm drive. Its sense of rotation follows from the hand of the worm and from
+        the positions of the axes.
+        """
         z_i, z_j = wheel_i.count or 0, wheel_j.count or 0
         worm_first = wheel_i.kind == "worm"
         # a worm without a declared hand is right-handed
@@ -530,7 +540,7 @@ class Axes:
 
 
 def _vector(figures: Iterable[Any]) -> ExactVector:
-    """Return three numbers as a vector, or three lengths as a vector [m]."""
+    """Return three numbers as a vector, or three lengths as a vector in metres."""
     x, y, z = (figure.value if isinstance(figure, Figure) else figure.base for figure in figures)
     return x, y, z
 
@@ -543,15 +553,17 @@ def _line(direction: ExactVector) -> ExactVector:
 
 
 JointOnLine = tuple[str, str, tuple[str, ...]]
-"""Joint: the names of its two links, and the labels of its axis (several labels if axes are collinear)."""
+"""Joint: the names of its two links, and the labels of its axis. There are several labels if several axes are
+collinear.
+"""
 
 
 @dataclass(frozen=True, slots=True)
 class Rigid:
-    """Brake or lock that makes two links one rigid body, with the joints on the path between them."""
+    """Brake or lock that makes two links one rigid body by locking the joints on the path between them."""
 
     links: tuple[str, ...]
-    """Name of one fixed link, or names of two links that are locked together."""
+    """Name of one braked link, or names of two links that are locked together."""
     joints: tuple[JointOnLine, ...]
 
     @property
@@ -561,8 +573,8 @@ class Rigid:
 
 
 def close_joints(train: Train, tree: Tree, cases: Sequence[StateCase]) -> list[StateCase]:
-    """Return the prescriptions of each state, with every brake and lock expressed as brakes on links that turn on the
-    frame, and locks between coaxial links.
+    """Return the case of each state, in which every brake and lock is expressed by brakes on links that turn on the
+    frame and by locks between coaxial links.
 
     A brake or lock across several axes is replaced by locks of the joints on the path, each with its cause. The
     `problems` of a case are set if a lock forms a linkage, or if an input link has no fixed axis in the frame. Raises
@@ -590,8 +602,8 @@ def _closed_case(train: Train, axes: Axes, sums: frozenset[str], case: StateCase
 
 
 def _in_coordinates(tree: Tree, case: StateCase) -> StateCase:
-    """Return the prescriptions in which each lock of a link to the link that carries it refers to the nearest link with
-    a comparable motion; a lock to the frame becomes a brake.
+    """Return the case in which each lock of a link to the link that carries it refers to the nearest link with a
+    comparable motion. A lock to the frame becomes a brake.
     """
     fixed, locks, causes = list(case.fixed), [], dict(case.causes)
     for a, b in case.locks:
@@ -608,7 +620,8 @@ def _in_coordinates(tree: Tree, case: StateCase) -> StateCase:
 
 
 def rigid_across_axes(train: Train, tree: Tree, case: StateCase) -> Iterator[Rigid]:
-    """Yield the brakes and locks that no device on one axis can realise, because they lock two or more joints.
+    """Yield the brakes and locks that lock two or more joints, and therefore cannot be realised by a device on one
+    axis.
 
     Joints that are locked by other brakes and locks are not counted.
     """
@@ -632,8 +645,8 @@ class _Bodies:
                 self._bodies.join(*rigid.joints[0][:2])
 
     def close(self, across: Sequence[Rigid]) -> tuple[list[tuple[Rigid, JointOnLine]], list[Rigid]]:
-        """Lock the joints of brakes and locks across several axes; return these joints with their causes, and the
-        brakes and locks that form linkages.
+        """Lock the joints of the brakes and locks across several axes. Return these joints with the brake or lock that
+        causes each of them, and the brakes and locks that form linkages.
         """
         closed: list[tuple[Rigid, JointOnLine]] = []
         waiting = list(across)
@@ -650,7 +663,9 @@ class _Bodies:
         return [joint for joint in rigid.joints if self._bodies.are_apart(joint[0], joint[1])]
 
     def _joints(self, a: str, b: str) -> tuple[JointOnLine, ...]:
-        """Return the joints on the path between two links, one for each line; joints on collinear axes are merged."""
+        """Return the joints on the path between two links. Joints on collinear axes are merged, so that there is one
+        joint for each line.
+        """
         parent, top = self._tree.parent, self._tree.top
         up, down = ways_to_common_ancestor(a, b, top.get)
         steps = [(link, top[link], parent[link][1]) for link in up[:-1]]
@@ -669,7 +684,7 @@ class _Bodies:
         return one == other or self._axes.are_one_line(one, other)
 
     def _is_immobile(self, joints: Sequence[JointOnLine]) -> bool:
-        """Return True if a closed chain with the given joints certainly has no mobility, False if it may move."""
+        """Return True if a closed chain of the given joints certainly has no mobility, False if it may be movable."""
         labels = [labels[0] for _, _, labels in joints]
         # up to three different lines have independent screws in every pose; for more, the rank in this pose decides
         if len(labels) <= 3 and not any(self._same_line(one, other) for one, other in combinations(labels, 2)):
@@ -681,8 +696,8 @@ class _Bodies:
 def _joint_by_joint(
     frame: str, case: StateCase, across: Sequence[Rigid], stops: Sequence[tuple[Rigid, JointOnLine]]
 ) -> StateCase:
-    """Return the prescriptions of a state in which brakes and locks across several axes are replaced by the joints that
-    they lock.
+    """Return the case in which brakes and locks across several axes are replaced by locks of the single joints on their
+    paths.
     """
     spread = {rigid.links for rigid in across}
     fixed = [link for link in case.fixed if (link,) not in spread]
@@ -723,7 +738,7 @@ def _linkage(train: Train, case: StateCase, rigid: Rigid) -> Problem:
 
 
 def rigid_place(train: Train, case: StateCase, links: tuple[str, ...]) -> Loc:
-    """Return the path of the declaration keys at which a brake or lock is declared."""
+    """Return the path of keys in the declaration at which a brake or lock is declared."""
     if links in case.clutches:
         return ("clutches", case.clutches[links])
     key = "fixed" if len(links) == 1 else "locks"

@@ -1,10 +1,10 @@
-"""Rational functions of tooth counts in textbook notation: in factors, as text, LaTeX or a SymPy expression.
+"""Rational functions of tooth counts in textbook notation, which are factored and given as text, LaTeX or SymPy
+expressions.
 
-Polynomials in tooth counts are written as products in which no two factors have a wheel in common.
-Two variables i and j belong to different factors of P if and only if P(i, j) P(a, b) = P(a, j) P(i, b) for fixed values
-a and b with P(a, b) not 0, because P is then, up to a constant, the product of a polynomial without i and one without
-j. For gear trains this is almost always the complete factorisation, because epicyclic sets in series have different
-wheels.
+Polynomials in tooth counts are written as products in which no two factors have a wheel in common. Two variables i and
+j belong to different factors of P if and only if P(i, j) P(a, b) = P(a, j) P(i, b) for fixed values a and b with P(a,
+b) not 0, because P is then, up to a constant, the product of a polynomial without i and one without j. For gear trains,
+this factorisation is almost always complete, because epicyclic sets in series have different wheels.
 """
 
 from __future__ import annotations
@@ -35,19 +35,21 @@ _VALUES = (2, 3, 5, 7, 11, 13)  # primes: sums of their products rarely vanish
 
 @dataclass(frozen=True, slots=True)
 class FactoredPolynomial:
-    """Factored polynomial: an integer times powers of variables times sums without common variables."""
+    """Factored polynomial: an integer, times powers of variables, times sums. No two of the sums have a variable in
+    common.
+    """
 
     content: int
     """Integer factor; 0 for the zero polynomial."""
     powers: Exponents
     """Exponent of each variable, by index."""
     sums: tuple[tuple[Term, ...], ...]
-    """Factors that have two or more terms; the terms are sorted by descending exponents."""
+    """Factors that have two or more terms. The terms of each factor are sorted by descending exponents."""
 
     @classmethod
     def of(cls, terms: Sequence[Term], point: Sequence[int], known: Sequence[Laurent] = ()) -> FactoredPolynomial:
-        """Factor a polynomial with non-negative exponents. The sign of each sum is chosen so that it is positive at
-        `point`, unless it is 0 there.
+        """Factor a polynomial with non-negative exponents. The sign of each sum is chosen so that the sum is positive
+        at `point`, unless it is 0 there.
 
         known   candidates for factors, which are tried first
         """
@@ -105,7 +107,9 @@ def _are_separable(p: Laurent, i: int, j: int) -> bool:
 
 
 def _with_numbers(p: Laurent, others: Sequence[int]) -> Laurent:
-    """Return a polynomial whose variables `others` are replaced by primes at which it does not vanish."""
+    """Return a polynomial in which the variables with the indices `others` are replaced by primes at which it does not
+    vanish.
+    """
     for at in others:
         p = next(found for value in _VALUES if (found := _substitute(p, at, value)))
     return p
@@ -156,7 +160,7 @@ _LATEX = _Style(
 
 @dataclass(frozen=True)
 class ClosedForm(Result):
-    """Rational function of tooth counts in lowest terms, and its value at the declared counts.
+    """Rational function of tooth counts in lowest terms, and its value at the declared tooth counts.
 
     See Also
     --------
@@ -168,7 +172,7 @@ class ClosedForm(Result):
     formula: Formula
     """Formula as exact numerator and denominator."""
     counts: Mapping[str, int] = field(repr=False)
-    """Declared tooth counts by wheel, at least for all wheels in the formula."""
+    """Declared tooth counts by wheel, for at least all wheels in the formula."""
     known: tuple[tuple[tuple[str, ...], tuple[Term, ...]], ...] = field(default=(), repr=False)
     """Candidates for factors, which are tried first: each consists of a list of wheels, and of terms whose exponents
     refer to these wheels.
@@ -185,7 +189,7 @@ class ClosedForm(Result):
 
     @property
     def value(self) -> Fraction | None:
-        """Value at the declared counts; None if the denominator is 0."""
+        """Value of the formula at the declared tooth counts; None if the denominator is 0."""
         return self.formula.value(self.counts)
 
     @cached_property
@@ -232,8 +236,8 @@ class ClosedForm(Result):
         return ClosedForm(make_formula(self.formula.label, wheels, top, bottom)[0], self.counts, self.known)
 
     def elasticity(self, wheel: str) -> ClosedForm:
-        """Return the elasticity (z/f) df/dz of this function f in the tooth count z of one wheel: relative change of f
-        per relative change of z.
+        """Return the elasticity (z/f) df/dz, where f is this function and z the tooth count of one wheel. It is the
+        relative change of f per relative change of z.
 
         Parameters
         ----------
@@ -275,7 +279,9 @@ class ClosedForm(Result):
         return FactoredPolynomial.of(terms, point, [each for each in known if each is not None])
 
     def _converted(self, wheels: Sequence[str], terms: Sequence[Term]) -> Laurent | None:
-        """Return a polynomial in the variables of this formula; None if it contains another wheel."""
+        """Return a polynomial in the variables of this formula; None if the polynomial contains a wheel that the
+        formula does not.
+        """
         own, used = self.formula.wheels, [at for at in range(len(wheels)) if any(each.exponents[at] for each in terms)]
         if any(wheels[at] not in own for at in used):
             return None
@@ -293,8 +299,8 @@ class ClosedForm(Result):
         return sign + (above if below == "1" else style.over(above, below))
 
     def _format_split(self, style: _Style, top: FactoredPolynomial, bottom: FactoredPolynomial) -> str:
-        """Return a quotient with a short sum as numerator and one of its terms as denominator in the form 1 + z_r/z_s;
-        "" for other formulas.
+        """Return a quotient in the form 1 + z_r/z_s if its numerator is a short sum and its denominator is one term of
+        this sum; "" for other formulas.
         """
         # only a short sum over a monomial that is one of its terms
         if bottom.sums or len(top.sums) != 1 or any(top.powers) or len(top.sums[0]) > _MOST_SPLIT:
@@ -345,7 +351,9 @@ def _has_both_signs(terms: Sequence[Term]) -> bool:
 
 
 def _equation(terms: Sequence[Term], wheels: Sequence[str]) -> str:
-    """Return the equation p = 0 of a polynomial p as text: sum of positive terms = sum of negated negative terms."""
+    """Return the equation p = 0 of a polynomial p as text. The positive terms are on the left-hand side, the negated
+    negative terms on the right-hand side.
+    """
     added = [term for term in terms if term.coefficient > 0]
     taken = [Term(-term.coefficient, term.exponents) for term in terms if term.coefficient < 0]
     return f"{_sum(added, wheels, _TEXT)} = {_sum(taken, wheels, _TEXT)}"

@@ -1,7 +1,7 @@
 """Laurent polynomials in tooth counts (sums of monomials with integer exponents of either sign), and their divisors.
 
 Tooth counts are positive, so every monomial is a unit: it never vanishes, and division by it is exact. Common divisors
-are computed from pseudo-remainders in one variable after another. Formulas of trains become short if wheels are
+are computed from pseudo-remainders in one variable after another. The formulas of trains are short if wheels are
 grouped.
 """
 
@@ -19,18 +19,22 @@ from geartrain.kinematics.formulas import laurent
 Exponents = tuple[int, ...]
 
 MOST_PRODUCTS = 200_000
-"""Maximum number of products of terms in one step, which takes seconds; longer polynomials are of no practical use."""
+"""Maximum number of products of terms in one operation, which takes seconds. Longer polynomials are of no practical
+use.
+"""
 
 
 class Term(NamedTuple):
-    """Integer coefficient times a product of powers; exponents are in the order of the wheels or their groups."""
+    """Term of a polynomial: an integer coefficient times a product of powers. The exponents are in the order of the
+    wheels or of their groups.
+    """
 
     coefficient: int
     exponents: Exponents
 
 
 class TooLongError(Exception):
-    """Error raised if a polynomial needs more than `MOST_PRODUCTS` products of terms in one step."""
+    """Error that is raised if an operation on polynomials requires more than `MOST_PRODUCTS` products of terms."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,7 +99,9 @@ class Laurent:
 
     @property
     def is_definite(self) -> bool:
-        """True if all coefficients have the same sign; the polynomial cannot vanish for positive tooth counts."""
+        """True if all coefficients have the same sign, so that the polynomial cannot vanish for positive tooth
+        counts.
+        """
         return len({value > 0 for value in self.terms.values()}) == 1
 
     def inverse(self) -> Laurent:
@@ -115,7 +121,7 @@ class Laurent:
         return total % prime
 
     def lowest(self) -> Exponents:
-        """Return the minimum exponent of every variable, which are the exponents of the largest monomial that divides
+        """Return the minimum exponent of each variable. These are the exponents of the largest monomial that divides
         all terms.
         """
         return tuple(map(min, zip(*self.terms, strict=True))) if self.terms else (0,) * self.width
@@ -131,29 +137,29 @@ class Laurent:
         return Laurent(self.width, {exponents: value * factor for exponents, value in self.terms.items()})
 
     def content(self, *others: Laurent) -> Fraction:
-        """Return the content: the positive rational number by which all coefficients, also those of `others`, are
-        divided to become coprime integers.
+        """Return the content: the positive rational number by which all coefficients of this polynomial and of `others`
+        are divided to become coprime integers.
         """
         values = [value for each in (self, *others) for value in each.terms.values()]
         return Fraction(math.gcd(*(v.numerator for v in values)), math.lcm(*(v.denominator for v in values)))
 
     def primitive(self) -> Laurent:
-        """Return the primitive part: the product with a unit for which the minimum exponents are 0 and the coefficients
-        are coprime integers.
+        """Return the primitive part, which is the product with a unit for which the minimum exponents are 0 and the
+        coefficients are coprime integers.
         """
         if not self.terms:
             return self
         return self.shifted(tuple(-power for power in self.lowest())).scaled(1 / self.content())
 
     def sorted_terms(self) -> tuple[Term, ...]:
-        """Return the terms of a polynomial with integer coefficients, sorted by descending exponents."""
+        """Return the terms of this polynomial, which has integer coefficients, sorted by descending exponents."""
         return tuple(Term(int(self.terms[exponents]), exponents) for exponents in sorted(self.terms, reverse=True))
 
 
 def _sum(
     total: dict[Exponents, Fraction], terms: Iterable[tuple[Exponents, Fraction]], factor: Fraction | int
 ) -> dict[Exponents, Fraction]:
-    """Add `factor` times the terms to `total` in place and return it; terms that cancel are removed."""
+    """Add `factor` times the terms to `total` in place, and return `total`. Terms that cancel are removed."""
     for exponents, value in terms:
         known = total.get(exponents)
         new = factor * value if known is None else known + factor * value
@@ -165,15 +171,16 @@ def _sum(
 
 
 def product(factors: Iterable[Laurent], width: int) -> Laurent:
-    """Return the product of polynomials in `width` variables; the product of none is 1."""
+    """Return the product of polynomials in `width` variables; the product of no polynomials is 1."""
     return reduce(Laurent.__mul__, factors, Laurent.constant(1, width))
 
 
 def minors(rows: Sequence[Mapping[int, Laurent]], width: int) -> list[Laurent]:
     """Return the n + 1 determinants that are obtained from n rows with n + 1 columns by omitting one column at a time.
 
-    Dynamic programming over rows with one partial sum for each set of used columns (a bit mask). No division is
-    required, and sparse rows reach few of the 2^n sets. Raises `TooLongError` if `MOST_PRODUCTS` is exceeded.
+    The method is dynamic programming over the rows, with one partial sum for each set of used columns (a bit mask). No
+    division is required, and sparse rows reach few of the 2^n sets. Raises `TooLongError` if `MOST_PRODUCTS` is
+    exceeded.
     """
     partial = {0: Laurent.constant(1, width)}
     work = 0
@@ -197,7 +204,7 @@ def minors(rows: Sequence[Mapping[int, Laurent]], width: int) -> list[Laurent]:
 
 
 def divide(p: Laurent, q: Laurent) -> Laurent | None:
-    """Return p / q if the non-zero polynomial q divides p exactly, else None."""
+    """Return p / q if the non-zero polynomial q divides p exactly; None if it does not."""
     if q.is_unit:
         return p * q.inverse()
     low_p, low_q = p.lowest(), q.lowest()
@@ -225,7 +232,8 @@ def divide(p: Laurent, q: Laurent) -> Laurent | None:
 def common_divisor(p: Laurent, q: Laurent) -> Laurent:
     """Return the primitive greatest common divisor of two Laurent polynomials; 1 if they are coprime.
 
-    It is found by Euclid's algorithm with primitive remainders over the rationals, in one variable after another.
+    The divisor is found by Euclid's algorithm with primitive remainders over the rationals, in one variable after
+    another.
     """
     p, q = p.primitive(), q.primitive()
     if not p or not q:

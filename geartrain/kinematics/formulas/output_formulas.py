@@ -44,20 +44,22 @@ class SymbolicValue(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class SymbolicSolution:
-    """Solution of a linear system: its unknowns as rational functions of tooth counts."""
+    """Solution of a linear system, in which each unknown is a rational function of tooth counts."""
 
     width: int
     point: Sequence[int]
     pivots: Sequence[tuple[int, Row]]
-    """Pairs (column, rest): the unknown of the column is -rest. `rest` contains no column of an earlier pair."""
+    """Pairs (column, rest). The unknown of the column is -rest, and `rest` contains no column of an earlier pair."""
     values: Mapping[int, Laurent]
-    """Numerators of the unknowns of the core, by column; undetermined unknowns are set to 0."""
+    """Numerator of each unknown of the core, by column. Undetermined unknowns are set to 0."""
     determinant: Laurent
-    """Determinant of the core, the denominator of `values`."""
+    """Determinant of the core, which is the common denominator of `values`."""
     span: Mapping[int, _Residues]
     """Rows of the core at a random point, reduced to echelon form, by leading column."""
     conditions: Sequence[tuple[int, Laurent]]
-    """Pairs of a row index and the function left by elimination, which is 0 if the system is consistent."""
+    """Pairs of the index of a row and the function that elimination leaves in this row, which is 0 if the system is
+    consistent.
+    """
 
     def value(self, form: Mapping[int, Laurent]) -> SymbolicValue | None:
         """Return the value of a linear form of the unknowns; None if the system does not determine it."""
@@ -78,7 +80,7 @@ def solve_rows(rows: Sequence[Row], width: int, preferred: Sequence[int] | None 
     random point.
 
     preferred   intended tooth counts. If there are more coupled rows than unknowns, rows that are independent at these
-                counts are selected; by default, rows with prescribed values are preferred
+                tooth counts are selected. If it is None, rows with prescribed values are preferred
 
     Raises `TooLongError` if too many unknowns depend on each other for their functions to be useful.
     """
@@ -117,8 +119,8 @@ class _LaurentRing:
 def _eliminate_monomials(
     rows: Sequence[Row],
 ) -> tuple[list[tuple[int, Row]], list[tuple[int, Row]], list[tuple[int, Laurent]]]:
-    """Eliminate unknowns that have monomials as pivots; return the pivots, the remaining core, and the consistency
-    conditions.
+    """Eliminate unknowns whose pivots are monomials. Return the pivots, the rows of the remaining core, and the
+    consistency conditions.
     """
     pivots, left = eliminate_units(rows, _LaurentRing())
     core = [(at, row) for at, row in left if row.keys() - {GIVEN}]
@@ -128,7 +130,7 @@ def _eliminate_monomials(
 
 
 def _independent(rows: Iterable[tuple[int, Row]], point: Sequence[int]) -> tuple[list[int], dict[int, _Residues]]:
-    """Return the indices of the first independent rows at a point modulo the prime, and their echelon form."""
+    """Return the indices of the first independent rows at a point, modulo a prime, and their echelon form."""
     chosen: list[int] = []
     span: dict[int, _Residues] = {}
     for at, (_, row) in enumerate(rows):
@@ -159,7 +161,7 @@ def _reduced_row(row: Mapping[int, int], span: Mapping[int, _Residues]) -> _Resi
 
 
 def _solve_core(rows: Sequence[Row], columns: Sequence[int], width: int) -> tuple[dict[int, Laurent], Laurent]:
-    """Return the numerators of the unknowns of a square core, and its determinant, by Cramer's rule; unknowns of other
+    """Return the numerators of the unknowns of a square core and its determinant, by Cramer's rule. Unknowns of other
     columns are set to 0.
     """
     place = {column: at for at, column in enumerate(columns)}
@@ -177,7 +179,7 @@ def _solve_core(rows: Sequence[Row], columns: Sequence[int], width: int) -> tupl
 def _combined(form: Mapping[int, Laurent], values: Mapping[int, Laurent], determinant: Laurent) -> SymbolicValue:
     """Return the value of a linear form in the unknowns of the core, as a fraction of polynomials.
 
-    values        numerators of the unknowns
+    values        numerators of the unknowns, by column
     determinant   common denominator of the unknowns
     """
     one, total = Laurent.constant(1, determinant.width), Laurent.constant(0, determinant.width)
@@ -194,7 +196,9 @@ def _combined(form: Mapping[int, Laurent], values: Mapping[int, Laurent], determ
 
 @dataclass(frozen=True, slots=True)
 class Chord:
-    """Circuit that closes a loop, with the ratio product of the loop and the component that contains it."""
+    """Circuit that closes a loop, with the product of the speed ratios around the loop and the component that contains
+    the loop.
+    """
 
     circuit: int
     product: Laurent
@@ -208,7 +212,7 @@ class SymbolicEquations:
     free       wheel -> index of its variable
 
     rows, origin   the equations, and the cause of each of them
-    chords         circuits whose loops have the ratio product 1 only for some values of the variable counts
+    chords         circuits whose loops have the ratio product 1 only for some values of the variable tooth counts
     """
 
     def __init__(
@@ -247,7 +251,9 @@ class SymbolicEquations:
         return {group: self._constant(1)}
 
     def _find_ratios(self, parts: Components) -> list[Laurent]:
-        """Return the speed of every node relative to its carrier, divided by the unknown speed of its component."""
+        """Return the speed of the link of each node relative to the node's carrier, divided by the unknown speed of the
+        component.
+        """
         found: dict[int, Laurent] = {}
         for start in range(len(parts.node_link)):
             chain = []
@@ -263,14 +269,16 @@ class SymbolicEquations:
         return [found[node] for node in range(len(parts.node_link))]
 
     def _speed_ratio(self, circuit: Circuit, to: str) -> Laurent:
-        """Return the speed of link `to` divided by that of the circuit's other link, both relative to the carrier."""
+        """Return the speed of the link `to` divided by the speed of the other link of the circuit, both relative to the
+        carrier.
+        """
         a, b = self._coefficient(circuit, 0), self._coefficient(circuit, 1)
         near, far = (a, b) if to == circuit.j else (b, a)
         return -(near * far.inverse())
 
     def _coefficient(self, circuit: Circuit, side: int) -> Laurent:
-        """Return coefficient a (side 0) or b (side 1) of a circuit. A variable tooth count is represented by its
-        variable, with the sign of the coefficient.
+        """Return the coefficient a (`side` 0) or b (`side` 1) of a circuit. A variable tooth count is represented by
+        its variable, with the sign of the coefficient.
         """
         given = (circuit.a, circuit.b)[side]
         variable = self._free.get(circuit.wheels[side]) if circuit.by_teeth else None
@@ -294,7 +302,9 @@ class SymbolicEquations:
         return {own: self._constant(1)} if own is not None else self._relative_form(self.parts.nodes_of[link][0])
 
     def _relative_form(self, node: int) -> Row:
-        """Return the speed of a node's link as a linear form: the speed of its carrier plus the relative speed."""
+        """Return the speed of a node's link as a linear form: the speed of the node's carrier plus the relative
+        speed.
+        """
         parts = self.parts
         row: Row = {parts.node_group[node]: self._ratios[node]}
         carrier = parts.node_carrier[node]
@@ -343,23 +353,23 @@ class Formulas(Mapping[str, Formula], Result):
     """Outputs of a train in one state as functions of its variable tooth counts. The object is also a mapping with the
     items of `outputs`.
 
-    A loop can turn if its ratio product is 1; otherwise it locks its wheels. Loops with variable counts are assumed to
-    turn, so a train that moves although such a loop is locked has no formulas. Loops without variable counts may turn
-    or be locked.
+    A loop can turn if its ratio product is 1. If it is not 1, the loop locks its wheels. Loops with variable tooth
+    counts are assumed to turn. Therefore, a train that moves although such a loop is locked has no formulas. Loops
+    without variable tooth counts may turn or be locked.
     """
 
     outputs: Mapping[str, Formula]
     """Exact speed of each output [unit of the train]; a difference of speeds if `relative_to` is declared."""
     conditions: tuple[Formula, ...]
-    """Functions that must all be 0 for the train to turn: conditions of loops, and of links that several parts drive or
+    """Functions that must all be 0 for the train to turn: conditions on loops, and on links that several parts drive or
     fix.
 
-    The `label` names the cause. If a function is a constant other than 0, the train never turns. The outputs are valid
-    where all conditions are satisfied.
+    The `label` of a function names the cause of the condition. If a function is a constant other than 0, the train
+    never turns. The outputs are valid where all conditions are satisfied.
     """
     exclusions: tuple[Formula, ...]
     """Functions that must not be 0. If one of them is 0, the train is locked or free, although the outputs may still
-    have values because the factor cancels.
+    have values because a common factor was cancelled.
     """
     undetermined: tuple[str, ...]
     """Names of outputs that the inputs do not determine, whatever the tooth counts are."""
@@ -384,12 +394,12 @@ def find_formulas(
 ) -> Formulas:
     """Return the speed of every output in one state as a function of the variable tooth counts.
 
-    state    a declared state, or None for a train without states
-    free     wheel -> allowed tooth counts; all other wheels keep their declared count
-    inputs   speeds of the input links, instead of the declared speeds
+    state    name of a declared state, or None for a train without states
+    free     allowed tooth counts of wheels, by wheel; all other wheels keep their declared tooth count
+    inputs   speeds of the input links, by link; None for the declared speeds
 
-    Raises `QuestionError` for wheels or states that the train does not have, and for trains whose coupled part is too
-    large, and `DeclarationError` if a wheel that is not in `free` has no count.
+    Raises `QuestionError` for wheels or states that the train does not have, or if the coupled part of the train is too
+    large. Raises `DeclarationError` if a wheel that is not in `free` has no tooth count.
     """
     _check(train, state, free)
     tree = find_tree(train)
@@ -410,7 +420,7 @@ def find_formulas(
 def with_counts(train: Train, counts: Mapping[str, int]) -> Train:
     """Return a copy of a validated declaration with other tooth counts; line numbers and uncertainties are preserved.
 
-    counts   wheel -> tooth count, from 1 to 10^12
+    counts   new tooth counts, from 1 to 10^12, by wheel
 
     The computing time is linear in the number of links. Raises `QuestionError` for wheels that the train does not have,
     and for invalid tooth counts.
@@ -428,8 +438,8 @@ def with_counts(train: Train, counts: Mapping[str, int]) -> Train:
 
 
 def _with_value(wheel: Wheel, count: int) -> int | Teeth:
-    """Return the tooth count together with the declared range or choices of the wheel if they include it, else only the
-    count.
+    """Return the tooth count together with the declared range or choices of the wheel if these include the tooth count.
+    If they do not, return only the tooth count.
     """
     teeth = wheel.teeth
     if isinstance(teeth, int):
@@ -442,7 +452,9 @@ def _with_value(wheel: Wheel, count: int) -> int | Teeth:
 def _equations(
     train: Train, tree: Tree, case: StateCase, wheels: Sequence[str], free: Mapping[str, Counts]
 ) -> SymbolicEquations:
-    """Return the equations that affect the outputs; large random numbers represent the variable counts."""
+    """Return the equations of a train that affect its outputs. Variable tooth counts are represented by large random
+    numbers.
+    """
     representative = with_counts(train, {name: free[name][0] for name in wheels})
     # large and random, so that no loop closes by coincidence of equal counts
     draw = random.Random(0)
@@ -481,7 +493,9 @@ def _collect_formulas(
 
 
 def _loop_conditions(equations: SymbolicEquations, solution: SymbolicSolution) -> Iterator[tuple[str, Laurent]]:
-    """Yield the condition of each loop with variable counts: its ratio product is 1, or its wheels are at rest."""
+    """Yield the condition of each loop with variable tooth counts: its ratio product is 1, or its wheels are at
+    rest.
+    """
     one = Laurent.constant(1, equations.width)
     for chord in equations.chords:
         rolls = solution.value(equations.unknown(chord.group))
@@ -497,7 +511,9 @@ def _loop_conditions(equations: SymbolicEquations, solution: SymbolicSolution) -
 
 
 def _zero_conditions(stated: Sequence[tuple[str, Laurent]], wheels: Sequence[str]) -> tuple[Formula, ...]:
-    """Return functions that are 0 if the conditions are satisfied, without duplicates and monomial factors."""
+    """Return functions that are 0 if the conditions in `stated` are satisfied, without duplicates and monomial
+    factors.
+    """
     found: dict[tuple[Term, ...], Formula] = {}
     for label, left in stated:
         _, powers = max((value < 0, exponents) for exponents, value in left.terms.items())
@@ -509,7 +525,7 @@ def _zero_conditions(stated: Sequence[tuple[str, Laurent]], wheels: Sequence[str
 
 
 def _declared(train: Train, wheels: Sequence[str]) -> list[int] | None:
-    """Return the declared tooth counts of the wheels; None if one of them is not declared."""
+    """Return the declared tooth counts of the wheels; None if a wheel has no declared tooth count."""
     counts = [train.wheels[name][1].count for name in wheels]
     return [count for count in counts if count is not None] if all(counts) else None
 

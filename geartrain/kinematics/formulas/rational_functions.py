@@ -1,4 +1,4 @@
-"""Rational functions of tooth counts in lowest terms: exact values, and fast values with error bounds."""
+"""Rational functions of tooth counts in lowest terms, with exact values and with fast float values and error bounds."""
 
 from __future__ import annotations
 
@@ -17,17 +17,19 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class MonomialGrouping:
-    """Polynomials rewritten with monomials of groups of variables as new variables, up to a common monomial factor. The
-    number of groups is minimal.
+    """Polynomials that are rewritten, up to a common monomial factor, in new variables. Each new variable is a monomial
+    of a group of the original variables. The number of groups is minimal.
     """
 
     members: tuple[Mapping[int, int], ...]
     """Exponents of the variables in the monomial of each group, by index of the variable."""
     rewritten: tuple[Laurent, ...]
-    """Polynomials in the monomials of the groups; their exponents are not negative."""
+    """Polynomials in the new variables (the monomials of the groups), with non-negative exponents."""
 
     def back(self, p: Laurent, width: int) -> Laurent:
-        """Return a polynomial in the monomials of the groups as a polynomial in the `width` original variables."""
+        """Return a polynomial in the new variables (the monomials of the groups) as a polynomial in the `width`
+        original variables.
+        """
 
         def spread(exponents: Exponents) -> Exponents:
             full = [0] * width
@@ -43,10 +45,11 @@ Member = TypeVar("Member")
 
 
 def proportional_classes(lists: Iterable[tuple[Member, Sequence[int]]]) -> dict[Exponents, dict[Member, int]]:
-    """Group keys whose integer vectors are multiples of one vector. Return for each such vector the factor of each key.
+    """Group the keys whose integer vectors are multiples of a common vector. Return, for each common vector, the factor
+    of each key.
 
-    The vectors of the groups are primitive (their entries are coprime), and their first non-zero entry is positive.
-    Keys with zero vectors are omitted.
+    The common vectors are primitive (their entries are coprime), and their first non-zero entry is positive. Keys with
+    zero vectors are omitted.
     """
     classes: dict[Exponents, dict[Member, int]] = {}
     for key, steps in lists:
@@ -99,7 +102,9 @@ def whole(terms: Iterable[Term], point: Sequence[int]) -> int:
 def substituted(
     terms: Iterable[Term], wheels: Sequence[str], left: Sequence[str], counts: Mapping[str, int]
 ) -> Laurent:
-    """Return a polynomial in the wheels `left`, with the tooth counts of the other wheels substituted."""
+    """Return a polynomial in the tooth counts of the wheels in `left`, after substituting the tooth counts of all other
+    wheels.
+    """
     rest = [
         Term(
             whole(
@@ -114,7 +119,7 @@ def substituted(
 
 
 def in_words(terms: Sequence[Term], wheels: Sequence[str]) -> str:
-    """Return a polynomial as text such as `3 a b^2 - c`."""
+    """Return a polynomial in tooth counts as text, such as `3 a b^2 - c`."""
     words: list[str] = []
     for coefficient, exponents in terms:
         powers = [f"{w}^{e}" if e > 1 else w for w, e in zip(wheels, exponents, strict=True) if e]
@@ -137,13 +142,13 @@ class Formula:
     label: str
     """Name of the output whose speed the function gives, or cause of a condition."""
     wheels: tuple[str, ...]
-    """Wheels on whose tooth counts the function depends, in the order of the declaration."""
+    """Names of the wheels on whose tooth counts the function depends, in the order of declaration."""
     numerator: tuple[Term, ...]
-    """Terms of the numerator, with non-negative exponents in the order of `wheels`. The coefficients are integers;
-    those of numerator and denominator together are coprime.
+    """Terms of the numerator, with non-negative exponents in the order of `wheels`. The coefficients are integers; all
+    coefficients of the numerator and the denominator together are coprime.
     """
     denominator: tuple[Term, ...]
-    """Terms of the denominator in the form of `numerator`; the first coefficient is positive."""
+    """Terms of the denominator, in the same form as `numerator`. The coefficient of the first term is positive."""
 
     @property
     def constant(self) -> Fraction | None:
@@ -152,13 +157,15 @@ class Formula:
 
     @property
     def has_poles(self) -> bool:
-        """True if the denominator has a negative term or is 0; otherwise it cannot vanish for positive tooth counts."""
+        """True if the denominator has a negative term or is 0. If it is False, the denominator cannot vanish for
+        positive tooth counts.
+        """
         return any(term.coefficient < 0 for term in self.denominator) or not self.denominator
 
     def value(self, counts: Mapping[str, int]) -> Fraction | None:
         """Return the exact value; None if the denominator is 0, which means that the train is locked or free.
 
-        counts   wheel -> tooth count, at least for all `wheels`
+        counts   tooth count of at least all `wheels`, by wheel
         """
         point = [int(counts[wheel]) for wheel in self.wheels]  # Python integers, because numpy's would overflow
         bottom = whole(self.denominator, point)
@@ -168,7 +175,7 @@ class Formula:
         """Return the values of the function for many combinations of tooth counts in float64; they are NaN or infinite
         at poles. `accuracy` returns a bound on their error.
 
-        columns   wheel -> array of tooth counts; the arrays are broadcast
+        columns   array of tooth counts by wheel; the arrays are broadcast
         """
         return self.bounded(columns)[0]
 
@@ -187,8 +194,8 @@ class Formula:
         return np.where((found >= 0) & np.isfinite(found), found, np.inf)
 
     def fixed(self, counts: Mapping[str, int]) -> Formula:
-        """Return the function of the remaining wheels that results if the given tooth counts are substituted; counts of
-        wheels that do not occur in the function are ignored.
+        """Return the function of the remaining wheels that results from substituting the given tooth counts. Tooth
+        counts of wheels that do not occur in the function are ignored.
         """
         left = tuple(wheel for wheel in self.wheels if wheel not in counts)
         if left == self.wheels:
@@ -213,7 +220,9 @@ class Formula:
         return " / ".join(f"({text})" if " " in text else text for text in (top, bottom))
 
     def bounded(self, columns: Mapping[str, Ints]) -> tuple[Floats, Floats]:
-        """Return `values`, and bounds on their absolute errors, which are infinite where no digit is certain."""
+        """Return the values as in `values`, and bounds on their absolute errors, which are infinite where no digit is
+        certain.
+        """
         import numpy as np
 
         from geartrain.numerics.bounded_polynomials import bounded_quotient, in_range, products_of
@@ -233,7 +242,8 @@ class Formula:
 def make_formula(
     label: str, wheels: Sequence[str], numerator: Laurent, denominator: Laurent
 ) -> tuple[Formula, Laurent]:
-    """Return a rational function in lowest terms, and its cancelled common divisor (1 if only units were cancelled).
+    """Return a rational function in lowest terms, and the common divisor that was cancelled (1 if only units were
+    cancelled).
 
     wheels   names of the variables of both polynomials, by index
     """

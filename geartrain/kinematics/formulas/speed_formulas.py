@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class InputShare(Result):
-    """Contribution of one input to the speed of an output: the ratio times the speed of the input."""
+    """Contribution of one input to the speed of an output, which is the ratio times the speed of the input."""
 
     input: str
     """Name of the input link."""
@@ -34,7 +34,8 @@ class InputShare(Result):
 
 @dataclass(frozen=True)
 class OutputFormula(Result):
-    """Speed of an output as a sum over all inputs of ratio times speed of the input.
+    """Speed of an output as the sum of the contributions of all inputs, each of which is a ratio times the speed of the
+    input.
 
     See Also
     --------
@@ -50,7 +51,7 @@ class OutputFormula(Result):
     shares: tuple[InputShare, ...]
     """Contribution of each input on which the output depends."""
     conditions: tuple[str, ...] = ()
-    """Equations between tooth counts that must be satisfied for the loops of the train to be able to turn."""
+    """Equations between tooth counts that must be satisfied so that the loops of the train can turn."""
     poles: tuple[str, ...] = ()
     """Equations between tooth counts under which the output is locked or free."""
 
@@ -99,7 +100,7 @@ class OutputFormula(Result):
         return f"{_speed_symbol(self.output)} = {self._sum('latex', _speed_symbol)}"
 
     def sympy(self) -> Expr:
-        """Return the speed as a SymPy expression with symbols `z_...` for counts and `w_...` for input speeds.
+        """Return the speed as a SymPy expression with symbols `z_...` for tooth counts and `w_...` for input speeds.
 
         Raises
         ------
@@ -136,8 +137,7 @@ def _times(ratio: str, speed: str, style: str) -> str:
 def speed_formulas(train: Train, state: str | None, outputs: Sequence[str] = ()) -> Iterator[OutputFormula]:
     """Yield the formulas of all outputs of a state, or only of the given `outputs`, in the order of declaration.
 
-    Undetermined outputs are omitted. The tooth counts of all wheels are variables, unless they are not declared.
-    `find_formulas` raises the errors.
+    Undetermined outputs are omitted. All declared tooth counts are variables. Errors are raised by `find_formulas`.
     """
     case = train.case(state)
     for name in outputs:

@@ -1,4 +1,4 @@
-"""Gridlock: loops of meshes that lock a train, and the smallest set of meshes to disengage so that it can move."""
+"""Gridlock: loops of meshes that lock a train, and the smallest set of meshes to be disengaged so that it can move."""
 
 from __future__ import annotations
 

@@ -26,13 +26,15 @@ from geartrain.numerics.containers import collector_paused
 from geartrain.numerics.graphs import DisjointSets, ways_to_common_ancestor
 
 MOST_COUPLED = 2000
-"""Maximum number of meshes for which a removal over several carriers is searched; each trial solves the train."""
+"""Maximum number of meshes for which a set of meshes on several carriers is searched; each trial solves the train."""
 _ONE_BY_ONE = 200  # maximum number of meshes that are tried one by one
 _TRIALS = 3000  # maximum number of sets that are tried
 
 
 class LockedNetwork(NamedTuple):
-    """Component as a gain graph, with its carrier, the link of each node, and the circuit of each mesh in the graph."""
+    """Component as a gain graph, with its carrier, the link of each node, and the circuit of each edge (mesh) of the
+    graph.
+    """
 
     carrier: str
     links: list[str]
@@ -44,7 +46,7 @@ class LockedNetwork(NamedTuple):
 def find_gridlock(part: SolvedPart, mobility: Mobility) -> Gridlock:
     """Find the parts of a train that are locked by its meshes. Brakes, locks, inputs and followers are ignored.
 
-    Followers only oscillate, and their mean speed of 0 is not caused by meshes.
+    Pin followers only oscillate, and their mean speed of 0 is not caused by meshes.
     """
     parts = part.reduced.components
     if not parts.breaking and mobility.by_rank and not mobility.still:
@@ -102,7 +104,7 @@ def _nodes(parts: Components) -> Iterator[tuple[int, int]]:
 
 
 def _gain(parts: Components, chord: int) -> Gain:
-    """Return the ratio product of the loop that a circuit closes; a product of -1 is returned as an int."""
+    """Return the ratio product of the loop that a circuit closes, as a gain. A product of -1 is returned as an int."""
     gain = parts.closing_product(chord)
     return -1 if gain == -1 else gain
 
@@ -140,10 +142,10 @@ def _without(part: SolvedPart, gone: Collection[str]) -> SolvedPart:
 
 
 def _locked_links(part: SolvedPart, gone: Collection[str]) -> tuple[str, ...]:
-    """Return the links that are locked whatever the tooth counts are, after the meshes `gone` are removed.
+    """Return the links that are locked for all tooth counts after the meshes in `gone` are removed.
 
-    For special tooth counts, a link and all links that it drives can be at rest while the train moves. So only links
-    that are also at rest for other ratios are returned.
+    For special tooth counts, a link and all links that it drives can be at rest while the train moves. Therefore, only
+    links that are also at rest for other speed ratios are returned.
     """
     less = _without(part, gone)
     still = _stationary_links(less)
@@ -161,7 +163,9 @@ def _stationary_links(part: SolvedPart) -> tuple[str, ...]:
 
 
 def _with_random_ratios(part: SolvedPart) -> SolvedPart:
-    """Return the train with random ratios for every link and carrier; ratio products of loops are unchanged."""
+    """Return the train with random speed ratios for every link and carrier. The ratio products of loops are
+    unchanged.
+    """
 
     def factor(link: str, carrier: str) -> int:
         # large and random, so that no link is at rest by coincidence (Schwartz-Zippel lemma)
@@ -181,7 +185,7 @@ def _with_random_ratios(part: SolvedPart) -> SolvedPart:
 
 
 def _frees_train(part: SolvedPart, gone: Collection[str]) -> bool:
-    """Return True if every loop is consistent and every link can move after the meshes `gone` are removed."""
+    """Return True if every loop is consistent and every link can move after the meshes in `gone` are removed."""
     less = _without(part, gone)
     return not less.reduced.components.breaking and not _locked_links(part, gone)
 
@@ -190,7 +194,8 @@ def _coupled_removal(part: SolvedPart, gone: Collection[str], at_least: int) -> 
     """Return a set of meshes, of any carriers, whose removal frees the train; None if no such set exists, or if there
     are too many meshes to try.
 
-    If there are few meshes, it is a smallest set; else every mesh in it is necessary, but a smaller set may exist.
+    If there are few meshes, the set is a smallest set. If there are many, every mesh in it is necessary, but a smaller
+    set may exist.
     """
     toothed = _without(part, ())
     bound = {
@@ -234,8 +239,8 @@ def _minimal_removal(part: SolvedPart, gears: Sequence[str]) -> list[str]:
 
 
 def _search_smaller_sets(part: SolvedPart, gears: Sequence[str], kept: Sequence[str], sizes: range) -> MeshRemoval:
-    """Return the smallest set of meshes that frees the train, by exhaustive search over the given sizes in increasing
-    order; `kept` if no such set frees it.
+    """Return the smallest set of meshes whose removal frees the train, by exhaustive search over the given sizes in
+    increasing order. If there is no such set, the result contains the meshes `kept`.
     """
     for size in sizes:
         for some in combinations(gears, size):
@@ -267,17 +272,19 @@ class RemovalChoice(NamedTuple):
     at_least: int
     """Proved lower bound on the number of meshes; a set with this number of meshes is a smallest set."""
     choices: list[int]
-    """Meshes of which any one is sufficient, including the mesh in `meshes`; empty if several are required."""
+    """Meshes any one of which can be removed to free the network, including the mesh in `meshes`; empty if several
+    meshes must be removed.
+    """
     example: GainLoop
-    """Short inconsistent loop, which is reported as the cause of the lock."""
+    """Short inconsistent loop that is reported as the cause of the lock."""
     proof: list[GainLoop]
-    """Loops that prove the lower bound; empty if it follows only from the method."""
+    """Loops that prove the lower bound; empty if the bound follows from the search method."""
     sharing: int = 1
     """Maximum number of loops in `proof` to which a single mesh belongs."""
 
 
 def choose_removal(network: GainGraph) -> RemovalChoice:
-    """Choose the meshes to disengage in a connected locked network."""
+    """Return the meshes that are to be disengaged in a connected locked network."""
     near = (network.ends[mesh][0] for mesh in walk_gain_graph(network).breaking[:_STARTS])
     loop = shortest_loop(network, range(network.size) if network.size <= _STARTS else near)
     # a mesh that is enough belongs to every inconsistent loop
@@ -322,7 +329,7 @@ def _packed(network: GainGraph, loops: Sequence[GainLoop], sharing: int) -> list
 
 
 def _solve(network: GainGraph, loops: Sequence[GainLoop], sharing: int) -> Any:
-    """Solve one of two dual binary integer programs, whose matrix has a row for each loop.
+    """Return the solution of one of two dual binary integer programs, whose matrix has a row for each loop.
 
     sharing   1 to find the smallest set that contains a mesh of every loop; -s to find the largest set of loops in
               which every mesh belongs to at most s loops
@@ -341,8 +348,8 @@ def _solve(network: GainGraph, loops: Sequence[GainLoop], sharing: int) -> Any:
 
 
 def _completed(network: GainGraph, gone: Sequence[int]) -> list[int]:
-    """Return a minimal set of meshes whose removal frees a connected network, most of them from `gone`. They are the
-    meshes that contradict the speeds of a spanning tree that avoids `gone` and prefers firm meshes.
+    """Return a minimal set of meshes whose removal frees a connected network, most of them from `gone`. The set
+    contains the meshes that contradict the speeds of a spanning tree that avoids `gone` and prefers firm meshes.
     """
     tree: DisjointSets[int] = DisjointSets()
     out = set(gone)
@@ -357,7 +364,7 @@ def _completed(network: GainGraph, gone: Sequence[int]) -> list[int]:
 
 Gain = Fraction | int
 GainLoop = list[tuple[int, int]]
-"""Closed walk in the graph, as pairs of the node at which a step begins and the mesh of the step."""
+"""Closed walk in the graph. Each step is given by the node at which it begins and the mesh along which it goes."""
 
 
 @dataclass(frozen=True)
@@ -366,11 +373,13 @@ class GainGraph:
 
     size: int
     ends: Sequence[tuple[int, int]]
-    """Two nodes of each mesh; several meshes may connect the same two nodes."""
+    """Pair of nodes that each mesh connects; several meshes may connect the same two nodes."""
     gains: Mapping[int, Gain]
-    """Gain of each mesh whose gain is not 1: speed of its second node divided by speed of its first."""
+    """Gain of each mesh whose gain is not 1, by index: the speed of its second node divided by the speed of its first
+    node.
+    """
     firm: frozenset[int] = frozenset()
-    """Indices of the couplings, which cannot be disengaged."""
+    """Indices of the meshes that are couplings, which cannot be disengaged."""
 
     @cached_property
     def at(self) -> list[list[int]]:
@@ -382,7 +391,7 @@ class GainGraph:
         return meshes
 
     def gain(self, mesh: int, start: int) -> Gain:
-        """Return the gain of a mesh in the direction away from `start`."""
+        """Return the gain of a mesh in the direction away from the node `start`."""
         gain = self.gains.get(mesh, 1)
         # integers 1 and -1 are faster than Fractions; never a float, because products are compared with 1 exactly
         return gain if start == self.ends[mesh][0] or gain in (1, -1) else 1 / Fraction(gain)
@@ -401,8 +410,8 @@ class GainGraph:
 
 
 class GainWalk(NamedTuple):
-    """Result of a search: the speed of each node, consistent with a spanning forest, and the meshes (`breaking`) that
-    contradict these speeds.
+    """Result of a search in a gain graph: the speed of each node, consistent with a spanning forest, and the meshes
+    `breaking` that contradict these speeds.
     """
 
     speed: list[Gain]
@@ -410,7 +419,7 @@ class GainWalk(NamedTuple):
 
 
 def walk_gain_graph(network: GainGraph, without: Collection[int] = ()) -> GainWalk:
-    """Search all nodes breadth first, using only meshes outside `without`. Meshes in `without` may be listed in
+    """Search all nodes breadth first along meshes that are not in `without`. Meshes in `without` may be listed in
     `breaking` of the result.
     """
     gone = bytearray(len(network.ends))

@@ -17,7 +17,7 @@ RemovalMethod = Literal["one", "loops", "search", "greedy"]
 class RemovalBound(Result):
     """Lower bound on the number of meshes to remove, proved by inconsistent loops.
 
-    Each mesh belongs to at most `sharing` of the loops. The removal of one mesh therefore opens at most that number of
+    Each mesh belongs to at most `sharing` of the loops. The removal of one mesh therefore opens at most `sharing`
     loops.
     """
 
@@ -59,9 +59,11 @@ class MeshRemoval(Result):
     at_least: int
     """Proved lower bound on the number of meshes to remove."""
     choices: tuple[str, ...] = ()
-    """Pairs of which any one is sufficient, including the pair in `meshes`; empty if several are required."""
+    """Pairs any one of which can be removed to free the train, including the pair in `meshes`; empty if several pairs
+    must be removed.
+    """
     proofs: tuple[RemovalBound, ...] = ()
-    """Loops that prove the lower bound; empty if it follows only from the method."""
+    """Bounds that are proved by loops; empty if the lower bound follows from the search method."""
 
     def _summary(self) -> str:
         return str(self)
@@ -108,7 +110,9 @@ class LockedSubgraph(Result):
     meshes: int
     """Number of gear pairs in the component. Couplings are not counted, because they cannot be disengaged."""
     by: Literal["sign", "ratio"]
-    """Cause of the lock: "sign" if all inconsistent loops have the ratio product -1, else "ratio"."""
+    """Cause of the lock: "sign" if all inconsistent loops have the ratio product -1, "ratio" if another product
+    occurs.
+    """
     release: MeshRemoval
     """Meshes whose removal frees this component."""
 
@@ -170,12 +174,13 @@ class Gridlock(Result):
         return "; ".join(self.lines()) or "moves: every loop of meshes closes"
 
     def lines(self, most: int = MOST_NAMES) -> Iterator[str]:
-        """Yield a sentence on each locked part and its remedy. No sentence is yielded if no link is locked.
+        """Yield a sentence for each locked part that describes the lock and the remedy. No sentence is yielded if no
+        link is locked.
 
         Parameters
         ----------
         most : int
-            Maximum number of components that are described; of the others only their number is given.
+            Maximum number of components that are described. For further components, only their number is given.
         """
         for jam in self.jams[:most]:
             yield f"gridlock: {jam}"
@@ -194,7 +199,7 @@ class Gridlock(Result):
 
 
 def join_removals(releases: Iterable[MeshRemoval]) -> MeshRemoval:
-    """Combine the removals of components that have no meshes in common."""
+    """Return the combined removal of components that have no meshes in common."""
     parts = tuple(releases)
     # alternatives exist only for a single component
     if len(parts) == 1:
@@ -210,7 +215,9 @@ def join_removals(releases: Iterable[MeshRemoval]) -> MeshRemoval:
 
 
 def merge_bounds(proofs: Iterable[RemovalBound]) -> Iterator[RemovalBound]:
-    """Merge lower bounds on disjoint sets of meshes. Bounds from loops that share no mesh are added."""
+    """Yield lower bounds merged from bounds on disjoint sets of meshes. Bounds from loops that share no mesh
+    are added.
+    """
     every = list(proofs)
     apart = tuple(loop for proof in every if proof.sharing == 1 for loop in proof.loops)
     if apart:

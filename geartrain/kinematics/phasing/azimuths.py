@@ -28,7 +28,7 @@ EPS = 2 * UNIT_ROUNDOFF  # spacing of float64 numbers at 1: bounds the error of 
 
 @dataclass(frozen=True)
 class UnplacedPair:
-    """Gear pair or coupling that is excluded from the assembly conditions because its position is unknown, and the
+    """Gear pair or coupling that is excluded from the assembly conditions because its position is unknown, with the
     reason.
     """
 
@@ -45,7 +45,9 @@ class PitchPoints:
     """
 
     circuits: tuple[Circuit, ...]
-    """Circuits of the pairs. A wheel on the frame is a separate link, because it can be mounted at any angle."""
+    """Circuits of the pairs. A wheel on the frame is treated as a separate link, because it can be mounted at any
+    angle.
+    """
     azimuth: Floats
     """Azimuth of the pitch point as seen from the wheel's axis, counterclockwise about the positive sense of the axis
     [turn].
@@ -53,7 +55,9 @@ class PitchPoints:
     slack: Floats
     """Maximum error of the azimuth [turn]."""
     family: Sequence[tuple[int, int]]
-    """Family number of each contact. Contacts of one family are separated by known rational fractions of a turn."""
+    """Family number of each contact. The angles between the contacts of one family are known rational fractions of a
+    turn.
+    """
     part: Sequence[tuple[Fraction, Fraction]]
     """Exact angle of each contact from the first contact of its family [turn]."""
     guessed: frozenset[int] = frozenset()
@@ -75,7 +79,7 @@ class PitchPoints:
 
     @cached_property
     def uncertainty(self) -> Floats:
-        """Maximum error of `constant` [pitch]."""
+        """Maximum error of each pair's `constant` [pitch]."""
         # a pitch is 1/z turn, so the error of an azimuth counts z times
         uncertainty: Floats = (np.abs(self.teeth) * (self.slack + 2 * EPS)).sum(axis=1) + 4 * EPS
         return uncertainty
@@ -89,8 +93,8 @@ class PitchPoints:
 
     @cached_property
     def exact_constant(self) -> list[int]:
-        """Constant c of each pair as an integer multiple of 1/`scale`, with azimuths measured from the first contact of
-        each family.
+        """Constant c of each pair as an integer multiple of 1/`scale` [pitch]. Azimuths are measured from the first
+        contact of each family.
         """
         scale, found = self.scale, []
         for circuit, (p, q) in zip(self.circuits, self.part, strict=True):
@@ -100,7 +104,7 @@ class PitchPoints:
 
 
 def mesh_nodes(parts: Components, circuits: Sequence[Circuit]) -> list[tuple[int, int]]:
-    """Return the two nodes of every pair, which are its two links relative to its carrier."""
+    """Return the two nodes of every pair, which represent its two links relative to its carrier."""
     index = parts.index
     at = {key: node for node, key in enumerate(zip(parts.node_link, parts.node_carrier, strict=True))}
     return [(at[index[c.i], index[c.carrier]], at[index[c.j], index[c.carrier]]) for c in circuits]
@@ -126,18 +130,18 @@ _Z: IntegerVector = (0, 0, 1)
 
 @dataclass(frozen=True, slots=True)
 class _Axis:
-    """Axis in integer coordinates, with the maximum errors of its declared numbers."""
+    """Axis in integer coordinates, with the maximum errors that result from the rounding of its declared numbers."""
 
     way: IntegerVector
     """Declared direction as an integer vector."""
     unsure: float
     """Maximum error of the declared direction [rad]."""
     sense: IntegerVector
-    """Direction about which speeds are positive, which is common to all parallel axes."""
+    """Direction about which positive speeds rotate, which is common to all parallel axes."""
     place: IntegerVector | None
     """Point on the axis, in a unit of length that is common to all axes; None if no position is declared."""
     error: Fraction
-    """Maximum error of the point `place`, in the same unit."""
+    """Maximum error of the point `place`, in the unit of length of `place`."""
 
 
 @collector_paused()
@@ -205,7 +209,9 @@ def _axes(train: Train) -> dict[str, _Axis]:
 
 
 def _direction(figures: Sequence[Figure], senses: list[IntegerVector]) -> tuple[IntegerVector, float, IntegerVector]:
-    """Return a direction as integers, its maximum error [rad], and the first known direction parallel to it."""
+    """Return a direction as integers, its maximum error [rad], and the first direction in `senses` that is parallel to
+    it.
+    """
     way = _integer_direction([figure.value for figure in figures])
     rough = math.hypot(*(float(figure.half or 0) for figure in figures))
     sense = next((known for known in senses if parallel(known, way)), None)
@@ -223,7 +229,9 @@ def _integer_direction(parts: Sequence[Fraction]) -> IntegerVector:
 
 
 def _half_digit(length: Quantity) -> float:
-    """Return half a unit of the last written decimal [m]; 0 for integers and fractions, which are exact."""
+    """Return half a unit of the last declared decimal of a length [m]; 0 for integers and fractions, which are
+    exact.
+    """
     number = _NUMBER.match(length.text)
     if number is None or not _DECIMAL.search(number[0]) or "/" in length.text or ":" in length.text:
         return 0.0
@@ -235,10 +243,10 @@ def _half_digit(length: Quantity) -> float:
 
 
 class _Contact(NamedTuple):
-    """Pitch point of a pair as seen from the axes of both wheels."""
+    """Pitch point of a gear pair as seen from the axes of its two wheels."""
 
     ways: tuple[IntegerVector, IntegerVector]
-    """Vectors from both axes to the pitch point, perpendicular to the axes."""
+    """Vectors from the two axes to the pitch point, each perpendicular to its axis."""
     error: float
     """Maximum error of the azimuths that is due to the rounding of declared numbers [turn]."""
     rounding: float
@@ -246,7 +254,7 @@ class _Contact(NamedTuple):
 
 
 def _contact(train: Train, circuit: Circuit, first: _Axis, second: _Axis) -> _Contact | str:
-    """Return the contact of a pair, or the reason why it is unknown."""
+    """Return the contact of a gear pair, or the reason why it is unknown."""
     wheels = [train.wheels[name][1] for name in circuit.wheels]
     kinds = {wheel.kind for wheel in wheels}
     if "worm" in kinds:
@@ -261,8 +269,8 @@ def _contact(train: Train, circuit: Circuit, first: _Axis, second: _Axis) -> _Co
 
 
 def _parallel_contact(first: _Axis, second: _Axis, internal: Sequence[bool]) -> _Contact | str:
-    """Return the contact of a pair on parallel axes. The pitch point is on the side of each axis that faces the other
-    axis; for the mate of a ring it is on the opposite side.
+    """Return the contact of two wheels on parallel axes, or the reason why it is unknown. The pitch point lies on the
+    side of the other axis; for the mate of a ring, it lies on the opposite side.
     """
     if first.place is None or second.place is None:
         return "the positions of its axes are not declared"
@@ -278,8 +286,8 @@ def _parallel_contact(first: _Axis, second: _Axis, internal: Sequence[bool]) -> 
 
 
 def _intersecting_contact(first: _Axis, second: _Axis, facing: Sequence[int]) -> _Contact | str:
-    """Return the contact of a pair on intersecting axes. The pitch point of a wheel is on the side to which the mate's
-    pitch cone opens.
+    """Return the contact of two wheels on intersecting axes, or the reason why it is unknown. The pitch point of a
+    wheel is on the side towards which the pitch cone of its mate opens.
     """
     if first.place is not None and second.place is not None:
         apart = dot(minus(second.place, first.place), cross(first.way, second.way))
@@ -296,8 +304,8 @@ def _intersecting_contact(first: _Axis, second: _Axis, facing: Sequence[int]) ->
 
 
 def _norm(vector: IntegerVector) -> Fraction:
-    """Return the length of an integer vector as a Fraction that is accurate to at least 64 bits. Its components may
-    have hundreds of digits.
+    """Return the length of an integer vector as a Fraction that is accurate to at least 64 bits; the components of the
+    vector may have hundreds of digits.
     """
     # the root of an integer shifted by 128 bits has 64 bits after the binary point
     return Fraction(math.isqrt(dot(vector, vector) << 128), 1 << 64)
@@ -319,7 +327,7 @@ def _azimuth(way: IntegerVector, sense: IntegerVector) -> float:
 
 
 def _floats(vector: IntegerVector) -> tuple[float, float, float]:
-    """Return the vector as floats, scaled if its components have hundreds of digits."""
+    """Return a vector as floats. It is scaled if its components have hundreds of digits."""
     x, y, z = vector
     top = max(abs(x), abs(y), abs(z))
     if top.bit_length() < 300:  # squares and products are within float64
@@ -368,7 +376,8 @@ _DENSITY = 3 / math.pi**2  # about this times q squared reduced fractions below 
 
 
 def rational_angle(u: IntegerVector, v: IntegerVector, turn: float) -> Fraction | None:
-    """Return the angle from the integer vector u to v if it is a rational fraction of a turn, else None [turn].
+    """Return the angle from the integer vector u to v [turn] if it is a rational fraction of a turn; None if it is
+    irrational.
 
     The square of the cosine, (u.v)^2 / (u.u v.v), is rational. If the angle is a rational fraction of a turn, Niven's
     theorem requires this square to be 0, 1/4, 1/2, 3/4 or 1. The angle is therefore a multiple of 1/24 turn or
@@ -405,5 +414,5 @@ def recognised_angle(turn: float, slack: float) -> Fraction | None:
 
 
 def centred_residue(value: Fraction) -> Fraction:
-    """Return the difference between a number and an integer that is in the interval (-1/2, 1/2]."""
+    """Return a number reduced modulo 1 to the interval (-1/2, 1/2]."""
     return value - math.ceil(value - Fraction(1, 2))

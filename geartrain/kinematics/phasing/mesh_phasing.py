@@ -1,7 +1,8 @@
 """Phase closure of the loops of a train: verdict, loops, angles of the wheels for assembly, and distributed errors.
 
-The result for a loop consists of its gears in order, the divisibility rule of its tooth counts (a modulus that divides
-a count or a weighted sum of counts), and the phase error of its last mesh if all other meshes have none.
+The result for a loop consists of its gears in order, the divisibility rule of its tooth counts (a modulus divides a
+tooth count or a weighted sum of tooth counts), and the phase error of its last mesh if all other meshes have no phase
+error.
 """
 
 from __future__ import annotations
@@ -58,7 +59,7 @@ class DivisibilityRule(Result):
 
     @property
     def text(self) -> str:
-        """Rule in words, such as `3 divides za and 5 divides zb`."""
+        """Rule as text, such as `3 divides za and 5 divides zb`."""
         kinds = [kind for _, terms in self.conditions for kind in terms]
         short = all(
             kind[:1].isdigit() or len(kind) <= 2 for kind in kinds
@@ -82,8 +83,8 @@ def find_divisibility_rule(forms: Iterable[Mapping[str, Fraction]]) -> Divisibil
     linear form.
 
     Only the coefficients modulo 1 matter. The forms generate a finite abelian group, which is the direct sum of its
-    p-parts. In every p-part, the rows modulo a power of p are reduced to Howell (triangular) form. Then the conditions
-    on a single kind of wheel are combined.
+    p-parts. In every p-part, the rows modulo a power of p are reduced to Howell (triangular) form. Finally, the
+    conditions on a single kind of wheel are combined.
     """
     rows = list({tuple(sorted((k, f % 1) for k, f in form.items() if f % 1)): None for form in forms})
     kinds = sorted({kind for row in rows for kind, _ in row})
@@ -105,7 +106,9 @@ def find_divisibility_rule(forms: Iterable[Mapping[str, Fraction]]) -> Divisibil
 
 
 def _join(found: list[tuple[int, Row]], modulus: int, terms: Row) -> None:
-    """Add a divisibility condition, merged with a condition on a coprime modulus if one sum expresses both."""
+    """Add a divisibility condition to `found`. It is merged with a condition on a coprime modulus if one sum expresses
+    both conditions.
+    """
     for at, (other, known) in enumerate(found):
         kinds = {*known, *terms}
         for says, to in ((terms, other), (known, modulus)):
@@ -146,7 +149,9 @@ def _group_order(rows: Sequence[Sequence[int]], power: int) -> int:
 
 
 def _howell_form(rows: Sequence[Sequence[int]], power: int) -> list[list[int]]:
-    """Return the Howell (triangular) form of the rows modulo a prime power, which generates the same group."""
+    """Return the Howell (triangular) form of the rows modulo the prime power `power`, which generates the same group as
+    the rows.
+    """
     found = []
     active = [list(row) for row in rows]
     width = len(active[0]) if active else 0
@@ -171,7 +176,9 @@ def _howell_form(rows: Sequence[Sequence[int]], power: int) -> list[list[int]]:
 
 
 def _simplest_form(row: Sequence[int], power: int) -> tuple[int, list[int]]:
-    """Return the congruence row · x = 0 (mod power) in reduced form, as modulus and smallest equivalent weights."""
+    """Return the congruence row · x = 0 (mod power) in reduced form, as the modulus and the smallest equivalent
+    weights.
+    """
     common = math.gcd(*row, power)
     modulus = power // common
     row = [value // common for value in row]
@@ -186,8 +193,8 @@ def _centred(row: Sequence[int], unit: int, modulus: int) -> list[int]:
 
 
 def _simplicity(row: Sequence[int]) -> tuple[int, int, int, list[int]]:
-    """Return a key that sorts rows by simplicity: rows with small factors precede others, then rows with few minus
-    signs, then rows whose first factor is positive.
+    """Return a key that sorts rows by simplicity: rows with small weights come first, then rows with few negative
+    weights, then rows whose first weight is positive.
     """
     first = next((value for value in row if value), 0)
     return sum(map(abs, row)), sum(value < 0 for value in row), first < 0, list(row)
@@ -216,17 +223,17 @@ class LoopPhase(Result):
     the other.
     """
     meshes: tuple[str, ...]
-    """Pairs in their order around the loop; the last one closes it. If `together` is True, these are the pairs of
-    several loops, in any order.
+    """Names of the pairs in their order around the loop; the last pair closes it. If `together` is True, these are the
+    pairs of several loops, in any order.
     """
     weights: tuple[int, ...]
     """Integer weight of each pair in the sum of the phase equations; 1 or -1 except in loops with compound wheels."""
     residue: Fraction | float
-    """Weighted sum of the phase constants of the pairs minus the nearest integer, in [-1/2, 1/2] [pitch]; a Fraction if
-    it is exact.
+    """Weighted sum of the phase constants of the pairs minus the nearest integer, from -1/2 to 1/2 [pitch]; a Fraction
+    if it is exact.
     """
     slack: float
-    """Upper bound on the numerical error of `residue` [pitch]; 0 if the residue is exact."""
+    """Upper bound on the numerical error of `residue` [pitch]; 0 if the residue is an exact fraction."""
     how: ResidueKnowledge
     """Accuracy of the residue: "exact", "recognised" (exact, with inferred fractions), or "numeric"."""
     inside: Mapping[str, Fraction | float] | None
@@ -247,8 +254,8 @@ class LoopPhase(Result):
 
     @property
     def miss(self) -> Fraction | float:
-        """Phase error of the last pair if all other pairs mesh exactly [pitch]. The engaged teeth are chosen so that it
-        is minimal.
+        """Phase error of the last pair if all other pairs mesh exactly [pitch]. The teeth that engage are chosen so
+        that its magnitude is minimal.
         """
         return self.residue / self.weights[-1]
 
@@ -310,13 +317,15 @@ def _wheel(problem: PhaseSystem, mesh: int, node: int) -> str:
 
 
 def _sum_change(problem: PhaseSystem, mesh: int, node: int, row: Mapping[int, int]) -> int:
-    """Return the change of a loop's sum of phase equations [pitch] if a wheel turns on its arbor by one pitch."""
+    """Return the change of a loop's sum of phase equations [pitch] that results if a wheel is rotated on its arbor by
+    one pitch.
+    """
     circuit = problem.circuits[mesh]
     return row[mesh] * (1 if problem.ends[mesh][0] == node or circuit.b > 0 else -1)
 
 
 def _inside_angles(problem: PhaseSystem, condition: PhaseCondition) -> dict[str, Fraction | float]:
-    """Return for each gear of a loop the angle between its two contacts, with sign and weight [turn]."""
+    """Return, for each gear of a loop, the angle between its two contacts, multiplied by its sign and weight [turn]."""
     contacts, cycle = problem.contacts, condition.cycle
     assert cycle is not None
     exact = isinstance(condition.residue, Fraction)
@@ -389,7 +398,7 @@ class MeshPhasing(Result):
     alike: Callable[[], Mapping[str, str]] = field(default=dict, repr=False)
     """Function that returns the name in `rule` of each wheel's tooth count; equal wheels have the same name."""
     unjudged: int = 0
-    """Number of loops that cannot be checked because the position of one of their pairs or pins is unknown."""
+    """Number of loops that cannot be checked because the position of one of their pairs or couplings is unknown."""
 
     def _summary(self) -> str:
         if "kind" not in vars(self):
@@ -418,7 +427,7 @@ class MeshPhasing(Result):
         return "unclear" if any(one.kind == "unclear" for one in self.problem.conditions) else "closes"
 
     def __bool__(self) -> bool:
-        """Return False if a loop misses or is unclear, else True."""
+        """Return False if a loop does not close or is unclear, and True if all loops close."""
         return self.kind in ("closes", "open")
 
     @property
@@ -429,7 +438,7 @@ class MeshPhasing(Result):
 
     @property
     def rigid(self) -> int:
-        """Number of loops with a ratio product other than 1. These loops cannot turn and have no phase condition."""
+        """Number of loops with a ratio product other than 1, which cannot turn and have no phase condition."""
         return len(self.problem.parts.breaking)
 
     @property
@@ -594,7 +603,7 @@ def _by_kind(inside: Mapping[str, Fraction | float] | None, kinds: Mapping[str, 
 
 
 def _name(link: str) -> str:
-    """Return the name of a link; for a wheel mounted on the frame, the name of the wheel."""
+    """Return the name of a link. For a wheel that is mounted on the frame, return the name of the wheel."""
     return link.rpartition(MOUNT)[2]
 
 
@@ -603,7 +612,7 @@ def find_phasing(
 ) -> MeshPhasing:
     """Check the assembly condition of a declared train, in the pose in which its moving axes are declared.
 
-    backlashes   pair -> circumferential backlash [pitch], as far as it is known
+    backlashes   circumferential backlash [pitch] of each pair for which it is known, by pair
     """
     contacts = place_pitch_points(train, tree, circuits)
     parts = find_components(_links(train, contacts.circuits), train.frame, contacts.circuits)
@@ -622,7 +631,7 @@ def _links(train: Train, circuits: Sequence[Circuit]) -> tuple[str, ...]:
 
 
 def _equal_wheels(train: Train) -> dict[str, str]:
-    """Return for each wheel the name of the first wheel that equals it and has equal mates."""
+    """Return, for each wheel, the name of the first wheel that is equal to it and has equal mates."""
     marks = {name: (wheel.count, wheel.internal) for name, (_, wheel) in train.wheels.items()}
     mates: dict[str, list[object]] = {name: [] for name in marks}
     for gear in train.gears:

@@ -40,11 +40,13 @@ class SparseRows:
     width: int
 
     def small(self, height: int) -> bool:
-        """Return True if a matrix with `height` rows is small enough for a fast solution."""
+        """Return True if a matrix of this kind with `height` rows is small enough for a fast solution."""
         return height * self.width <= _DENSE
 
     def least_squares(self, right: Floats) -> Floats:
-        """Return the x of minimum norm that minimises |A x - right|, by LSMR (Fong and Saunders 2011)."""
+        """Return the vector x of minimum norm that minimises |A x - right|, where A is this matrix, by LSMR (Fong and
+        Saunders 2011).
+        """
         from scipy.sparse import csr_array
         from scipy.sparse.linalg import lsmr
 
@@ -65,16 +67,20 @@ class SparseRows:
 
 
 Row = Mapping[int, int]
-"""Integer combination of the equations of meshes, as a mapping from the index of a mesh to its weight."""
+"""Integer combination of the equations of meshes: weight of each equation, by index of the mesh."""
 
 
 class PhaseCycle(NamedTuple):
-    """Loop of meshes. The node nodes[k] is between meshes[k - 1] and meshes[k], and nodes[0] is after the last mesh."""
+    """Loop of meshes. The node `nodes[k]` is between the meshes `meshes[k - 1]` and `meshes[k]`, and `nodes[0]` is
+    after the last mesh.
+    """
 
     nodes: tuple[int, ...]
     meshes: tuple[int, ...]
     weights: tuple[int, ...]
-    """Coprime integer weight of each mesh; the weighted left-hand sides of the equations of the meshes add up to 0."""
+    """Coprime integer weight of each mesh. The left-hand sides of the equations of the meshes, multiplied by these
+    weights, add up to 0.
+    """
 
     @property
     def row(self) -> dict[int, int]:
@@ -90,7 +96,7 @@ _Edges = dict[int, list[tuple[int, int]]]
 
 def find_cycle_basis(parts: Components, ends: Sequence[tuple[int, int]]) -> Iterator[tuple[list[int], list[int]]]:
     """Yield the nodes and the meshes of each loop of a cycle basis. A loop consists of one chord (a mesh outside the
-    search tree) and a shortest path between its ends through the search tree and the chords used before.
+    search tree) and a shortest path between the ends of the chord. The path uses the search tree and earlier chords.
 
     Each loop contains its own chord and no later chord, so the loops are independent and generate all loops.
     """
@@ -140,7 +146,9 @@ def _join(edges: _Edges, mesh: int, i: int, j: int) -> None:
 
 
 def _shortest(edges: _Edges, start: int, goal: int, most: float) -> tuple[list[int], list[int]] | None:
-    """Return nodes and meshes of a shortest path by breadth-first search; None if it exceeds `most` meshes."""
+    """Return the nodes and the meshes of a shortest path from `start` to `goal`, by breadth-first search; None if the
+    path has more than `most` meshes.
+    """
     came = {start: (-1, -1)}
     front, length = [start], 0
     while front and goal not in came:
@@ -179,8 +187,8 @@ _SAME = 1e-6  # pitch: tolerance at which no tooth changes its gap
 
 @dataclass(frozen=True)
 class PhaseCondition:
-    """Condition on meshes whose weighted left-hand sides add up to 0: the weighted sum of their constants must be an
-    integer [pitch].
+    """Condition on meshes for which the weighted left-hand sides of the phase equations add up to 0. The weighted sum
+    of their constants must then be an integer [pitch].
     """
 
     cycle: PhaseCycle | None
@@ -196,7 +204,7 @@ class PhaseCondition:
 
     @property
     def kind(self) -> PhaseKind:
-        """Verdict: "closes", "misses", or "unclear" if positions are too inaccurate."""
+        """Verdict: "closes", "misses", or "unclear" if the positions are not accurate enough."""
         return judge_residue(self.residue, self.slack)
 
     @property
@@ -208,13 +216,13 @@ class PhaseCondition:
 
     @property
     def miss(self) -> Fraction | float:
-        """Phase error of the last mesh if all other meshes have none [pitch]."""
+        """Phase error of the last mesh if all other meshes have no phase error [pitch]."""
         return self.residue / (self.cycle.weights[-1] if self.cycle else list(self.row.values())[-1])
 
 
 def judge_residue(residue: Fraction | float, slack: float) -> PhaseKind:
-    """Return "misses" if the residue [pitch] exceeds its maximum error `slack`, "unclear" if `slack` is too large, else
-    "closes".
+    """Return "misses" if the residue [pitch] exceeds its maximum error `slack`, "unclear" if it does not but `slack` is
+    too large, and "closes" in all other cases.
     """
     if abs(float(residue)) > slack:
         return "misses"
@@ -223,7 +231,8 @@ def judge_residue(residue: Fraction | float, slack: float) -> PhaseKind:
 
 @dataclass(frozen=True)
 class PhaseSystem:
-    """Phase equations of all meshes, a theta_i + b theta_j - (a + b) theta_k = c (mod 1): (1) of docs/closure.md.
+    """Phase equations of all meshes, a theta_i + b theta_j - (a + b) theta_k = c (mod 1): equation (1) of
+    docs/closure.md.
 
     Angles theta are in turns, and constants c in pitches.
     """
@@ -243,13 +252,13 @@ class PhaseSystem:
 
     @cached_property
     def cycles(self) -> list[PhaseCycle]:
-        """Loops of a cycle basis, which are as short as possible."""
+        """Loops of a cycle basis. The loops are as short as possible."""
         with collector_paused():
             return [self._cycle(*loop) for loop in find_cycle_basis(self.parts, self.ends)]
 
     def _cycle(self, nodes: Sequence[int], meshes: Sequence[int]) -> PhaseCycle:
-        """Return a loop with weights for which the coefficients cancel at every node. The weight of the last mesh is
-        positive.
+        """Return a loop with weights for which the coefficients of the mesh equations cancel at every node. The weight
+        of the last mesh is positive.
         """
         weights: list[Fraction | int] = [1]
         for node, before, mesh in zip(nodes[1:], meshes, meshes[1:], strict=False):
@@ -270,7 +279,7 @@ class PhaseSystem:
 
     @cached_property
     def _reduced(self) -> ReducedSystem:
-        """Equations that couple the components through links that turn relative to several carriers."""
+        """Reduced equations that couple the components through links that turn relative to several carriers."""
         return reduce_components(self.parts)
 
     @cached_property
@@ -287,7 +296,9 @@ class PhaseSystem:
 
     @cached_property
     def coupled_rows(self) -> list[dict[int, int]]:
-        """Weights for meshes of several carriers, with which the left-hand sides of their equations cancel."""
+        """Weights of the equations of meshes of several carriers for which the left-hand sides of these equations
+        cancel.
+        """
         rows = []
         for condition in self._echelon[0].conditions if self._echelon else ():
             causes = {-column - 1: self._reduced.origin[-column - 1] for column in condition}
@@ -393,8 +404,8 @@ class PhaseSystem:
         )  # exact, because a large weight would cancel the digits of the fraction
 
     def _families(self, row: Mapping[int, int]) -> list[int] | None:
-        """Return the families of all contacts of a condition if their unknown angles cancel; None if the residue is
-        only known as a float.
+        """Return the family numbers of all contacts of a condition if their unknown angles cancel; None if the residue
+        is known only as a float.
         """
         total: dict[int, int] = {}
         for mesh, weight in row.items():
@@ -407,8 +418,8 @@ class PhaseSystem:
 
     @cached_property
     def _whole_pitches(self) -> dict[int, int]:
-        """Integers to add to the constants of meshes [pitch], chosen to minimise the residues of loops with compound
-        wheels.
+        """Integers that are added to the constants of meshes [pitch], by mesh. They are chosen to minimise the residues
+        of loops with compound wheels.
         """
         basis, dual, _ = self._saturated
         found: dict[int, int] = {}
@@ -425,8 +436,8 @@ class PhaseSystem:
     def _tree_nodes(self) -> list[Number]:
         """Angles of nodes relative to their carriers that satisfy the equation of every mesh in the search tree [turn].
 
-        In components with compound wheels, a full turn of one link changes the engagement of others; their angles are
-        exact fractions.
+        In components with compound wheels, a full turn of one link changes which teeth of other links engage, so the
+        angles are exact fractions.
         """
         parts, nodes = self.parts, [0.0 for _ in self.parts.node_parent]
         found: list[Number] = list(nodes)
@@ -452,13 +463,13 @@ class PhaseSystem:
 
     @cached_property
     def tree_angles(self) -> list[float]:
-        """Angles of links that satisfy the equations of all meshes except those that close loops [turn]."""
+        """Angles of links that satisfy the equations of all meshes except the meshes that close loops [turn]."""
         return self._link_angles(self._tree_nodes)
 
     def _link_angles(self, nodes: Sequence[Number]) -> list[float]:
         """Return the angles of links [turn], given the angles of nodes, which are relative to carriers [turn].
 
-        Free unknowns are set to 0: carriers are in their declared pose.
+        Free unknowns are set to 0, so that carriers are in their declared pose.
         """
         parts, own = self.parts, self._reduced.own
         together = [self._angle_difference(*origin, nodes) for origin in self._reduced.origin]
@@ -476,8 +487,8 @@ class PhaseSystem:
         return [float(angle % 1) for angle in found]
 
     def _angle_difference(self, kind: str, first: int, node: int, nodes: Sequence[Number]) -> Number:
-        """Return the difference between a link's angles relative to two carriers [turn]; for a loop that cannot turn,
-        the angle of its component for which the equation of the closing mesh is satisfied.
+        """Return the difference between the angles of a link relative to two carriers [turn]. For a loop that cannot
+        turn, return the angle of its component for which the equation of the closing mesh is satisfied.
         """
         parts = self.parts
         if kind == "share":
@@ -488,7 +499,9 @@ class PhaseSystem:
 
     @cached_property
     def _link_rows(self) -> SparseRows:
-        """Indices of the two links and the carrier of every mesh, with their coefficients."""
+        """Matrix of the phase equations: the two links and the carrier of every mesh as columns, with their
+        coefficients.
+        """
         index = self.parts.index
         links = np.array([(index[c.i], index[c.j], index[c.carrier]) for c in self.circuits]).reshape(-1, 3)
         teeth = self.contacts.teeth
@@ -501,7 +514,7 @@ class PhaseSystem:
         return SparseRows(nodes, self._without_rigid_loops(self.contacts.teeth), len(self.parts.node_parent))
 
     def _without_rigid_loops(self, factors: Floats) -> Floats:
-        """Return the coefficients with zero rows for meshes whose loops cannot turn, because these have no phase
+        """Return the coefficients with zero rows for meshes in loops that cannot turn, because such loops have no phase
         condition.
         """
         found = factors.copy()
@@ -509,8 +522,8 @@ class PhaseSystem:
         return found
 
     def errors(self, angles: Sequence[float] | Floats) -> Floats:
-        """Return the phase error of every mesh [pitch] at given angles of links [turn]; it is 0 for meshes whose loops
-        cannot turn.
+        """Return the phase error of every mesh [pitch] for given angles of the links [turn]. It is 0 for meshes in
+        loops that cannot turn.
         """
         return self._errors(self._link_rows, np.asarray(angles))
 
@@ -523,12 +536,12 @@ class PhaseSystem:
 
     @cached_property
     def spread_angles(self) -> list[float]:
-        """Angles of links with the smallest sum of squared errors that was found [turn].
+        """Angles of links for which the sum of the squared phase errors is the smallest that was found [turn].
 
         Two initial assignments of teeth to gaps are tried: in one, the errors of the pairs that close loops are below
-        half a pitch; in the other, the residues of short loops are below half a pitch. Then errors are distributed by
-        least squares and teeth are reassigned until nothing changes. Each step reduces the sum. The result is a local
-        minimum.
+        half a pitch; in the other, the residues of short loops are below half a pitch. Then the errors are distributed
+        by least squares and teeth are reassigned to gaps, alternately, until the assignment does not change. Each step
+        reduces the sum, so the result is a local minimum.
         """
         start = self.errors(self.tree_angles)
         starts = [self._loop_errors(start), start][: 2 if self._node_rows.small(len(start)) else 1]
@@ -536,8 +549,8 @@ class PhaseSystem:
         return min(found, key=lambda angles: float((self.errors(angles) ** 2).sum()))
 
     def _loop_errors(self, errors: Floats) -> Floats:
-        """Return the errors of all meshes [pitch]. Integers are added to the errors of meshes that close loops so that
-        short loops have small residues.
+        """Return the phase errors of all meshes [pitch]. Integers are added to the errors of the meshes that close
+        loops, so that short loops have small residues.
         """
         found = errors.tolist()
         for condition in self.conditions:
@@ -548,8 +561,8 @@ class PhaseSystem:
         return np.array(found)
 
     def _distribute(self, errors: Floats) -> list[float]:
-        """Return the angles of links with distributed errors [turn]. Carriers keep their angles unless gears connect
-        them.
+        """Distribute the phase errors of the meshes over the links, and return the resulting angles of the links
+        [turn]. A carrier keeps its angle unless it is itself connected by gears.
         """
         if self.coupled_rows:
             together = np.mod(self._iterate(self._link_rows, np.array(self.tree_angles), errors), 1.0)
@@ -559,8 +572,8 @@ class PhaseSystem:
         return self._link_angles([angle + type(angle)(step) for angle, step in zip(start, moved.tolist(), strict=True)])
 
     def _iterate(self, rows: SparseRows, angles: Floats, errors: Floats, start: Sequence[float] = (0.0,)) -> Floats:
-        """Return the angles [turn] after least squares and reassignment of teeth to gaps, repeated alternately until
-        nothing changes.
+        """Return the angles of links [turn] after alternating least squares and reassignment of teeth to gaps, repeated
+        until the assignment does not change.
         """
         for _ in range(_ROUNDS if rows.small(len(errors)) else _FEW):
             step = rows.least_squares(errors)

@@ -1,10 +1,10 @@
 """Exact speeds by propagation or elimination, and the verdict.
 
-Propagation is tried first: if the speeds of two of a circuit's three links are known, the third follows. It solves
-ordinary trains, and every train whose links are driven one after another, in integers and in linear time. If it stops,
-as for a planetary set with a fixed ring, whose two circuits are coupled, the system is reduced to components and solved
-by Gaussian elimination. If a solution does not exist or is not unique, the diagnosis names the loops, inputs, brakes
-and locks that cause this.
+Propagation is tried first: if the speeds of two of a circuit's three links are known, the third follows. Propagation
+solves ordinary trains, and every train whose links are driven one after another, in integers and in linear time. If it
+stops before all speeds are known, as for a planetary set with a fixed ring, whose two circuits are coupled, the system
+is reduced to components and solved by Gaussian elimination. If a solution does not exist or is not unique, the
+diagnosis names the loops, inputs, brakes and locks that cause this.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ _ZERO = Fraction(0)
 
 class PrescriptionStatement(NamedTuple):
     """Input, brake or lock of a state: its kind (input, fixed or lock), a sentence that describes it, a sentence that
-    describes the declaration that causes it, and its speed.
+    describes its declaration, and its speed.
     """
 
     kind: str
@@ -50,10 +50,10 @@ class PrescriptionStatement(NamedTuple):
 
 
 def diagnose(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int], budget: int | None = None) -> Verdict:
-    """Return the verdict on a state without a solution, either locked or contradictory, with its certificate.
+    """Return the verdict on a state without a solution, which is either locked or contradictory, with its certificate.
 
-    An input is locked if its link cannot move whatever the other inputs are. Inputs that can move separately but not
-    together are contradictory. The certificate requires much memory for a long coupled train; if it takes more than
+    An input is locked if its link cannot move for any speeds of the other inputs. Inputs that can move separately but
+    not together are contradictory. The certificate requires much memory for a long coupled train; if it takes more than
     `budget` operations, the verdict is returned without it.
     """
     rows, statements = _tagged(reduced, case, signs)
@@ -79,12 +79,14 @@ def diagnose(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int], 
 
 
 def _tag_factors(row: LinearForm) -> dict[int, Fraction]:
-    """Return the factor of each equation n, from a row in which column -1 - n is the symbol of the equation."""
+    """Return the factor of each equation, by number n of the equation, from a row in which column -1 - n is the symbol
+    of equation n.
+    """
     return {-1 - column: value for column, value in row.items()}
 
 
 def resolve_form(row: LinearForm, forms: Mapping[int, LinearForm]) -> LinearForm:
-    """Return a linear form in which the solved unknowns are replaced by their values."""
+    """Return a linear form after replacing the solved unknowns by their values."""
     resolved: LinearForm = {}
     for column, coefficient in row.items():
         if column in forms:
@@ -95,7 +97,7 @@ def resolve_form(row: LinearForm, forms: Mapping[int, LinearForm]) -> LinearForm
 
 
 def held_rows(reduced: ReducedSystem, case: StateCase) -> Iterator[LinearForm]:
-    """Yield one row for each link fixed to the frame and for each pair of locked links."""
+    """Yield one row for each link that is fixed to the frame, and one for each pair of locked links."""
     index = reduced.components.index
     for link in case.fixed:
         yield dict(reduced.form(index[link]))
@@ -106,8 +108,8 @@ def held_rows(reduced: ReducedSystem, case: StateCase) -> Iterator[LinearForm]:
 
 
 def unwitnessed_verdict(reduced: ReducedSystem, case: StateCase) -> Verdict:
-    """Return the verdict on a state without a solution, without a certificate: "locked" if an input cannot move, else
-    "contradictory".
+    """Return the verdict on a state without a solution, without a certificate. It is "locked" if an input cannot move,
+    and "contradictory" if all inputs can move.
     """
     given = tuple(map(case.given, case.inputs))
     stuck = _locked_inputs(reduced, case)
@@ -117,7 +119,7 @@ def unwitnessed_verdict(reduced: ReducedSystem, case: StateCase) -> Verdict:
 
 
 def _locked_inputs(reduced: ReducedSystem, case: StateCase) -> list[str]:
-    """Return the non-zero inputs that cannot move whatever the other inputs are, by elimination modulo a prime.
+    """Return the non-zero inputs that cannot move for any speeds of the other inputs, by elimination modulo a prime.
 
     Each input is represented by a symbol, and elimination leaves the relations between the inputs that the circuits
     imply.
@@ -203,8 +205,8 @@ def _describe_contradiction(
 
 
 def _pairs(reduced: ReducedSystem, given: Mapping[int, Fraction], structural: int) -> list[str]:
-    """Return the names of the gear pairs in a contradiction, which are on the paths between the shared links of its
-    equations.
+    """Return the names of the gear pairs that take part in a contradiction. They are on the paths between the links
+    that the equations of the contradiction share.
     """
     parts = reduced.components
     touched: dict[int, set[int]] = {}
@@ -237,8 +239,8 @@ def stationary_verdict(reduced: ReducedSystem, case: StateCase) -> Verdict:
 def free_verdict(
     reduced: ReducedSystem, case: StateCase, forms: Mapping[int, LinearForm], undetermined: Sequence[str], freedom: int
 ) -> Verdict:
-    """Return the verdict with all undetermined links, and a smallest set of at most 12 links whose speeds would
-    determine the other links.
+    """Return the verdict on an underdetermined state. It contains all undetermined links, and a smallest set of at most
+    12 links whose speeds would determine the other links.
     """
     index = reduced.components.index
     rows: list[LinearForm] = []
@@ -269,7 +271,9 @@ def free_verdict(
 
 
 Terms = tuple[tuple[int, int], ...]
-"""Equation as pairs of the index of a link and an integer coefficient; the sum of coefficient times speed is 0."""
+"""Equation as pairs of a link index and an integer coefficient. The sum of coefficient times speed over all
+pairs is 0.
+"""
 
 
 @collector_paused()
@@ -337,7 +341,9 @@ def _rows(index: Mapping[str, int], frame: str, circuits: Sequence[Circuit], cas
 
 
 def _solve(row: Terms, speeds: FactoredRatios) -> int:
-    """Solve an equation for its single unknown speed and return the index of its link; -1 if all speeds are known."""
+    """Solve an equation for its only unknown speed, and return the index of the link with this speed; return -1 if all
+    speeds are known.
+    """
     target, lead = -1, 0
     moving = []
     for link, coefficient in row:
@@ -363,7 +369,9 @@ def _solve(row: Terms, speeds: FactoredRatios) -> int:
 _GIVEN = -1  # column of prescribed speeds
 
 EXACT_BUDGET = 400_000
-"""Maximum number of coefficient operations of exact elimination, which take about 1 s; beyond it, floats are used."""
+"""Maximum number of coefficient operations of exact elimination, which take about 1 s. If more are required, floats are
+used.
+"""
 
 _PREDICTED = 40_000
 """Maximum number of operations in the elimination modulo a prime for which exact elimination is tried.
@@ -383,21 +391,24 @@ class Solution:
     speeds: Mapping[str, Fraction]
     """Speeds of the determined links, by link, in the order of the declaration."""
     ratios: Mapping[str, Mapping[str, Fraction]]
-    """Speed of each link divided by the speed of one input while the others rest, as `ratios[link][input]`."""
+    """Speed of each link divided by the speed of one input when all other inputs are at rest, as
+    `ratios[link][input]`.
+    """
     signs: Mapping[str, int]
-    """Signs by link: -1 for each link whose axis points against the reference direction of the axes parallel to it.
+    """Sign of each link's axis, by link: -1 if it points against the reference direction of the axes parallel to it.
     Links with the sign 1 are omitted.
     """
     difference: Callable[[str, str], Fraction | None] | None = None
-    """Function that returns the difference of two links' speeds before axis signs are applied, or None if it is
-    undetermined; only given if the train is free.
+    """Function that returns the difference of two links' speeds before axis signs are applied, or None if the
+    difference is undetermined. It is given only if the train is free.
     """
 
     def relative(self, of: str, base: str) -> Fraction | None:
-        """Return the speed of a link relative to another, about the axis of the first; None if it is not determined.
+        """Return the speed of the link `of` relative to the link `base`, about the axis of `of`; None if it is not
+        determined.
 
-        The relative speed can be determined even if both links are free, namely if the difference of their speeds is in
-        the row space of the system.
+        The relative speed can be determined even if both links are free, if the difference of their speeds is in the
+        row space of the system.
         """
         found = relative_speed(of, base, self.speeds.get, self.signs)
         if found is not None or self.difference is None:
@@ -413,7 +424,9 @@ class Solution:
 
 
 def _speed_ratios(part: SolvedPart, case: StateCase, signs: Mapping[str, int]) -> Mapping[str, Mapping[str, Fraction]]:
-    """Return the exact ratios as `ratios[link][input]`; the equations are solved at the first access."""
+    """Return the exact speed ratios as `ratios[link][input]`. The equations are solved when the mapping is first
+    accessed.
+    """
 
     @cache
     def forms() -> dict[int, LinearForm]:
@@ -436,7 +449,8 @@ def _speed_ratios(part: SolvedPart, case: StateCase, signs: Mapping[str, int]) -
 
 @collector_paused()
 def solve(part: SolvedPart, case: StateCase, signs: Mapping[str, int], budget: int | None = EXACT_BUDGET) -> Solution:
-    """Solve the train in one state exactly, by propagation if it reaches every link, else by reduction and elimination.
+    """Solve the train in one state exactly: by propagation if it reaches every link, or by reduction and elimination if
+    not.
 
     signs    -1 for links whose axis is opposite to the reference direction; results refer to the declared directions
     budget   maximum number of operations in addition to linear work, beyond which `TooDenseError` is raised; None for
@@ -466,8 +480,8 @@ def solve(part: SolvedPart, case: StateCase, signs: Mapping[str, int], budget: i
 
 
 def elimination_budget(reduced: ReducedSystem, budget: int | None) -> int | None:
-    """Return the maximum number of operations for one system: `budget` plus 30 for each equation, the cost of an
-    uncoupled equation; None if `budget` is None.
+    """Return the maximum number of operations for one system: `budget` plus 30 for each equation, which is the cost of
+    an uncoupled equation; None if `budget` is None.
     """
     return None if budget is None else budget + 30 * len(reduced.equations)
 
@@ -484,7 +498,9 @@ def eliminate_within(rows: Sequence[LinearForm], budget: int | None) -> Echelon:
 
 
 def exact_verdict(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int]) -> Verdict:
-    """Return the verdict without speeds, by elimination modulo a prime, for systems too dense for exact numbers."""
+    """Return the verdict without speeds, by elimination modulo a prime. It is used for systems that are too dense for
+    exact numbers.
+    """
     held = [*reduced.equations, *held_rows(reduced, case)]
     if not any(case.inputs.values()) and rank_modulo(held) == reduced.unknowns:
         return stationary_verdict(reduced, case)
@@ -499,7 +515,7 @@ def exact_verdict(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, i
 
 
 def determined_verdict(case: StateCase, reduced: ReducedSystem | None = None) -> Verdict:
-    """Return the verdict that all speeds are determined; its text mentions any loop that locks a part of the train."""
+    """Return the verdict that all speeds are determined. Its text mentions any loop that locks a part of the train."""
     parts = reduced.components if reduced else None
     loops = tuple(parts.loop(circuit) for circuit in parts.breaking[:1]) if parts else ()
     text = f"every speed follows from {', '.join(case.inputs)}"

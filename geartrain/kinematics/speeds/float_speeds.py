@@ -47,7 +47,8 @@ _LARGEST_EXPONENT = 400  # of two, of a speed: the squares of errors stay within
 
 @dataclass(frozen=True, slots=True)
 class FloatSpeeds(FrozenFields, Shown):
-    """Float64 speeds by sparse LU factorisation and iterative refinement, with error estimates (docs/theory.md, 11).
+    """Float64 speeds computed by sparse LU factorisation and iterative refinement, with error estimates
+    (docs/theory.md, 11).
 
     `floats[link]` returns the speed of a link in the first case. Each speed is 0, or its magnitude is between 1e-120
     and 1e120.
@@ -92,7 +93,7 @@ class FloatSpeeds(FrozenFields, Shown):
 def solve_floats(system: WillisSystem, inputs: Mapping[str, Sequence[float]] | None = None) -> FloatSpeeds:
     """Solve a determined Willis system in float64 by factorisation of its `matrix()`.
 
-    inputs   input link -> speeds, one for each case, for every input; all cases use the same factorisation
+    inputs   speeds of every input, one for each case, by input link; all cases use the same factorisation
 
     Raises `RangeError` if the system is not square and regular, or if a speed is not between 1e-120 and 1e120.
     """
@@ -124,8 +125,8 @@ def solve_floats(system: WillisSystem, inputs: Mapping[str, Sequence[float]] | N
 
 
 def _condition_numbers(system: WillisSystem, matrix: PaddedRows, x: Floats, spread: Floats) -> dict[str, float]:
-    """Return the condition number |A^-1| |A| |x| / |x| of the speed of each link; `spread` is its numerator, which is
-    exact if the inverse was computed.
+    """Return the condition number |A^-1| |A| |x| / |x| of the speed of each link, by link. `spread` is the numerator,
+    which is exact if the inverse was computed.
     """
     if len(x) > _INVERTED:
         return {}
@@ -134,8 +135,8 @@ def _condition_numbers(system: WillisSystem, matrix: PaddedRows, x: Floats, spre
 
 
 def _refined(lu: Any, matrix: PaddedRows, x: Floats, right: Floats, remainder: Floats) -> Floats:
-    """Return the solution after iterative refinement (23), which ends at convergence, or if a step is more than half as
-    large as the previous one.
+    """Return the solution after iterative refinement (23). The refinement ends at convergence, or if a correction is
+    more than half as large as the previous correction.
     """
     last = 1.0
     for _ in range(_STEPS):
@@ -152,7 +153,7 @@ def _refined(lu: Any, matrix: PaddedRows, x: Floats, right: Floats, remainder: F
 
 
 def _error_bound(lu: Any, error: Floats) -> Floats:
-    """Return the maximum change of each speed if the equations have errors of any sign: |A^-1| error.
+    """Return the maximum change of each speed if the equations have errors of any sign, which is |A^-1| error.
 
     For up to 400 links, the inverse is computed column by column. For more links, four times the root mean square over
     errors with random signs and magnitudes is returned, because for a single set of signs several errors may cancel.
@@ -174,7 +175,8 @@ def _error_bound(lu: Any, error: Floats) -> Floats:
 
 
 def prepare(system: WillisSystem) -> tuple[PaddedRows, list[WillisEquation]]:
-    """Return the matrix for factorisation and its rows, which are as many independent rows as there are moving links.
+    """Return the matrix for factorisation and the equations of its rows. The number of independent rows equals the
+    number of moving links.
 
     Raises `RangeError` if the system is not square.
     """
@@ -192,7 +194,9 @@ def prepare(system: WillisSystem) -> tuple[PaddedRows, list[WillisEquation]]:
 
 
 def _with_frame(system: WillisSystem, matrix: PaddedRows, values: NDArray[Any]) -> LabelledArray:
-    """Return values with one row for each link in the order of the declaration, 0 for the frame."""
+    """Return an array with one row of values for each link in the order of the declaration; the row of the
+    frame is 0.
+    """
     at = next(at for at, link in enumerate(system.links) if link not in matrix.at)
     return labelled_array(
         np.insert(values, at, 0, axis=0),
@@ -204,7 +208,7 @@ def _with_frame(system: WillisSystem, matrix: PaddedRows, values: NDArray[Any]) 
 def _right_hand_sides(
     rows: Sequence[WillisEquation], inputs: Mapping[str, Sequence[float]] | None
 ) -> list[list[Fraction]]:
-    """Return the right-hand side of every row, one number for each set of input speeds [unit of the train]."""
+    """Return the right-hand side of every row, with one number for each set of input speeds [unit of the train]."""
     cases = len(next(iter(inputs.values()))) if inputs else 1
     return [
         [Fraction(value) for value in inputs[row.terms[0][0]]]
@@ -252,8 +256,8 @@ def _check_digits(lu: Any, matrix: PaddedRows, speeds: Floats, spread: Floats) -
 
     The spectral radius is the condition number of the system if the units of speed are chosen optimally for each link
     (Bauer 1963). For any positive vector v, it is at most the maximum of |A^-1| |A| v / v (Collatz and Wielandt); power
-    iteration from |x| lowers this bound. A link that is at rest, or slow because large terms cancel, requires one
-    iteration. If the factors are wrong, the bound remains above the limit.
+    iteration from |x| lowers this bound. If a link is at rest, or slow because large terms cancel, one iteration is
+    required. If the factors are wrong, the bound remains above the limit.
 
     speeds   |x|
     spread   |A^-1| |A| |x|, computed with the factors
@@ -268,8 +272,8 @@ def _check_digits(lu: Any, matrix: PaddedRows, speeds: Floats, spread: Floats) -
 
 
 def _condition(lu: Any, matrix: PaddedRows, speeds: Floats, spread: Floats, limit: float) -> Floats:
-    """Return |A^-1| |A| v / v for the first vector v of a power iteration for which the maximum, which bounds the
-    spectral radius, is below `limit`.
+    """Return |A^-1| |A| v / v for the first vector v of a power iteration for which the maximum of this quotient is
+    below `limit`. The maximum is a bound on the spectral radius.
     """
     for _ in range(_ITERATIONS):
         condition = np.divide(spread, speeds, out=np.where(spread == 0, 0.0, np.inf), where=speeds > 0)

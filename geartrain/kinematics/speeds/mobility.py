@@ -57,11 +57,11 @@ class Mobility(Result):
     loops: tuple[Loop, ...]
     """Loops with ratio product 1, each of which has one redundant pair; at most 1000 are listed."""
     shared: tuple[str, ...]
-    """Links that occur in two components, if the equation that equates their two speeds is redundant."""
+    """Links that occur in two components and for which the condition of equal speeds in both is redundant."""
     locked: tuple[Loop, ...]
     """Loops with a ratio product other than 1, which lock their component to its carrier; at most 1000 are listed."""
     still: tuple[str, ...]
-    """Links that cannot move, whichever link drives; empty if the system is too dense to determine them."""
+    """Links that cannot move, regardless of which link drives; empty if the system is too dense to determine them."""
     idle: tuple[str, ...]
     """Names of pairs whose wheels never roll on each other; empty if the system is too dense to determine them."""
     certain: bool = True
@@ -76,8 +76,8 @@ class Mobility(Result):
 
     @property
     def by_count(self) -> int:
-        """Mobility by counting: number of turning and sliding pairs minus number of gear pairs and couplings, j_R -
-        j_G. It is only correct if no pair is redundant.
+        """Mobility by counting: the number of turning and sliding pairs minus the number of gear pairs and couplings.
+        It is correct only if no pair is redundant.
         """
         return self.turning_pairs + self.sliding_pairs - self.gear_pairs - self.couplings
 

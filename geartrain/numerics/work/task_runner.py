@@ -168,7 +168,7 @@ class _Submission:
 
 
 class _Run:
-    """Run of tasks by an executor. Futures that end are put in a queue, which only this thread reads."""
+    """Execution of tasks by an executor. Completed futures are put in a queue that only the calling thread reads."""
 
     def __init__(
         self, work: TaskFunction, tasks: Iterable[Any], executor: Executor, journal: Journal | None, pace: _Progress

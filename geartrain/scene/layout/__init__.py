@@ -1,4 +1,5 @@
-"""Positions of axes and wheels, as declared, or chosen so that meshing wheels touch and other wheels do not collide.
+"""Positions of axes and wheels. They are declared, or chosen so that meshing wheels touch and other wheels do not
+collide.
 
 `lay_out` in `train_layout` runs the steps below in this order. The right column is the result of each step.
 

@@ -1,4 +1,4 @@
-"""Geometry that is declared for a layout: axes as lines, and contacts of wheels."""
+"""Declared geometry on which a layout is based: axes as lines, and contacts between wheels."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from geartrain.train.outputs import Dial
 
 Point = tuple[float, float]
-"""Point in plan: coordinates [mm] perpendicular to parallel axes."""
+"""Point in a plan: coordinates [mm] in the plane perpendicular to a group of parallel axes."""
 
 ContactKind = Literal["side", "ring", "bevel", "crown", "screw"]
 _TOUCHING = 1e-12  # relative distance below which pitch circles touch
@@ -36,41 +36,43 @@ WORM = Fraction(5)  # default pitch radius of a worm over its axial module
 
 @dataclass(frozen=True, slots=True)
 class AxisLine:
-    """Axis of a train as declared: a line in space, with the links that carry it."""
+    """Declared axis of a train: a line in space, and the links that carry it."""
 
     label: str
     direction: Vector
     group: int
     """Index of the group of parallel axes to which the axis belongs."""
     bearers: tuple[str, ...]
-    """Link that carries the axis, link that carries the axis of that link, and so on to the frame."""
+    """Link that carries the axis, followed by the link that carries the axis of that link, and so on until the frame.
+    """
     pivots: tuple[str, ...]
-    """Axes about which the links in `bearers` turn, in the same order; the frame has no axis."""
+    """Axes about which the links in `bearers` turn, in the same order. The frame has no entry."""
     given: Vector | None
     """Declared point of the axis [mm]; None if no position is declared."""
 
 
 @dataclass(frozen=True)
 class Parallels:
-    """Group of parallel axes, which are arranged in plan and stacked together."""
+    """Group of parallel axes, for which one plan and one stack of wheels are computed."""
 
     lines: tuple[AxisLine, ...]
     up: Vector
-    """Unit vector along the axes, in which heights increase; its last nonzero coordinate is positive."""
+    """Unit vector along the axes, in the direction in which heights increase; its last nonzero coordinate is positive.
+    """
     x: Vector
-    """Unit vector across the axes, along the first coordinate of the plan."""
+    """Unit vector perpendicular to the axes, in the direction of the first coordinate of the plan."""
     y: Vector
-    """Unit vector across the axes, along the second coordinate of the plan."""
+    """Unit vector perpendicular to the axes, in the direction of the second coordinate of the plan."""
 
     @classmethod
     def of(cls, lines: Sequence[AxisLine]) -> Parallels:
-        """Return the group of the given parallel axes."""
+        """Return the group that consists of the given parallel axes."""
         up = upwards(lines[0].direction)
         return cls(tuple(lines), up, *frame(up))
 
     @cached_property
     def index(self) -> Mapping[str, int]:
-        """Index of each axis in `lines`, by label."""
+        """Index of each axis in `lines`, by label of the axis."""
         return {line.label: at for at, line in enumerate(self.lines)}
 
     @property
@@ -79,23 +81,23 @@ class Parallels:
         return self.lines[0].bearers[-1]
 
     def flat(self, vector: Vector) -> Point:
-        """Return the coordinates in plan of a point or a direction."""
+        """Return the coordinates in the plan of a point or a direction in space."""
         return dot(vector, self.x), dot(vector, self.y)
 
     def foot(self, place: Point) -> Vector:
-        """Return the point in space, at height 0, of a point in plan."""
+        """Return the point in space, at height 0, that corresponds to a point in the plan."""
         return plus(plus((0.0, 0.0, 0.0), self.x, place[0]), self.y, place[1])
 
 
 def upwards(direction: Vector) -> Vector:
-    """Return a direction or its opposite, whichever has a positive last nonzero coordinate."""
+    """Return the given direction or its opposite, whichever has a positive last nonzero coordinate."""
     last = next(part for part in direction[::-1] if abs(part) > 1e-12)  # smaller ones are rounding errors
     return direction if last > 0 else (-direction[0], -direction[1], -direction[2])
 
 
 @dataclass(frozen=True, slots=True)
 class ContactSide:
-    """Gear pair from the side of one of its wheels: the wheel with its axis, and its mate with its axis."""
+    """Gear pair as seen from one of its wheels: this wheel, its mate, and their axes."""
 
     wheel: str
     axis: str
@@ -111,16 +113,16 @@ class PitchContact:
     wheels: tuple[str, str]
     axes: tuple[str, str]
     kind: ContactKind
-    """Kind of contact. `side` and `ring` have parallel axes. `bevel`, `crown` (its first wheel is the crown) and
-    `screw` (its first wheel is the worm) have other axes.
+    """Kind of contact. The axes are parallel for `side` and `ring`, and not parallel for `bevel`, `crown` (the first
+    wheel is the crown wheel) and `screw` (the first wheel is the worm).
     """
     stretch: Fraction = Fraction(1)
-    """Centre distance of the declared teeth divided by the centre distance at which pitch circles touch."""
+    """Centre distance of the declared teeth divided by the centre distance at which the pitch circles touch."""
     worm_sense: int = 0
-    """1 if positive angles of a worm and of its wheel move thread and teeth at the pitch point in the same direction,
-    -1 if in opposite directions.
+    """1 if positive rotations of a worm and of its wheel move the thread and the teeth at the pitch point in the same
+    direction, -1 if they move them in opposite directions.
 
-    It is 0 for other pairs.
+    It is 0 for pairs without a worm.
     """
 
     @property
@@ -130,37 +132,44 @@ class PitchContact:
 
     @property
     def sides(self) -> tuple[ContactSide, ContactSide]:
-        """Gear pair from the side of its first wheel, and from the side of its second wheel."""
+        """Gear pair as seen from its first wheel, and as seen from its second wheel."""
         (first, second), (axis, other) = self.wheels, self.axes
         return ContactSide(first, axis, second, other), ContactSide(second, other, first, axis)
 
     @property
     def axis_pair(self) -> tuple[str, str]:
-        """Axes of the pair in alphabetical order, which is the same for all pairs between the two axes."""
+        """Axes of the pair in alphabetical order, so that all pairs between the same two axes have the same value."""
         return min(self.axes), max(self.axes)
 
 
 @dataclass(frozen=True, slots=True)
 class CouplingTie:
-    """Coupling of two axes: driver and driven link, their axes, and the distance between axes [mm] if declared."""
+    """Coupling between two axes: driver, driven link, their axes, and the declared distance between the axes [mm], if
+    any.
+    """
 
     links: tuple[str, str]
     axes: tuple[str, str]
     offset: Fraction | None
     encloses: bool
-    """True if a pin's circle encloses the slot's axis, so that the two axes are close together."""
+    """True if the circle of a pin encloses the axis of its slot, so that the two axes are close together."""
     wish: float | None = None
-    """Preferred distance [mm] if nothing determines the distance; None if any distance is suitable."""
+    """Preferred distance between the axes [mm], which is used if nothing determines the distance; None if there is no
+    preference.
+    """
 
     @property
     def axis_pair(self) -> tuple[str, str]:
-        """Axes of both links in alphabetical order, which is the same for all pairs between the two axes."""
+        """Axes of both links in alphabetical order, so that all couplings between the same two axes have the same
+        value.
+        """
         return min(self.axes), max(self.axes)
 
 
 class DialEnds(NamedTuple):
-    """Numbers of hands, one above the other, at the low and the high end of an arbor. A number is 0 if that end does
-    not extend to a dial, 1 if it does, and 2 if its hand passes over the hand of a dial inside its dial.
+    """Number of hands, one above the other, at the low end and at the high end of an arbor. A number is 0 if the arbor
+    does not extend to a dial at that end. It is 1 if the arbor does, and 2 if its hand passes over the hand of a
+    smaller dial inside its dial.
     """
 
     low: int = 0
@@ -169,30 +178,35 @@ class DialEnds(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class DeclaredGeometry:
-    """Declared geometry of a train: axes by label, and gear pairs and couplings in the order of declaration."""
+    """Declared geometry of a train: its axes by label, and its gear pairs and couplings in the order of declaration."""
 
     lines: Mapping[str, AxisLine]
     axis: Mapping[str, str]
-    """Axis of every wheel; wheels that mesh are listed first."""
+    """Axis of every wheel, by name of the wheel; wheels that mesh are listed first."""
     contacts: tuple[PitchContact, ...]
     ties: tuple[CouplingTie, ...]
     wheels: Mapping[str, tuple[str, Wheel]]
     thickness: Mapping[str, float]
-    """Declared thickness [mm] of each wheel for which one is declared."""
+    """Declared thickness of a wheel [mm], by name; wheels without a declared thickness are omitted."""
     strays: tuple[tuple[str, str, str], ...]
-    """Wheels that a gear pair requires on a different axis than earlier pairs do: wheel, pair and axis."""
+    """Wheels that a gear pair requires on a different axis than earlier gear pairs do. Each entry is a wheel, a gear
+    pair and an axis.
+    """
     front: int
-    """Side from which the train is viewed: 1 for the side of positive z, -1 for negative z."""
+    """Side from which the train is viewed: 1 for the side of positive z, -1 for the side of negative z."""
     dial_ends: Mapping[str, DialEnds]
-    """Link -> ends of its arbor that extend to a dial."""
+    """Ends of each arbor that extend to a dial, by link."""
     driven: str | None
-    """Axis of the first input, which is at the origin if no position is declared; None if the train has no input."""
+    """Axis of the first input. It is at the origin if no position is declared for it. None if the train has no input.
+    """
     discs: Mapping[str, float]
-    """Extent of the discs of lantern pinions beyond the pitch circle [modules], by wheel."""
+    """Radial extent of the discs of lantern pinions beyond the pitch circle [modules], by wheel."""
     belts: tuple[Mapping[str, float], ...] = ()
-    """Radii of the pulleys of each belt by axis [mm], for belts with declared diameters."""
+    """Radii of the pulleys [mm], by axis, of each belt with declared diameters."""
     centres: tuple[tuple[str, str, Vector], ...] = ()
-    """Dials with a declared centre: name, axis of the pointers, and the centre at height 0 [mm]."""
+    """Dials with a declared centre. Each entry is the name of the dial, the axis of its pointers, and its centre at
+    height 0 [mm].
+    """
 
     def link(self, wheel: str) -> str:
         """Return the link that carries a wheel."""
@@ -203,17 +217,17 @@ class DeclaredGeometry:
         return self.wheels[wheel][1]
 
     def count(self, wheel: str) -> int:
-        """Return the tooth count of a wheel; 1 if it is not known."""
+        """Return the tooth count of a wheel; 1 if it is unknown."""
         return self.wheels[wheel][1].count or 1
 
     def radius(self, wheel: str) -> Fraction:
-        """Return the pitch radius of a wheel in normal modules, or of a worm in axial modules."""
+        """Return the pitch radius of a wheel in normal modules; for a worm, in axial modules."""
         if self.wheel(wheel).kind == "worm":
             return WORM
         return Fraction(self.count(wheel), 2) * Fraction(self.wheel(wheel).slant)
 
     def distance(self, contact: PitchContact) -> Fraction:
-        """Return the centre distance of a pair with parallel or skew axes [modules]."""
+        """Return the centre distance of a gear pair with parallel or skew axes [modules]."""
         first, second = (self.radius(wheel) for wheel in contact.wheels)
         return contact.stretch * (abs(first - second) if contact.kind == "ring" else first + second)
 
@@ -267,7 +281,7 @@ def read_geometry(train: GearTrain) -> DeclaredGeometry:
 
 
 def _belts(train: GearTrain) -> Iterator[Mapping[str, float]]:
-    """Yield the radii of the pulleys of each belt by axis [mm], for belts with declared diameters."""
+    """Yield the radii of the pulleys [mm], by axis, of each belt with declared diameters."""
     carriers = {circuit.id: circuit.carrier for circuit in train.circuits if circuit.kind == "belt"}
     for belt in train.declaration.couplings if carriers else ():
         if belt.kind == "belt" and any(True for _ in belt.lengths):
@@ -294,7 +308,7 @@ def _lines(declared: Train, tree: Tree) -> Iterator[AxisLine]:
 
 
 def _first_links(declared: Train, tree: Tree) -> dict[str, str]:
-    """Return the first link declared on each axis."""
+    """Return, for each axis, the first link that is declared on it."""
     found: dict[str, str] = {}
     for link in declared.links:
         name = tree.axis(link)
@@ -310,7 +324,9 @@ def _thickness(declared: Train) -> Iterator[tuple[str, float]]:
 
 
 def _lantern_discs(declared: Train) -> Iterator[tuple[str, float]]:
-    """Yield lantern wheels with the extent of their discs beyond the pitch circle, 1.5 pin diameters [modules]."""
+    """Yield each lantern pinion with the radial extent of its discs beyond the pitch circle, 1.5 pin diameters
+    [modules].
+    """
     for gear in declared.gears:
         form = declared.form_of(gear)
         if form is not None and form.form == "lantern":
@@ -321,8 +337,8 @@ def _lantern_discs(declared: Train) -> Iterator[tuple[str, float]]:
 
 
 def _stretches(train: GearTrain) -> dict[str, Fraction]:
-    """Return the declared centre distance of each pair divided by the distance at which pitch circles touch; ratios of
-    1 are omitted.
+    """Return the declared centre distance of each pair divided by the distance at which its pitch circles touch. Pairs
+    for which the quotient is 1 are omitted.
     """
     try:
         sizes = find_sizes(train.meshes)
@@ -332,7 +348,9 @@ def _stretches(train: GearTrain) -> dict[str, Fraction]:
 
 
 def _dial_centres(declared: Train, tree: Tree, front: int) -> Iterator[tuple[str, str, Vector]]:
-    """Yield dials of the frame with a declared centre: name, axis of the pointers, and centre at height 0 [mm]."""
+    """Yield the dials of the frame that have a declared centre: name of the dial, axis of its pointers, and its centre
+    at height 0 [mm].
+    """
     for case in declared.cases:
         for name, output in case.outputs.items():
             dial = declared.dials.get(output.dial or "")
@@ -364,7 +382,7 @@ def _dial_ends(declared: Train, tree: Tree, lines: Mapping[str, AxisLine], front
 
 
 def _encloses(dial: Dial, other: Dial) -> bool:
-    """Return True if another dial of the same face is inside the scale of a dial."""
+    """Return True if the dial `other`, on the same face, is inside the scale of the dial `dial`."""
     one, two = dial.circle, other.circle
     if one is None or two is None or dial.face != other.face or two[2] >= one[2]:
         return False
@@ -389,7 +407,7 @@ def _contact(
 
 
 def _worm_sense(train: GearTrain, circuit: Circuit, ends: tuple[str, str]) -> int:
-    """Return `worm_sense` of a worm gear pair (1 or -1) from the signs of its equation.
+    """Return `worm_sense` (1 or -1) of a worm gear pair, derived from the signs of the pair's equation.
 
     It cannot be derived from circumferential velocities: the velocities of worm and wheel are not parallel at the pitch
     point.
@@ -406,8 +424,8 @@ _BELT = 1.25  # distance of pulleys divided by the largest diameter
 
 
 def _preferred_distance(coupling: Coupling) -> float | None:
-    """Return the preferred distance of the axes of a coupling [mm] if no positions are declared; None if any distance
-    is suitable.
+    """Return the preferred distance between the axes of a coupling [mm] if no positions are declared; None if there is
+    no preference.
     """
     around = getattr(coupling, "around", None)
     if isinstance(around, Mapping):

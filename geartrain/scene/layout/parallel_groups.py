@@ -1,5 +1,5 @@
-"""Groups of parallel axes, placed one after the other. Each group is planned and stacked subject to the axes that are
-already placed.
+"""Placement of groups of parallel axes, one after the other. The plan and the stacks of each group are subject to the
+axes that are already placed.
 
 Stacks: wheels that mesh are at one height, or at fixed relative heights. A weighted union-find of heights groups these
 wheels into stacks. A wheel on a crossing axis has a fixed height relative to its mate, and occupies space in the stack
@@ -37,7 +37,7 @@ from geartrain.scene.layout.wheel_stacks import StackProblem, WheelStack
 _GAP = 0.4  # gap between levels divided by the median thickness
 
 Node = tuple[str, str]
-"""Node of the union-find structure: a wheel ("wheel", name) or a crossing axis ("axis", label)."""
+"""Node of the union-find structure: ("wheel", name of a wheel) or ("axis", label of a crossing axis)."""
 
 
 class _HeightSets:
@@ -47,7 +47,7 @@ class _HeightSets:
         self._above: dict[Node, tuple[Node, float]] = {}
 
     def find(self, node: Node) -> tuple[Node, float]:
-        """Return the root of a node, and the height of the node above the root [mm]."""
+        """Return the root of the tree that contains a node, and the height of the node above the root [mm]."""
         total = 0.0
         while (step := self._above.setdefault(node, (node, 0.0)))[0] != node:
             total += step[1]
@@ -55,7 +55,7 @@ class _HeightSets:
         return node, total
 
     def join(self, node: Node, other: Node, above: float) -> None:
-        """Place a node at a distance `above` another node [mm], unless their relative height is already known."""
+        """Place `node` at the height `above` the node `other` [mm], unless their relative height is already known."""
         (root, height), (base, low) = self.find(node), self.find(other)
         # an existing relation is kept: contradictory heights become collisions, which are reported
         if root != base:
@@ -69,7 +69,8 @@ def build_wheel_stack(
     swept: SweptDistances,
     known: Mapping[str, float],
 ) -> WheelStack:
-    """Return the stack of all upright wheels of a group of parallel axes, and of crossing wheels that mesh with them.
+    """Return the stack of a group of parallel axes: all wheels on these axes, and the wheels on crossing axes that mesh
+    with them.
 
     known   heights [mm] of wheels that are determined by parts that are already placed
     """
@@ -85,7 +86,7 @@ def build_wheel_stack(
 
 
 def _plates(blocks: Sequence[WheelBlock], parallels: Parallels) -> dict[str, str]:
-    """Return for each arbor the widest wheel of the carrier that carries its axis."""
+    """Return, for each arbor, the widest wheel on the carrier that carries the axis of the arbor."""
     upright = [block for block in blocks if not block.across]
     widest = _widest(upright)
     bearers = {block.link: parallels.lines[block.axis].bearers[0] for block in upright}
@@ -97,7 +98,7 @@ def _plates(blocks: Sequence[WheelBlock], parallels: Parallels) -> dict[str, str
 
 
 def _pins(blocks: Sequence[WheelBlock], ties: Sequence[CouplingTie]) -> Iterator[tuple[str, str]]:
-    """Yield the widest wheels of the links of a pin and its slot, if the pin's circle encloses the slot's axis."""
+    """Yield, for each pin and slot, the widest wheels of the two links if the pin's circle encloses the slot's axis."""
     widest = _widest([block for block in blocks if not block.across])
     for tie in ties:
         pin, slot = (widest.get(link) for link in tie.links)
@@ -106,7 +107,7 @@ def _pins(blocks: Sequence[WheelBlock], ties: Sequence[CouplingTie]) -> Iterator
 
 
 def _widest(blocks: Sequence[WheelBlock]) -> dict[str, WheelBlock]:
-    """Return the block of the widest wheel of every link."""
+    """Return the block of the widest wheel of every link, by link."""
     found: dict[str, WheelBlock] = {}
     for block in blocks:
         if block.link not in found or block.outer > found[block.link].outer:
@@ -115,12 +116,13 @@ def _widest(blocks: Sequence[WheelBlock]) -> dict[str, WheelBlock]:
 
 
 class _BlockBuilder:
-    """Builder of the blocks of one group of parallel axes.
+    """Builder of the wheel blocks of one group of parallel axes.
 
-    crossing   pairs with one wheel on an axis of the group, from the side of this wheel
-    met        crossing axis -> point in plan from which its height is counted: its given point, or the point of its
+    crossing   pairs with one wheel on an axis of the group, as seen from this wheel
+    met        crossing axis -> point in the plan from which its height is measured: its declared point, or the point of
+    its
                first pair
-    number     numbers of stacks, in the order of their first use
+    number     indices of stacks, in the order of their first use
     """
 
     def __init__(self, geometry: SizedGeometry, parallels: Parallels, places: Mapping[str, Point]) -> None:
@@ -141,7 +143,7 @@ class _BlockBuilder:
         self._join_concurrent()
 
     def blocks(self) -> list[WheelBlock]:
-        """Return the blocks of upright wheels, then the blocks of crossing wheels."""
+        """Return the blocks of wheels on axes of the group, followed by the blocks of wheels on crossing axes."""
         seat = {each.side.wheel: each.seat for each in self.crossing}
         found = []
         for wheel, axis in self.declared.axis.items():
@@ -157,7 +159,9 @@ class _BlockBuilder:
         return [*found, *(self._across(each) for each in self.crossing)]
 
     def given(self, known: Mapping[str, float]) -> dict[int, float]:
-        """Return heights of stacks [mm] that are determined by placed parts, or by declared points of crossing axes."""
+        """Return the heights of stacks [mm] that are determined by placed parts, or by declared points of crossing
+        axes, by stack index.
+        """
         found: dict[int, float] = {}
         for wheel, height in known.items():
             stack, offset = self._stack(("wheel", wheel))
@@ -175,7 +179,7 @@ class _BlockBuilder:
         return self.number.setdefault(root, len(self.number)), height
 
     def _rise(self, line: AxisLine) -> float:
-        """Return the component of an axis direction along the upward direction of the group."""
+        """Return the component of the direction of an axis along the upward direction of the group."""
         return dot(line.direction, self.parallels.up)
 
     def _hold_to_axis(self, each: CrossingSide) -> None:
@@ -186,7 +190,9 @@ class _BlockBuilder:
         self.heights.join(("wheel", side.wheel), ("axis", side.mate_axis), above)
 
     def _height_at(self, across: AxisLine, place: Point) -> float:
-        """Return the height of a crossing axis at a point in plan above its height at its reference point [mm]."""
+        """Return the height of a crossing axis at a point in the plan, relative to its height at its reference point
+        [mm].
+        """
         u, v = self.parallels.flat(across.direction)
         start = place if across.given is None else self.parallels.flat(across.given)
         x, y = self.met.setdefault(across.label, start)
@@ -195,7 +201,7 @@ class _BlockBuilder:
     def _join_concurrent(self) -> None:
         """Fix the relative heights of crossing axes that intersect an axis of the group at one point.
 
-        Their wheels mesh with each other and with wheels on that axis.
+        The wheels on the crossing axes mesh with each other and with wheels on that axis.
         """
         met: dict[str, list[str]] = {}
         for each in self.crossing:
@@ -210,7 +216,9 @@ class _BlockBuilder:
                     self.heights.join(("axis", one), ("axis", other), 0.0)
 
     def _across(self, each: CrossingSide) -> WheelBlock:
-        """Return the block of a crossing mate: its strip in plan, or the whole area that it sweeps on a carrier."""
+        """Return the block of a mate on a crossing axis. The block is the strip that the mate occupies in the plan, or
+        the whole area that it sweeps if its axis is on a carrier.
+        """
         side, far, size = each.side, each.mate_seat.far, self.sizes[each.side.mate]
         axis, across = self.declared.lines[side.axis], self.declared.lines[side.mate_axis]
         stack, offset = self._stack(("axis", side.mate_axis))
@@ -243,16 +251,16 @@ _TRIES = 20_000  # maximum number of trials for one group of wheels; then they s
 
 
 class AxialSlots(NamedTuple):
-    """Lowest and highest slot that a wheel occupies along the width of its mates, both counted from 0."""
+    """Lowest and highest slot that a wheel occupies along the width of its mates. Slots are numbered from 0."""
 
     low: int
     high: int
 
 
 def find_axial_slots(meshes: Sequence[tuple[str, str]], overlap: Callable[[str, str], bool]) -> dict[str, AxialSlots]:
-    """Return the slots of the wheels that must be axially separated or broadened; other wheels are omitted.
+    """Return the slots of all wheels that must be axially separated or broadened, by wheel; other wheels are omitted.
 
-    meshes   pairs of wheels of parallel axes
+    meshes   pairs of meshing wheels on parallel axes
     overlap  function that returns True if two wheels at one height would collide
     """
     found: dict[str, AxialSlots] = {}
@@ -271,7 +279,8 @@ def find_axial_slots(meshes: Sequence[tuple[str, str]], overlap: Callable[[str, 
 
 
 def _find_spans(meshes: Sequence[tuple[str, str]], clashes: Mapping[str, Sequence[str]]) -> Mapping[str, AxialSlots]:
-    """Return the slots of one group of wheels; empty if no assignment exists, or if the search limit is reached.
+    """Return the slots of one group of wheels, by wheel; empty if no assignment exists, or if the search limit is
+    reached.
 
     The method is iterative deepening: the first success of a depth-first search has the minimum number of slots. The
     search has an explicit stack, because a chain of meshes may exceed Python's recursion limit.
@@ -313,12 +322,12 @@ class Arrangement:
     """Result of `arrange`: positions of all axes and wheels [mm], with the stacks of wheels."""
 
     geometry: SizedGeometry
-    """Declared geometry; wheels whose mates are at different heights are widened."""
+    """Declared geometry, in which wheels whose mates are at different heights have been widened."""
     points: Mapping[str, Vector]
-    """Points of the axes by label [mm]; `centres` are the centres of the wheels by name [mm]."""
+    """Points on the axes by label [mm]. `centres` contains the centres of the wheels by name [mm]."""
     centres: Mapping[str, Vector]
     stacks: Sequence[WheelStack]
-    """Stack of wheels of each group of parallel axes."""
+    """Stack of the wheels of each group of parallel axes."""
     main: int
     """Index of the group of parallel axes with the most wheels; -1 for a train without axes."""
     up: Vector
@@ -370,7 +379,7 @@ class _Placing:
         self.stacks: list[WheelStack] = []
 
     def place(self, parallels: Parallels) -> None:
-        """Plan a group of parallel axes, broaden wheels as the plan requires, and stack the wheels."""
+        """Plan a group of parallel axes, broaden its wheels as the plan requires, and stack its wheels."""
         determined = list(self._determined_axes(parallels))
         fixed = self._fixed(parallels, determined)
         places = plan_axes(plan_problem(self.geometry, parallels, fixed, self.points))
@@ -386,7 +395,9 @@ class _Placing:
             self.centres[wheel] = plus(feet[self.geometry.declared.axis[wheel]], parallels.up, height)
 
     def _determined_axes(self, parallels: Parallels) -> Iterator[tuple[CrossingSide, Vector]]:
-        """Yield each new axis that meshes with a placed axis: the pair from its side, and a point on it [mm]."""
+        """Yield, for each axis of the group that meshes with a placed axis, the gear pair as seen from this axis and a
+        point on the axis [mm].
+        """
         for each in self.geometry.crossing:
             side = each.side
             if side.axis in parallels.index and side.mate_axis in self.points and side.mate in self.centres:
@@ -398,7 +409,9 @@ class _Placing:
                 yield each, point
 
     def _fixed(self, parallels: Parallels, determined: Sequence[tuple[CrossingSide, Vector]]) -> dict[str, Point]:
-        """Return points in plan of the axes that cannot move [mm], or if there are none, of chosen axes."""
+        """Return the points in the plan of the axes that cannot move [mm]. If all axes can move, return the points that
+        are chosen for some of them.
+        """
         fixed = {line.label: parallels.flat(line.given) for line in parallels.lines if line.given is not None}
         for each, point in determined:
             fixed.setdefault(each.side.axis, parallels.flat(point))
@@ -413,9 +426,11 @@ class _Placing:
         return dict.fromkeys(self._collinear(parallels) or driven or labels[:1], (0.0, 0.0))
 
     def _collinear(self, parallels: Parallels) -> list[str]:
-        """Return parallel axes that must coincide, because each intersects two crossing axes of different directions.
+        """Return the parallel axes that must coincide because each of them intersects two crossing axes of different
+        directions.
 
-        One crossing wheel also makes the axes of its mates coincide, because the cones of all its mates have one apex.
+        The axes of all mates of one crossing wheel also coincide, because the pitch cones of these mates have a common
+        apex.
         """
         met: dict[str, set[int]] = {label: set() for label in parallels.index}
         mates: dict[str, list[str]] = {}
@@ -430,7 +445,9 @@ class _Placing:
         return [label for label in some if any(len(met[label] & met[other]) > 1 for other in some if other != label)]
 
     def _broaden(self, parallels: Parallels, swept: SweptDistances) -> None:
-        """Widen wheels whose mates would collide at one height, so that the mates can be placed one above the other."""
+        """Widen each wheel whose mates would collide at one height, so that its mates can be placed one above the
+        other.
+        """
         axis, sizes, index = self.geometry.declared.axis, self.geometry.sizes, parallels.index
 
         def run_into(wheel: str, other: str) -> bool:
@@ -450,7 +467,7 @@ class _Placing:
     def _known_heights(
         self, parallels: Parallels, determined: Sequence[tuple[CrossingSide, Vector]]
     ) -> dict[str, float]:
-        """Return heights of wheels whose axes are determined by placed parts."""
+        """Return the heights of the wheels whose axes are determined by placed parts [mm], by wheel."""
         found: dict[str, float] = {}
         for each, point in determined:
             direction = self.geometry.declared.lines[each.side.axis].direction

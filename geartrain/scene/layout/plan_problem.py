@@ -1,4 +1,4 @@
-"""Conditions on the plan of parallel axes: distances, rows, sides, and clearance of their wheels."""
+"""Conditions on the plan of parallel axes: distances, rows, preferred sides, and clearance between wheels."""
 
 from __future__ import annotations
 
@@ -25,28 +25,30 @@ class PlanProblem:
     labels: Sequence[str]
     """Labels of the parallel axes, in the order of their indices."""
     bearers: Mapping[str, str]
-    """Axis -> link that carries it."""
+    """Link that carries each axis, by axis."""
     pivots: Mapping[str, str]
-    """Axis -> axis of the carrier that carries it, which is placed first."""
+    """Axis of the carrier that carries each axis, by carried axis. The axis of the carrier is placed first."""
     fixed: Mapping[str, Point]
-    """Points in plan of the axes that cannot move [mm]."""
+    """Points in the plan of the axes that cannot move [mm], by axis."""
     distances: Mapping[tuple[str, str], float]
     """Required distances between pairs of axes [mm]."""
     discs: Mapping[str, Mapping[str, WheelSize]]
     cluster: Mapping[str, int]
-    """Cluster of each wheel. Wheels of one cluster share a level."""
+    """Index of the cluster of each wheel. The wheels of one cluster share a level."""
     mates: frozenset[frozenset[str]]
     rows: Mapping[tuple[str, str], Point] = field(default_factory=dict)
-    """Pairs of axes that must lie on a line, with the direction of the line as a unit vector."""
+    """Pairs of axes, and the unit vector of the direction of the line on which both axes of a pair must lie."""
     sides: Mapping[str, Point] = field(default_factory=dict)
-    """Axis -> direction in plan towards a crossing mate, which is preferably placed outside the other axes."""
+    """Direction in the plan from an axis to its crossing mate, by axis. The mate is preferably placed outside the other
+    axes.
+    """
     places: Mapping[str, int] = field(default_factory=dict)
-    """Axis of a planet -> number of positions around its pivot at which its teeth mesh with both sun and ring."""
+    """Number of positions around its pivot at which a planet meshes with both sun and ring, by axis of the planet."""
     belts: Sequence[Mapping[str, float]] = ()
-    """Radii of the pulleys of each belt by axis [mm]."""
+    """Radii of the pulleys of each belt [mm], by axis."""
 
     def radius(self, label: str) -> float:
-        """Return the radius of the widest wheel of an axis [mm]."""
+        """Return the radius of the widest wheel on an axis [mm]."""
         return max((disc.outer for disc in self.discs[label].values()), default=0.0)
 
 
@@ -91,8 +93,8 @@ def _chosen_distances(
     pivots: Mapping[str, str],
     radius: Mapping[str, float],
 ) -> dict[tuple[str, str], float]:
-    """Return chosen distances [mm] for pins without dimensions, and for carried axes without a required distance from
-    the axis of their carrier.
+    """Return the distances [mm] that are chosen for pins without declared dimensions, and for carried axes without a
+    required distance from the axis of their carrier, by pair of axes.
     """
     found: dict[tuple[str, str], float] = {}
     joined: DisjointSets[str] = DisjointSets()
@@ -118,8 +120,8 @@ def _chosen_distances(
 def _rows(
     declared: DeclaredGeometry, parallels: Parallels, crossing: Sequence[CrossingSide]
 ) -> Iterator[tuple[tuple[str, str], Point]]:
-    """Yield pairs of axes that intersect a common axis, except in worm gears, with the direction of their
-    common line.
+    """Yield pairs of axes that both intersect a third axis, except in worm gears, each with the unit vector of the
+    third axis in the plan.
     """
     met: dict[str, list[str]] = {}
     for each in crossing:
@@ -142,7 +144,9 @@ def _sides(
 
 
 def _assembly_places(declared: DeclaredGeometry, parallels: Parallels) -> Iterator[tuple[str, int]]:
-    """Yield axes of planets between sun and ring, each with its number of assembly positions, z_sun + z_ring."""
+    """Yield the axes of planets between a sun and a ring. Each is followed by its number of assembly positions, z_sun +
+    z_ring, where z is the tooth count.
+    """
     counts: dict[tuple[str, str], list[tuple[str, int]]] = {}  # axis and wheel of a planet -> kind and teeth of mates
     for contact in declared.contacts:
         for side in contact.sides:

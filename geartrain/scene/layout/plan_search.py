@@ -39,9 +39,9 @@ _COVER = 2.0  # cost per mm of a disc over another axis, whose arbor it may hit
 
 
 class PlanClearance:
-    """Overlap cost of axes at constant distances: axes on one carrier, and the axis of that carrier.
+    """Cost of overlap of wheels whose axes have a constant distance: axes on one carrier, and the axis of that carrier.
 
-    Axes that carriers move relative to each other are separated by levels instead.
+    Wheels on axes that carriers move relative to each other are placed on different levels instead.
 
     still    (axes, axes): True if the distance between the two axes is constant
     radius   radius of the widest wheel of each axis [mm], without rings
@@ -81,7 +81,9 @@ class PlanClearance:
         return np.asarray(cost, float)
 
     def _within_reach(self, at: int, near: Indices, candidates: Floats, points: Floats) -> Indices:
-        """Return the axes that a candidate position may overlap; other axes cause no cost."""
+        """Return the axes whose wheels may overlap the wheels of an axis at one of its candidate positions; other axes
+        cause no cost.
+        """
         low, high = candidates.min(axis=0), candidates.max(axis=0)
         spots = points[near]
         away = np.maximum(np.maximum(low - spots, spots - high), 0)
@@ -121,7 +123,7 @@ Bar = tuple[int, int, float]
 
 
 class DistanceBound(NamedTuple):
-    """Minimum and maximum distance from a placed axis [mm], which is given by index."""
+    """Minimum and maximum distance of an axis from a placed axis [mm], and the index of the placed axis."""
 
     axis: int
     minimum: float
@@ -130,14 +132,14 @@ class DistanceBound(NamedTuple):
 
 @dataclass(frozen=True)
 class PlanStep:
-    """Step of the search, with the index of the axis to be placed and the placed axes that restrict its position."""
+    """Step of the search: the index of the axis to be placed, and the placed axes that restrict its position."""
 
     axis: int
     placed: Indices
     tied: tuple[DistanceBound, ...]
-    """Placed axes at a required distance from the axis."""
+    """Placed axes whose distance from the axis to be placed is prescribed."""
     bounds: tuple[DistanceBound, ...]
-    """Placed axes to which a chain of axes that are not placed yet must connect the axis."""
+    """Placed axes to which the axis must be connected later by a chain of axes that are not placed yet."""
 
 
 class PlanOrder:
@@ -175,7 +177,7 @@ class PlanOrder:
         self.steps = self._find_steps(fixed)
 
     def _find_alike(self, fixed: set[int]) -> Iterable[Sequence[Sequence[int]]]:
-        """Return lists of equal groups of axes. A group is carried by one carrier, and its bars join its axes to each
+        """Return lists of equal groups of axes. All axes of a group are on one carrier, and bars connect them to each
         other and to the axis of the carrier.
         """
         carried = [at for at in self.pivot if at not in fixed]
@@ -189,7 +191,8 @@ class PlanOrder:
         return alike.values()
 
     def _shape(self, group: Sequence[int], pivot: int) -> Iterator[tuple[float, ...]]:
-        """Yield the radius of each axis of a group and its distances to the other axes and to the pivot.
+        """Yield, for each axis of a group, its radius and its distances to the other axes of the group and to the pivot
+        [mm].
 
         The numbers are rounded, so that equal lengths compare equal.
         """
@@ -213,10 +216,11 @@ class PlanOrder:
         return found
 
     def _rank(self, at: int, placed: set[int]) -> tuple[bool, int, float]:
-        """Return the rank of an axis; the axis with the minimum rank is placed first.
+        """Return the rank of an axis as a tuple. The axis with the minimum rank is placed next.
 
-        An axis comes after the axis of its carrier. Among other axes, the one with the most placed neighbours comes
-        first, then the one with the largest radius, or without placed neighbours the one with the most bars.
+        An axis comes after the axis of its carrier. Among other axes, the axis with the most placed neighbours comes
+        first. Ties are decided by the larger radius, or, for axes without placed neighbours, by the larger number of
+        bars.
         """
         late = at in self.pivot and self.pivot[at] not in placed
         tied = len(self._joined[at].keys() & placed)
@@ -225,18 +229,20 @@ class PlanOrder:
         return late, -tied, -round(weight, 9)
 
     def _on_closed_chains(self, placed: set[int]) -> set[int]:
-        """Return the 2-core of the graph of bars, with placed axes as one node; empty for more than 60 axes."""
+        """Return the 2-core of the graph of bars, in which all placed axes are one node; empty if there are more than
+        60 axes.
+        """
         left = set(range(len(self._joined)))
         while ends := {at for at in left - placed if len(self._joined[at].keys() & left) < 2}:
             left -= ends
         return left if len(left) <= _NEAR else set()
 
     def _bounds(self, at: int, placed: set[int], closing: set[int]) -> list[DistanceBound]:
-        """Return bounds on the distances of an axis from placed axes, given by the shortest paths over axes that are
-        not placed yet.
+        """Return bounds on the distances of an axis from placed axes, computed from the shortest paths over axes that
+        are not placed yet.
 
-        The ends of a chain of bars are at most the length of the chain apart, and at least its longest bar minus the
-        rest.
+        The distance between the ends of a chain of bars is at most the length of the chain, and at least the length of
+        its longest bar minus the lengths of its other bars.
         """
         ways: list[tuple[float, float, int]] = [(0.0, 0.0, at)]  # (length, longest bar, end)
         done: set[int] = set()
@@ -271,7 +277,8 @@ _ROW = 1.2  # default distance between two axes on a line divided by the sum of 
 
 
 def crossings(a: Sequence[float], radius: float, b: Sequence[float], other: float) -> list[Point]:
-    """Return the intersections of two circles with the radii r (`radius`) and s (`other`).
+    """Return the intersections of a circle about `a` with the radius r (`radius`) and a circle about `b` with the
+    radius s (`other`).
 
     For circles that do not intersect, the result is the point on the line of centres midway between them; it is empty
     for concentric circles. With the distance d of the centres, the intersections are at x = (d^2 + r^2 - s^2) / 2d
@@ -293,9 +300,9 @@ def crossings(a: Sequence[float], radius: float, b: Sequence[float], other: floa
 
 
 def line_crossings(point: Point, way: Point, centre: Sequence[float], radius: float) -> list[Point]:
-    """Return the intersections of a line (point, unit vector) with a circle.
+    """Return the two intersections of a circle with a line, which is given by a point and the unit vector `way`.
 
-    If there is none, the result is twice the point of the line nearest to the centre.
+    If they do not intersect, the result contains twice the point of the line that is nearest to the centre.
     """
     u, v = centre[0] - point[0], centre[1] - point[1]
     middle = u * way[0] + v * way[1]
@@ -307,9 +314,10 @@ def line_crossings(point: Point, way: Point, centre: Sequence[float], radius: fl
 
 
 def fit_distances(points: Floats, bars: Sequence[Bar], fixed: Iterable[int]) -> Floats:
-    """Return points (n, 2) that minimise the squared errors of distances, from given initial points.
+    """Return the points that minimise the sum of the squared errors of the required distances, shape (n, 2).
 
-    The `fixed` points do not move. More than 400 points are returned unchanged.
+    The search starts at `points`. The `fixed` points do not move. If there are more than 400 points, they are returned
+    unchanged.
     """
     free = np.setdiff1d(np.arange(len(points)), list(fixed))
     if not bars or not len(free) or len(points) > _MOST:
@@ -336,7 +344,7 @@ def fit_distances(points: Floats, bars: Sequence[Bar], fixed: Iterable[int]) -> 
 
 
 def plan_axes(problem: PlanProblem) -> dict[str, Point]:
-    """Return points in plan of all axes [mm] at the required distances or fitted to them; the result is
+    """Return points in the plan of all axes [mm], at the required distances or fitted to them. The result is
     deterministic.
     """
     return _BeamSearch(problem).found()
@@ -350,7 +358,7 @@ class _BeamSearch:
         self.width = next((wide for most, wide in _BEAM if len(problem.labels) <= most), 1)
 
     def found(self) -> dict[str, Point]:
-        """Return the points in plan [mm] of the plan with the lowest cost, by label."""
+        """Return the points of the axes [mm] in the plan with the lowest cost, by label."""
         problem, index = self.problem, self.order.index
         points = np.zeros((len(problem.labels), 2))
         for label, point in problem.fixed.items():
@@ -371,7 +379,7 @@ class _BeamSearch:
         return {label: (float(fitted[at, 0]), float(fitted[at, 1])) for label, at in index.items()}
 
     def _options(self, step: PlanStep, points: Floats) -> list[tuple[float, Floats]]:
-        """Return the best positions of an axis in one plan, each with its cost."""
+        """Return the best positions of the axis of a step in one partial plan, each with its cost."""
         candidates = self._candidates(step, points)
         costs = _distance_cost(step, candidates, points)
         costs += self.clearance.cost(step.axis, step.placed, candidates, points)
@@ -384,7 +392,7 @@ class _BeamSearch:
         return [(float(costs[at]), candidates[at]) for at in best]
 
     def _candidates(self, step: PlanStep, points: Floats) -> Floats:
-        """Return candidate positions of an axis, shape (n, 2)."""
+        """Return candidate positions of the axis of a step [mm], shape (n, 2)."""
         row = self._in_row(step, points)
         if row:
             return np.array(row)
@@ -402,8 +410,8 @@ class _BeamSearch:
         return np.array(found or self._round_first(step, points))
 
     def _in_row(self, step: PlanStep, points: Floats) -> list[Point]:
-        """Return candidate points of an axis that must lie on a line with a placed axis, at required or free distances;
-        empty for other axes.
+        """Return candidate points of an axis that must be on a line with a placed axis, at the required distance or at
+        chosen distances; empty for other axes.
         """
         label, placed = self.problem.labels[step.axis], set(step.placed.tolist())
         for pair, way in self.problem.rows.items():
@@ -425,8 +433,9 @@ class _BeamSearch:
         return []
 
     def _rotated(self, step: PlanStep, points: Floats) -> list[Point]:
-        """Return the point of an axis in a group of planets that is placed like the first equal group, but rotated
-        about the axis of the carrier; empty for other axes.
+        """Return the point of an axis in a group of planets that equals an earlier group. The point is that of the
+        corresponding axis in the first group, rotated about the axis of the carrier. The result is empty for other
+        axes.
         """
         first, turn = self.order.rotated.get(step.axis, (None, 0.0))
         placed = set(step.placed.tolist())
@@ -438,7 +447,7 @@ class _BeamSearch:
         return [(x + c * u - s * v, y + s * u + c * v)]
 
     def _outside(self, step: PlanStep, points: Floats) -> list[Point]:
-        """Return points outside all placed axes in eight directions, or the origin if no axis is placed."""
+        """Return points in eight directions outside all placed axes; return the origin if no axis is placed."""
         if not len(step.placed):
             return [(0.0, 0.0)]
         radius = self.order.radius
@@ -449,10 +458,10 @@ class _BeamSearch:
         return [(x + far * cos(pi * at / 4), y + far * sin(pi * at / 4)) for at in range(8)]
 
     def _round_first(self, step: PlanStep, points: Floats) -> list[Point]:
-        """Return points on the circle about the first axis to which the axis is tied.
+        """Return points on the circle about the first placed axis from which the distance of the axis is prescribed.
 
-        The points are in all directions, or only at assembly positions of teeth. Equivalent axes on one carrier are
-        evenly spaced from the first of these axes.
+        The points are in all directions, or only at positions in which a planet can be assembled. Equivalent axes on
+        one carrier are evenly spaced, starting at the first of these axes.
         """
         pivot, far = step.tied[0].axis, step.tied[0].most
         x, y = points[pivot].tolist()
@@ -474,7 +483,9 @@ class _BeamSearch:
 
 
 def _distance_cost(step: PlanStep, candidates: Floats, points: Floats) -> Floats:
-    """Return the cost of the distances that each candidate position violates, or makes impossible."""
+    """Return the cost of each candidate position: a penalty for the distances that the position violates or makes
+    impossible.
+    """
     total = np.zeros(len(candidates))
     for bound in (*step.tied, *step.bounds):
         apart = candidates - points[bound.axis]

@@ -1,8 +1,8 @@
 """Wheels of parallel axes that overlap in plan at some angles of the carriers that move them.
 
-Relative to the nearest link that carries two axes, each of them stays in an annulus about the axis of a carrier. All
-points of both annuli are used, as if the angles of carriers were independent, which gives an interval of distances for
-each pair of axes.
+Relative to the nearest link that carries two axes, each axis stays in an annulus about the axis of a carrier. All
+points of both annuli are considered possible, as if the angles of the carriers were independent. This gives an interval
+of distances for each pair of axes.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ _SLACK = 1e-9  # relative to a radius: touching discs must not overlap due to ro
 
 
 def overlap(disc: Disc, other: Disc, near: float, far: float) -> bool:
-    """Return True if two wheels at one height collide when their axes are `near` to `far` [mm] apart."""
+    """Return True if two wheels at the same height collide at an axis distance between `near` and `far` [mm]."""
     for ring, inside in ((disc, other), (other, disc)):
         if ring.inner and far + inside.outer <= ring.inner * (1 + _SLACK):
             return False
@@ -44,12 +44,16 @@ class SweptDistances:
     far: Floats
 
     def overlap(self, disc: Disc, axis: int, other: Disc, other_axis: int) -> bool:
-        """Return True if wheels of two axes at one height collide at some angles of the carriers."""
+        """Return True if the wheel `disc` on one axis and the wheel `other` on another, at the same height, collide at
+        some angles of the carriers.
+        """
         return overlap(disc, other, float(self.near[axis, other_axis]), float(self.far[axis, other_axis]))
 
 
 class _Swept(NamedTuple):
-    """Position of an axis relative to a link that carries it: `low` to `high` [mm] from the axis `centre`."""
+    """Position of an axis relative to a link that carries it: at a distance of `low` to `high` [mm] from the axis
+    `centre`.
+    """
 
     at: int
     centre: str
@@ -58,10 +62,10 @@ class _Swept(NamedTuple):
 
 
 def swept_distances(lines: Sequence[AxisLine], places: Mapping[str, Point]) -> SweptDistances:
-    """Return the distances between parallel axes over all angles of their carriers.
+    """Return the minimum and maximum distances between parallel axes over all angles of their carriers.
 
-    Axes carried by a link that turns about another direction are infinitely far from all axes that this link does not
-    carry.
+    If a link turns about a direction that is not parallel to the axes, the axes that it carries have an infinite
+    distance from all axes that it does not carry.
     """
     seen: dict[tuple[str, ...], list[_Swept]] = {}  # by link, with all links that carry it
     for at, line in enumerate(lines):
@@ -106,22 +110,28 @@ class WheelBlock:
 
     wheel: str
     axis: int
-    """Index of the wheel's axis. `link` is the link of its arbor, empty for a crossing wheel."""
+    """Index of the wheel's axis. `link` is the link to which the wheel belongs; it is empty for a crossing wheel."""
     link: str
     stack: int
-    """Index of the stack, which is a set of wheels with fixed relative heights because they mesh."""
+    """Index of the stack to which the wheel belongs. A stack is a set of wheels with fixed relative heights because
+    they mesh.
+    """
     offset: float
-    """Height in the stack [mm]; `low` and `high` are the extents below and above this height [mm]."""
+    """Height of the wheel in its stack [mm]. `low` and `high` are the extents of the wheel below and above this height
+    [mm].
+    """
     low: float
     high: float
     inner: float
     """Radius of the free space inside a ring [mm]; 0 for other wheels."""
     outer: float
-    """Outer radius, including clearance [mm]."""
+    """Outer radius of the wheel, including clearance [mm]."""
     across: bool = False
-    """True for a wheel of an axis that crosses this group, which meshes with a wheel of this stack."""
+    """True for a wheel on an axis that crosses this group of axes. The wheel meshes with a wheel of this stack."""
     trace: tuple[Point, Point] | None = None
-    """Ends of the trace in plan of a fixed crossing wheel, whose half width is `outer`; None for other wheels."""
+    """Ends of the line in the plan along which a fixed crossing wheel extends; `outer` is the half width. None for
+    other wheels.
+    """
 
 
 def find_plan_overlap(
@@ -133,13 +143,11 @@ def find_plan_overlap(
     plates: Mapping[str, str],
     pins: Sequence[tuple[str, str]] = (),
 ) -> tuple[Flags, Flags]:
-    """Return masks of the pairs of blocks that must not be at one height, and of the blocks that arbors and pins would
-    pierce.
-
-    The shapes of the masks are (blocks, blocks) and (arbors and pins, blocks).
+    """Return a mask of the pairs of blocks that must not be at the same height, shape (blocks, blocks), and a mask of
+    the blocks that each arbor or pin would pierce, shape (arbors and pins, blocks).
 
     plates   arbor -> the wheel that carries its axis, and has a hole for it
-    pins     wheel of a pin and wheel of its slot
+    pins     pairs of wheels: the wheel that has the pin, and the wheel that has the slot
     """
     if not blocks:
         return np.zeros((0, 0), bool), np.zeros((len(links), 0), bool)
@@ -171,7 +179,9 @@ def find_plan_overlap(
 
 
 def _pin_obstacles(blocks: Sequence[WheelBlock], off: Floats, ends: tuple[int, int]) -> Flags:
-    """Return a mask of the blocks of other links that a pin may hit between its wheel and the slot's wheel."""
+    """Return a mask of the blocks of other links that a pin may hit between the wheel with the pin and the wheel with
+    the slot.
+    """
     pin, slot = (blocks[at] for at in ends)
     outer = np.array([block.outer for block in blocks])
     own = np.array([block.link in (pin.link, slot.link) for block in blocks])
@@ -180,7 +190,7 @@ def _pin_obstacles(blocks: Sequence[WheelBlock], off: Floats, ends: tuple[int, i
 
 
 def segment_distance(point: Point, start: Point, end: Point) -> float:
-    """Return the distance [mm] between a point and a segment in plan."""
+    """Return the distance [mm] between a point and a line segment in the plan."""
     u, v = end[0] - start[0], end[1] - start[1]
     x, y = point[0] - start[0], point[1] - start[1]
     square = u * u + v * v

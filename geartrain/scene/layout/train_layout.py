@@ -1,10 +1,10 @@
 """Layout of a train: positions of all axes and wheels in space, in the pose in which all angles are 0.
 
-Wheels are rotated on their arbors so that teeth of one wheel mesh with tooth spaces of its mate, in a breadth-first
-search over the gear pairs: the first wheel of a train has a tooth at a pitch point, and the angle of each mate follows.
-Let s be the number of pitches by which a tooth is past the pitch point, positive in the positive sense of rotation.
-Teeth and spaces mesh if s_1 + s_2 = 1/2 (mod 1) when positive angles move the pitch point in opposite senses, and if
-s_1 - s_2 = 1/2 otherwise. Conditions that a layout could not satisfy are reported as notices.
+Wheels are rotated on their arbors so that teeth of one wheel mesh with tooth spaces of its mate. The algorithm is a
+breadth-first search over the gear pairs: the first wheel of a train has a tooth at a pitch point, and the angle of each
+mate follows. Let s be the number of pitches by which a tooth is past the pitch point, positive in the positive sense of
+rotation. Teeth and spaces mesh if s_1 + s_2 = 1/2 (mod 1) when positive angles move the pitch point in opposite senses,
+and if s_1 - s_2 = 1/2 otherwise. Conditions that a layout could not satisfy are reported as notices.
 """
 
 from __future__ import annotations
@@ -34,7 +34,9 @@ _SHOWN = 6
 
 
 def pitch_gaps(found: Arrangement) -> dict[str, float]:
-    """Return the gap of each pair whose pitch circles do not touch [mm], negative for an overlap."""
+    """Return the gap between the pitch circles of each pair whose pitch circles do not touch [mm]; it is negative for
+    an overlap.
+    """
     sizes = found.geometry.sizes
     gaps = {}
     for contact in found.geometry.declared.contacts:
@@ -73,7 +75,7 @@ def _gap(found: Arrangement, contact: PitchContact) -> float:
 def notices(
     train: GearTrain, found: Arrangement, gaps: Mapping[str, float], misses: Mapping[str, float]
 ) -> Iterator[Problem]:
-    """Yield all notices on a layout; notices that prevent a build are first.
+    """Yield all notices on a layout. Notices on faults that prevent a build come first.
 
     gaps     gaps of pairs whose pitch circles do not touch [mm]
     misses   phase errors of pairs whose teeth do not mesh [pitches]
@@ -111,7 +113,7 @@ def _not_touching(contact: PitchContact, gap: float, place: str) -> Problem:
 
 
 def _simplified(declared: DeclaredGeometry, place: Mapping[str, str]) -> Iterator[Problem]:
-    """Yield notices on wheels that are not drawn as they are declared."""
+    """Yield notices on wheels that are not drawn as declared."""
     for wheel, pair, axis in declared.strays:
         what = f"wheel '{wheel}' is drawn only on axis '{declared.axis[wheel]}'"
         why = f"pair '{pair}' requires it on axis '{axis}' as well"
@@ -126,7 +128,7 @@ def _misplaced(train: GearTrain, found: Arrangement) -> Iterator[Problem]:
         if off > _NONE:
             yield Problem(
                 f"dial '{name}' is drawn {off:.3g} mm from its declared centre",
-                f"its pointers turn about axis '{axis}', which is declared or carried elsewhere",
+                f"its pointers turn about axis '{axis}', whose declared or carried position differs from that centre",
                 f"remove `centre` of the dial, or the position of axis '{axis}'",
                 train.declaration.place("dials", name, "centre"),
             )
@@ -166,15 +168,15 @@ _NONE = 1e-9  # mm: smaller distances are rounding errors
 
 
 def reference(direction: Vector) -> Vector:
-    """Return the unit vector perpendicular to an axis from which angles are measured; it is x if the axis is z."""
+    """Return the unit vector perpendicular to an axis from which angles are measured; for the z axis, it is x."""
     return frame(direction)[0]
 
 
 def pitch_directions(
     wheels: tuple[WheelPlace, WheelPlace], ways: tuple[Vector, Vector], rings: tuple[bool, bool]
 ) -> tuple[Vector, Vector]:
-    """Return the unit vectors from the centres of two wheels to their pitch point, each perpendicular to the wheel's
-    axis.
+    """Return the unit vectors from the centres of two wheels to their pitch point. Each is perpendicular to the axis of
+    its wheel.
 
     ways    declared directions of the axes
     rings   for each wheel, True if it is a ring
@@ -194,10 +196,10 @@ def pitch_directions(
 def align_meshes(
     declared: DeclaredGeometry, places: Mapping[str, WheelPlace]
 ) -> tuple[dict[str, float], dict[str, float]]:
-    """Return the angles at which wheels mesh, and phase errors.
+    """Return the angles at which wheels mesh, by wheel, and the phase errors of pairs that do not mesh, by pair.
 
-    The angles give the first tooth of each wheel (rad, from 0 to a pitch). The phase errors [pitches] are given for
-    pairs that close a loop and do not mesh.
+    Each angle is that of the first tooth of a wheel (rad, from 0 to one pitch). A phase error [pitches] exists only for
+    a pair that closes a loop.
     """
     sense: dict[str, int] = {}  # 1 if positive angles about both axes move the pitch point in the same direction, or -1
     angle: dict[tuple[str, str], float] = {}  # angle of the pitch point of a pair about the axis of its wheel
@@ -214,7 +216,7 @@ def align_meshes(
             of.setdefault(wheel, []).append(contact)
 
     def past(contact: PitchContact, wheel: str) -> float:
-        """Return the distance of the first tooth of a wheel past the pitch point [pitches]."""
+        """Return the distance by which the first tooth of a wheel is past the pitch point [pitches]."""
         return (turns[wheel] - angle[contact.name, wheel]) * declared.count(wheel) / (2 * pi)
 
     turns: dict[str, float] = {}
@@ -262,10 +264,10 @@ class AxisPlace(Shown):
     point: Vector
     """Point on the axis [mm]."""
     direction: Vector
-    """Declared unit vector of the axis, about which positive speeds of its links are counted."""
+    """Declared unit vector of the axis. Positive speeds of links on the axis are rotations about this vector."""
     how: How
-    """Origin of the position: `given` in the declaration, `found` from meshing wheels or a pin, or chosen freely
-    (`free`).
+    """Origin of the position: `given` if declared, `found` if determined by meshing wheels or a pin, `free` if chosen
+    freely.
     """
     carrier: str
     """Link that carries the axis: the frame or a carrier."""
@@ -289,13 +291,13 @@ class WheelPlace(Shown):
     centre: Vector
     """Centre of the wheel's pitch circle, on the axis of the wheel [mm]."""
     radius: float
-    """Pitch radius [mm]; for a bevel wheel, at the large end."""
+    """Pitch radius [mm]; for a bevel wheel, at the large end of the teeth."""
     module: float
     """Transverse module [mm], the pitch diameter divided by the tooth count; for a worm, the axial module."""
     thickness: float
     """Thickness of the wheel's rim along the axis [mm]."""
     given: bool = False
-    """True if a module is declared for the wheel, or for a wheel that is connected to it by meshes."""
+    """True if a module is declared for the wheel itself, or for a wheel to which meshes connect it."""
     cone: float = 0.0
     """Half angle of the wheel's pitch cone [rad]: 0 for a cylinder, pi/2 for a crown wheel."""
     facing: int = 0
@@ -309,7 +311,7 @@ class WheelPlace(Shown):
 
     @property
     def span(self) -> tuple[float, float]:
-        """Lower and upper end of the wheel body along the direction of the axis, relative to `centre` [mm]."""
+        """Lower and upper ends of the wheel body along the direction of the axis, relative to `centre` [mm]."""
         return span(self.facing, *bare_reach(self.cone, self.radius, self.thickness, self.module))
 
 
@@ -421,7 +423,7 @@ def _axis_places(found: Arrangement) -> dict[str, AxisPlace]:
 
 
 def _wheel_places(found: Arrangement) -> dict[str, WheelPlace]:
-    """Return the positions of all wheels, not yet rotated so that teeth mesh."""
+    """Return the positions of all wheels, before they are rotated so that teeth mesh, by wheel."""
     geometry, declared = found.geometry, found.geometry.declared
     layers, coned = _layers(found), _coned_seats(found)
     places = {}
@@ -447,8 +449,8 @@ def _wheel_places(found: Arrangement) -> dict[str, WheelPlace]:
 
 
 def _coned_seats(found: Arrangement) -> dict[str, Seat]:
-    """Return the seats of wheels in pairs with non-parallel axes, except wheels that also mesh with wheels on parallel
-    axes.
+    """Return the seats of the wheels in pairs with non-parallel axes, by wheel. Wheels that also mesh with a wheel on a
+    parallel axis are omitted.
     """
     contacts = found.geometry.declared.contacts
     straight = {wheel for contact in contacts if contact.parallel for wheel in contact.wheels}
@@ -456,7 +458,9 @@ def _coned_seats(found: Arrangement) -> dict[str, Seat]:
 
 
 def _layers(found: Arrangement) -> dict[str, int]:
-    """Return the level indices of the wheels on the main axes, from the lowest; a broad wheel has its lowest level."""
+    """Return the index of the level of each wheel on the main axes, counted from the lowest level. For a broad wheel,
+    it is its lowest level.
+    """
     declared, sizes = found.geometry.declared, found.geometry.sizes
     heights = {
         wheel: dot(found.centres[wheel], found.up) - sizes[wheel].foot

@@ -2,15 +2,15 @@
 
 Wheels that mesh share a module, so each cluster of meshing wheels has one module. Two pairs between the same two axes
 force the ratio of the modules of their clusters. These ratios are stored in a weighted union-find structure as exact
-fractions. The scale of a group of clusters is a declared module; if there is none, a least squares fit of declared
-distances, or the median of all known modules.
+fractions. The scale of a group of clusters is given by a declared module. If there is none, it is a least squares fit
+of declared distances, or the median of all known modules.
 
-Free modules are changed until every closed chain of axes can close. A chain closes if none of its distances is longer
-than the sum of the rest (polygon inequality). The method is relaxation: each distance that is longer than the shortest
-path between its ends is shortened, or that path is lengthened, repeatedly.
+Free modules are changed until every closed chain of axes can close. A chain can close if none of its distances is
+longer than the sum of its other distances (polygon inequality). The method is relaxation: each distance that is longer
+than the shortest path between its ends is shortened, or that path is lengthened, repeatedly.
 
-`SizedGeometry` is the input of all placements: the declared geometry with modules, sizes of wheels, and seats of
-pairs whose axes are not parallel.
+`SizedGeometry` is the input of all steps that place axes and wheels: the declared geometry with modules, sizes of
+wheels, and seats of pairs whose axes are not parallel.
 """
 
 from __future__ import annotations
@@ -48,14 +48,14 @@ class AxisDistance:
     root: int | None
 
     def length(self, modules: Mapping[int, Fraction]) -> float:
-        """Return the distance [mm] at given modules."""
+        """Return the distance between the axes [mm] for given modules of the clusters [mm]."""
         return self.times * (1.0 if self.root is None else float(modules[self.root]))
 
 
 def close_chains(
     distances: Sequence[AxisDistance], modules: Mapping[int, Fraction], free: frozenset[int]
 ) -> dict[int, Fraction]:
-    """Return the modules [mm] of the reference clusters (roots), with those in `free` multiplied by simple factors
+    """Return the modules of the reference clusters (roots) [mm]. The modules in `free` are multiplied by simple factors
     until all closed chains of axes can close.
     """
     found = dict(modules)
@@ -69,8 +69,8 @@ def close_chains(
 
 
 def _relax(distances: Sequence[AxisDistance], at: int, modules: dict[int, Fraction], free: frozenset[int]) -> bool:
-    """Shorten a distance that is longer than the path round it, or lengthen that path, in place; return True after a
-    change.
+    """Shorten, in place, a distance that is longer than the alternative path between its ends, or lengthen that path.
+    Return True if a module was changed.
     """
     one = distances[at]
     way = _way_round(distances, at, modules)
@@ -97,7 +97,9 @@ def _relax(distances: Sequence[AxisDistance], at: int, modules: dict[int, Fracti
 
 
 def _simple(factor: float) -> Fraction:
-    """Return the nearest fraction with a denominator up to 1000, to keep module values simple; the result may be 0."""
+    """Return the nearest fraction with a denominator of at most 1000, so that module values are simple. The result may
+    be 0.
+    """
     return Fraction(factor).limit_denominator(1000)
 
 
@@ -105,7 +107,7 @@ def _way_round(distances: Sequence[AxisDistance], at: int, modules: Mapping[int,
     """Return the shortest path between the two axes of a distance that does not use this distance (Dijkstra's
     algorithm).
 
-    It is empty if there is only the distance itself.
+    The path is empty if no other path connects the two axes.
     """
     import networkx as nx
 
@@ -131,18 +133,20 @@ class WheelModules:
     """Modules of the wheels of a train, and the distances between axes that result from them."""
 
     cluster: Mapping[str, int]
-    """Wheel -> index of its cluster; a cluster is a set of wheels that meshes connect."""
+    """Index of the cluster of each wheel, by wheel. A cluster is a set of wheels that meshes connect."""
     module: Mapping[str, float]
-    """Wheel -> module [mm]."""
+    """Module of each wheel [mm], by wheel."""
     declared: frozenset[str]
     distances: Mapping[tuple[str, str], float]
-    """Pair of axes -> required distance [mm]: a pin's declared offset, otherwise the mean distance of the gear
-    pairs.
+    """Required distance [mm] by pair of axes: the declared offset of a pin, or, without a pin, the mean distance of the
+    gear pairs.
     """
 
 
 def pitch_distance(geometry: DeclaredGeometry, module: Mapping[str, float], contact: PitchContact) -> float:
-    """Return the distance between the axes of a pair [mm], at which pitch circles touch or declared teeth mesh."""
+    """Return the distance between the axes of a gear pair [mm] at which the pitch circles touch or the declared teeth
+    mesh.
+    """
     first, second = (float(geometry.radius(wheel)) * module[wheel] for wheel in contact.wheels)
     return float(contact.stretch) * (abs(first - second) if contact.kind == "ring" else first + second)
 
@@ -194,7 +198,7 @@ class _ModuleSearch:
 
     @cached_property
     def _multiples(self) -> list[tuple[int, Fraction]]:
-        """Root (reference cluster) of each cluster, and the cluster's module divided by the module of the root."""
+        """Root (reference cluster) of each cluster, and the module of the cluster divided by the module of the root."""
         ratios: RatioSets[int] = RatioSets()
         for contacts in self.between.values():
             for first, second in pairwise(contacts):
@@ -212,10 +216,10 @@ class _ModuleSearch:
             ratios.join(*ends, far / other)
 
     def _join_nearby(self, ratios: RatioSets[int], tie: CouplingTie) -> None:
-        """Record that the axes of a pin and its slot, which are close together, are equally far from each axis that
-        both mesh with.
+        """Record that the axes of a pin and its slot, which are close together, have the same distance from each axis
+        with which both mesh.
 
-        This is a choice and not a constraint, so it comes after all constraints.
+        This relation is a choice and not a constraint, so it is recorded after all constraints.
         """
         for other in self.geometry.lines if tie.encloses else ():
             met = [self.between.get((min(end, other), max(end, other)), [])[:1] for end in tie.axes]
@@ -223,10 +227,11 @@ class _ModuleSearch:
                 self._join(ratios, met[0][0], met[1][0])
 
     def _anchored(self) -> dict[int, Fraction]:
-        """Return the modules of the reference clusters (roots) that are declared, or follow from declared positions and
-        offsets by a least squares fit.
+        """Return the modules of the reference clusters (roots) [mm] that are declared, or that follow from declared
+        positions and offsets by a least squares fit.
 
-        For distances d_i = m a_i with one unknown module m the least squares solution is m = sum a_i d_i / sum a_i^2.
+        For distances d_i = m a_i with known factors a_i and one unknown module m, the least squares solution is m = sum
+        a_i d_i / sum a_i^2.
         """
         roots: dict[int, Fraction] = {}
         for at, module in self.given.items():
@@ -246,8 +251,8 @@ class _ModuleSearch:
         return {root: products[root] / square for root, square in squares.items() if square} | roots
 
     def _declared_distance(self, axes: tuple[str, str]) -> Fraction | None:
-        """Return the distance of two axes [mm] from their declared points or from a pin's declared offset; None if
-        neither is declared.
+        """Return the distance of two axes [mm], computed from their declared points or equal to a pin's declared
+        offset; None if neither is declared.
         """
         first, second = (self.geometry.lines[name] for name in axes)
         if first.given is not None and second.given is not None:
@@ -298,8 +303,8 @@ class Seat:
     """Position of a wheel relative to its mate in a pair whose axes are not parallel."""
 
     far: float
-    """Distance along the wheel's axis from the intersection of the axes, or nearest point, to the wheel's
-    centre [mm].
+    """Distance along the wheel's axis to the wheel's centre [mm], from the intersection of the two axes, or, for skew
+    axes, from the point nearest to the other axis.
     """
     cone: float
     """Half angle of the wheel's pitch cone [rad]; 0 for a cylinder."""
@@ -308,13 +313,13 @@ class Seat:
 
 
 def seats(geometry: DeclaredGeometry, contact: PitchContact, radii: tuple[float, float]) -> tuple[Seat, Seat]:
-    """Return the seats of the first and second wheel of a pair, from the declared directions of axes and sides of
-    wheels.
+    """Return the seats of the first and the second wheel of a pair, computed from the declared directions of the axes
+    and the declared sides of the wheels.
 
     The pitch point is on the side to which both wheels face. The shaft angle S is the angle between the directions from
-    the apex to both wheels. Bevel wheels have the cone half angle d_1 with tan d_1 = sin S / (z_2/z_1 + cos S), and d_2
-    likewise. The pitch cylinder of a crown wheel's pinion rolls on a cone of half angle S, which is a plane if S is a
-    right angle.
+    the apex to both wheels. The first wheel of a bevel pair has the cone half angle d_1 with tan d_1 = sin S / (z_2/z_1
+    + cos S), where z_1 and z_2 are the tooth counts; d_2 of the second wheel is analogous. The pitch cylinder of a
+    crown wheel's pinion rolls on a cone of half angle S, which is a plane if S is a right angle.
     """
     if contact.kind == "screw":
         out = _from_worm(geometry, contact)
@@ -341,7 +346,9 @@ def seats(geometry: DeclaredGeometry, contact: PitchContact, radii: tuple[float,
 
 
 def opposite(v: Vector) -> Vector:
-    """Return the opposite of a vector, with 0.0 instead of any component -0.0, which would be printed in pictures."""
+    """Return the opposite of a vector, in which a component -0.0 is replaced by 0.0 because it would be printed in
+    pictures.
+    """
     return minus((0.0, 0.0, 0.0), v)
 
 
@@ -363,17 +370,18 @@ class WheelSize:
 
     radius: float
     module: float
-    """Transverse module, the pitch diameter divided by the tooth count, or axial module of a worm [mm]."""
+    """Transverse module, which is the pitch diameter divided by the tooth count; for a worm, the axial module [mm]."""
     thickness: float
     """Thickness of the wheel's rim along the axis [mm]."""
     inner: float
     """Radius of the free space inside a ring [mm]; 0 for other wheels."""
     outer: float
-    """Outer radius, including clearance [mm]."""
+    """Outer radius of the wheel, including clearance [mm]."""
     slot: float = 0.0
-    """Height of the middle of the wheel above the lowest slot [mm], if its level is divided into slots."""
+    """Height of the middle of the wheel above the lowest slot [mm], if its level is divided into slots; 0 if it is not.
+    """
     plain: float = 0.0
-    """Thickness before the wheel was broadened to mesh with several mates [mm]."""
+    """Thickness of the wheel before it was broadened to mesh with several mates [mm]."""
 
     def across_slots(self, low: int, high: int) -> WheelSize:
         """Return the wheel broadened to occupy the slots from `low` to `high`, counted from 0 for the lowest slot."""
@@ -389,7 +397,7 @@ class WheelSize:
 
 @dataclass(frozen=True, slots=True)
 class CrossingSide:
-    """Pair with non-parallel axes, from the side of one of its wheels, with the seats of both wheels."""
+    """Gear pair with non-parallel axes, as seen from one of its wheels, with the seats of both wheels."""
 
     contact: PitchContact
     side: ContactSide
@@ -405,7 +413,7 @@ class SizedGeometry:
     modules: WheelModules
     sizes: Mapping[str, WheelSize]
     crossing: tuple[CrossingSide, ...]
-    """Pairs whose axes are not parallel; each is listed twice, once from the side of each wheel."""
+    """Gear pairs whose axes are not parallel. Each pair is listed twice, as seen from each of its wheels."""
 
     @cached_property
     def seats(self) -> Mapping[tuple[str, str], Seat]:
@@ -414,7 +422,7 @@ class SizedGeometry:
 
 
 def size_geometry(declared: DeclaredGeometry) -> SizedGeometry:
-    """Return the declared geometry with the modules, sizes and seats of all wheels."""
+    """Return the declared geometry extended by the modules, sizes and seats of all wheels."""
     modules = _ModuleSearch(declared).found()
     sizes = {
         wheel: _size(declared, wheel, modules.module[wheel], wheel in modules.declared) for wheel in declared.wheels

@@ -1,4 +1,4 @@
-"""Axial extent of the body of a wheel, from its thickness or its pitch cone.
+"""Axial extent of the body of a wheel, computed from its thickness or its pitch cone.
 
 Teeth of a bevel or crown wheel are cut on its back cone, which is perpendicular to its pitch cone at the pitch circle,
 and extend from there along the cone towards the apex by `thickness`, with solid metal behind them. The viewer builds
@@ -13,16 +13,18 @@ from geartrain.teeth.standard_teeth import ADDENDUM, DEDENDUM
 
 LAND = 0.01  # metal under the roots, divided by the pitch radius
 CROWN = pi / 2 - 1e-6
-"""Cone half angle [rad] above which a wheel is treated as a crown wheel, whose plane contains the apex."""
+"""Half angle of the pitch cone [rad] above which a wheel is treated as a crown wheel, whose pitch plane contains the
+apex.
+"""
 _BACK = 0.35  # metal behind the teeth, divided by the thickness
 _MOST_FACE = 0.45  # maximum face width divided by the cone distance
 
 
 def taper(cone: float, radius: float, thickness: float) -> float:
-    """Return the tooth size of a bevel wheel at the small end divided by the tooth size at the large end, from 0.55 to
-    1.
+    """Return the tooth size of a bevel wheel at the small end divided by its tooth size at the large end, limited to
+    0.55 to 1.
 
-    cone        half angle of its pitch cone [rad], above 0; a right angle for a crown wheel
+    cone        half angle of the wheel's pitch cone [rad], above 0; a right angle for a crown wheel
     radius      pitch radius at the large end [mm]
     thickness   face width along the cone [mm]
     """
@@ -41,7 +43,7 @@ def height_on_cone(cone: float, radius: float, depth: float, scale: float) -> fl
 
 
 def back_of_cone(cone: float, radius: float, thickness: float, root: float) -> float:
-    """Return the position of a bevel wheel's back, measured as in `height_on_cone` [mm].
+    """Return the position of the back of a bevel wheel along its axis, measured as in `height_on_cone` [mm].
 
     root   height of the tooth roots above the pitch cone [mm]
     """
@@ -50,15 +52,18 @@ def back_of_cone(cone: float, radius: float, thickness: float, root: float) -> f
 
 
 def bare_reach(cone: float, radius: float, thickness: float, module: float) -> tuple[float, float]:
-    """Return the extents of `reach` [mm] with the standard tooth heights of a module, for wheels with unknown teeth."""
+    """Return the extents of a wheel [mm] as defined by `reach`, with the standard tooth heights of the module, for a
+    wheel whose teeth are unknown.
+    """
     return reach(cone, radius, thickness, -DEDENDUM * module, ADDENDUM * module)
 
 
 def reach(cone: float, radius: float, thickness: float, root: float, tip: float) -> tuple[float, float]:
-    """Return the axial extents [mm] of a wheel's body from its pitch circle, away from the apex and towards it.
+    """Return the axial extents of a wheel's body, measured from its pitch circle away from the apex and towards the
+    apex [mm].
 
-    cone        half angle of its pitch cone [rad], 0 for a cylinder
-    root, tip   heights above the pitch cone [mm]
+    cone        half angle of the wheel's pitch cone [rad], 0 for a cylinder
+    root, tip   heights of the tooth roots and tips above the pitch cone [mm]
     """
     if not cone:
         return thickness / 2, thickness / 2
@@ -67,7 +72,7 @@ def reach(cone: float, radius: float, thickness: float, root: float, tip: float)
 
 
 def web(cone: float, radius: float, thickness: float, root: float) -> tuple[float, float]:
-    """Return the axial extents [mm] of the disc inside the ring of teeth, measured as in `reach`."""
+    """Return the axial extents of the disc inside the toothed rim, measured as in `reach` [mm]."""
     if not cone:
         return thickness / 2, thickness / 2
     front = height_on_cone(cone, radius, root - LAND * radius, taper(cone, radius, thickness))
@@ -75,5 +80,7 @@ def web(cone: float, radius: float, thickness: float, root: float) -> tuple[floa
 
 
 def span(facing: int, away: float, towards: float) -> tuple[float, float]:
-    """Return the extents of `reach` as positions along the axis relative to the pitch circle, in ascending order."""
+    """Return the extents computed by `reach` as positions along the axis relative to the pitch circle, in ascending
+    order [mm].
+    """
     return (-towards, away) if facing > 0 else (-away, towards)

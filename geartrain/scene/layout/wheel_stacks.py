@@ -1,9 +1,9 @@
-"""Heights of the wheels of parallel axes without collisions, and the collisions that could not be avoided.
+"""Heights at which the wheels of parallel axes do not collide, and the collisions that could not be avoided.
 
-The order of levels is found first, so that few arbors pass through wheels and all arbors are short. The method is a
-local search on keys, one for each stack, which increase upwards; stacks with equal keys share a level. Each stack in
-turn is moved to its position of minimum cost, then runs of levels are moved or reversed together, until nothing
-improves. With more than 80 stacks, each stack is put into the first level that fits, and stays there.
+The order of levels is found first. It is chosen so that few arbors pass through wheels and all arbors are short. The
+method is a local search on keys. Each stack has a key; keys increase upwards, and stacks with equal keys share a level.
+Each stack in turn is moved to its position of minimum cost. Then groups of adjacent levels are moved or reversed. This
+is repeated until the cost does not decrease. With more than 80 stacks, each stack stays in the first level that fits.
 """
 
 from __future__ import annotations
@@ -42,21 +42,21 @@ class StackProblem:
 
     blocks: Sequence[WheelBlock]
     clash: Flags
-    """Pairs of blocks that must not be at the same height, shape (blocks, blocks)."""
+    """Mask of the pairs of blocks that must not be at the same height, shape (blocks, blocks)."""
     pierce: Flags
-    """Mask of the wheels that an arbor or pin would pass through at equal height, shape (links and pins, blocks)."""
+    """Mask of the blocks that an arbor or pin would pass through at equal height, shape (links and pins, blocks)."""
     arbors: Sequence[str]
     """Links that carry wheels, in the order of the rows of `pierce`."""
     ends: Mapping[str, DialEnds]
-    """Link -> ends of its arbor that extend beyond the stack to a dial."""
+    """Ends of the arbor of each link that extend beyond the stack to a dial, by link."""
     plates: Mapping[str, str]
-    """Arbor -> wheel of a carrier that carries the axis of the arbor."""
+    """Wheel of the carrier that carries the axis of each arbor, by arbor."""
     pins: Sequence[tuple[str, str]] = ()
-    """Pairs of a wheel with a pin and the wheel with its slot, in the order of the rows of `pierce` after the
-    arbors.
+    """Pairs of wheels: the wheel with a pin, and the wheel with the slot of this pin. They are in the order of the rows
+    of `pierce` after the rows of the arbors.
     """
     still: str = ""
-    """Fixed link. Several wheels of this link on one axis form a fixed arbor."""
+    """Name of the fixed link. If several wheels of this link are on one axis, they form a fixed arbor."""
 
     @property
     def count(self) -> int:
@@ -68,9 +68,9 @@ class _OrderSearch:
     """Search for the order of the stacks of one problem. Each stack has a key; keys increase upwards, and stacks with
     equal keys share a level.
 
-    clash     stacks that must not share a level, by stack
-    carried   stacks of each arbor, and of the wheel that carries its axis
-    bearing   arbors of each stack
+    clash     for each stack, the stacks that must not share a level with it
+    carried   for each arbor, the stacks of its wheels and of the wheel that carries its axis
+    bearing   for each stack, the arbors of its wheels
     """
 
     def __init__(self, problem: StackProblem) -> None:
@@ -100,7 +100,9 @@ class _OrderSearch:
 
     @cached_property
     def _fixed_stacks(self) -> dict[int, tuple[int, ...]]:
-        """Axis -> stacks of its fixed wheels, for axes with several such stacks; these wheels are one piece."""
+        """Stacks of the fixed wheels on each axis, by axis. Only axes with several such stacks are included; their
+        fixed wheels form one part.
+        """
         found: dict[int, dict[int, None]] = {}
         for block in self.problem.blocks:
             if block.link and block.link == self.problem.still and not block.across and not block.inner:
@@ -108,13 +110,15 @@ class _OrderSearch:
         return {axis: tuple(stacks) for axis, stacks in found.items() if len(stacks) > 1}
 
     def _mates(self, at: int) -> Iterator[int]:
-        """Yield stacks that share an arbor with a stack, repeated for each shared arbor, including the stack itself."""
+        """Yield the stacks that share an arbor with a stack, including the stack itself. A stack is repeated for each
+        shared arbor.
+        """
         return (stack for arbor in self.bearing[at] for stack in self.carried[arbor])
 
     @cached_property
     def order(self) -> list[int]:
-        """Order in which stacks are placed: first the stack with the most arbors, then those that share the most arbors
-        with earlier stacks.
+        """Order in which stacks are placed: first the stack with the most arbors, then repeatedly the stack that shares
+        the most arbors with earlier stacks.
         """
         score = np.array([len(arbors) for arbors in self.bearing], float)
         weight = float(score.sum()) + 1  # one shared arbor outweighs any number of others
@@ -130,7 +134,9 @@ class _OrderSearch:
     # ------------------------------------------------------------------------------------------------ every place tried
 
     def local_search(self) -> Floats:
-        """Return the key of each stack, moving stacks and runs of levels until no move improves the order."""
+        """Return the key of each stack, found by moving stacks and groups of adjacent levels until no move improves the
+        order.
+        """
         keys = np.full(self.count, np.nan)
         for at in self.order:
             self._place_best(keys, at, 0.0)
@@ -149,7 +155,9 @@ class _OrderSearch:
         return keys
 
     def _best_shift(self, keys: Floats, fixed_cost: float) -> tuple[Floats, bool]:
-        """Return the best order with at most one run of levels moved or reversed, and True if it is an improvement."""
+        """Return the best order that results from moving or reversing at most one group of adjacent levels, and True if
+        it is an improvement.
+        """
         level = np.searchsorted(np.unique(keys), keys)
         ranks = np.concatenate(list(_shifts(int(level.max()) + 1)))[:, level].astype(float)
         costs = self._costs(ranks, fixed_cost)
@@ -158,8 +166,8 @@ class _OrderSearch:
         return ranks[best], bool(costs[best].round(9) < costs[0].round(9))
 
     def _place_best(self, keys: Floats, at: int, fixed_cost: float) -> None:
-        """Move one stack to its cheapest position, which is a level (integer key) or between two levels (half-integer
-        key).
+        """Move one stack to the position of minimum cost, which is a level (integer key) or between two levels
+        (half-integer key).
         """
         keys[at] = np.nan
         known = np.unique(keys[~np.isnan(keys)])
@@ -177,7 +185,9 @@ class _OrderSearch:
         keys[at] = tries[int(np.argmin(np.round(self._costs(every, fixed_cost), 9)))]
 
     def _costs(self, every: Floats, fixed_cost: float) -> Floats:
-        """Return the costs of several orders, one per row, with NaN for stacks that are not placed yet."""
+        """Return the costs of several orders. Each row of `every` contains the keys of one order, with NaN for stacks
+        that are not placed yet.
+        """
         keys = np.ascontiguousarray(every.T, np.float32)  # exact for small half-integers, and fast to compare
         low, high = keys[self._stack_table[0]], keys[self._stack_table[0]]  # two copies, each modified in place below
         for stacks in self._stack_table[1:]:
@@ -197,7 +207,9 @@ class _OrderSearch:
         return np.asarray(_PIERCED * pierced + _LONG * span.astype(float) + _LEVEL * levels, float)
 
     def _interleaved(self, keys: NDArray[np.float32], low: NDArray[np.float32], high: NDArray[np.float32]) -> Floats:
-        """Return the number of pairs of coaxial arbors that interleave, so that neither arbor can be a pipe."""
+        """Return, for each order, the number of pairs of coaxial arbors that interleave, so that neither arbor can be a
+        pipe around the other.
+        """
         arbor, stack, starts = self._coaxial
         if not len(starts):
             return np.zeros(keys.shape[1])
@@ -206,11 +218,11 @@ class _OrderSearch:
         return np.asarray((covers[::2] & covers[1::2]).sum(axis=0), float)
 
     def _split_fixed(self, keys: NDArray[np.float32]) -> Floats:
-        """Return a measure of how often arbors interleave with fixed wheels on their axis, which then cannot be one
-        piece.
+        """Return, for each order, a measure of how often arbors interleave with fixed wheels on their axis, which then
+        cannot be one part.
 
-        From the lowest wheel to the highest, wheels of the arbor and fixed wheels alternate. One alternation means an
-        arbor beside the fixed wheels; each further alternation counts as half.
+        From the lowest wheel to the highest, wheels of the arbor and fixed wheels alternate. One alternation is free of
+        cost, because the arbor is then next to the fixed wheels; each further alternation counts as 1/2.
         """
         found = np.zeros(keys.shape[1])
         below, above = (frozenset(each.tolist()) for each in self._dial_arbors)
@@ -229,10 +241,10 @@ class _OrderSearch:
 
     @cached_property
     def _coaxial(self) -> tuple[Indices, Indices, Indices]:
-        """Rows (arbor, stack) that combine, for each ordered pair of coaxial arbors, the first arbor with every stack
-        of the second arbor.
+        """Rows (arbor, stack) for all ordered pairs of coaxial arbors. The rows of a pair combine the first arbor with
+        every stack of the second arbor.
 
-        The arrays are the arbors and the stacks of all rows, and the index of the first row of each pair.
+        The arrays are the arbors of all rows, the stacks of all rows, and the index of the first row of each pair.
         """
         rows, starts = list[tuple[int, int]](), list[int]()
         for about in self._hubs.values():
@@ -245,7 +257,7 @@ class _OrderSearch:
 
     @cached_property
     def _hubs(self) -> dict[int, dict[int, dict[int, None]]]:
-        """Axis -> arbor -> stacks of the wheels on the arbor, except rings."""
+        """Stacks of the wheels on each arbor except rings, by axis and arbor."""
         hubs: dict[int, dict[int, dict[int, None]]] = {}
         for block in self.problem.blocks:
             if block.link in self.problem.arbors and not block.across and not block.inner:
@@ -259,14 +271,18 @@ class _OrderSearch:
 
     @cached_property
     def _stack_table(self) -> Indices:
-        """Stacks of every arbor, shape (maximum number, arbors); arbors with fewer stacks repeat their first stack."""
+        """Stacks of every arbor, shape (maximum number of stacks, arbors). Arbors with fewer stacks repeat their first
+        stack.
+        """
         most = max(map(len, self.carried), default=1)
         filled = [[*stacks, *stacks[:1] * (most - len(stacks))] for stacks in self.carried]
         return np.array(filled, np.intp).reshape(-1, most).T
 
     @cached_property
     def _pierced(self) -> tuple[Indices, Indices, NDArray[np.float32]]:
-        """Arbors, stacks with wheels that these arbors would pierce at equal height, and the number of such wheels."""
+        """Arbors, stacks with wheels that these arbors would pierce at equal height, and the number of such wheels in
+        each stack.
+        """
         times = np.zeros((len(self.carried), self.count), np.float32)
         rows, blocks = np.nonzero(self.problem.pierce)
         np.add.at(times, (rows, self.stacks[blocks]), 1.0)
@@ -276,7 +292,9 @@ class _OrderSearch:
 
     @cached_property
     def _dial_arbors(self) -> tuple[Indices, Indices]:
-        """Arbors that extend beyond the low end of the stack, and arbors that extend beyond its high end."""
+        """Indices of the arbors that extend beyond the low end of the stack, and of the arbors that extend beyond its
+        high end.
+        """
         ends = [self.problem.ends.get(arbor, DialEnds()) for arbor in self.problem.arbors]
         ends += [DialEnds()] * len(self.problem.pins)
         low, high = np.array(ends, bool).reshape(-1, 2).T
@@ -285,7 +303,9 @@ class _OrderSearch:
     # ------------------------------------------------------------------------------------------------ too many for that
 
     def first_fit(self) -> Floats:
-        """Return keys with each stack in the free level nearest to its arbors' other stacks, or in a new top level."""
+        """Return the keys of stacks. Each stack in turn is put into the free level nearest to the other stacks of its
+        arbors, or into a new top level.
+        """
         keys = np.full(self.count, np.nan)
         levels = 0
         for at in self.order:
@@ -302,7 +322,9 @@ class _OrderSearch:
 
 
 def _shifts(count: int) -> Iterator[Indices]:
-    """Yield ranks of `count` levels, shape (orders, count): unchanged, then with a run of levels moved or reversed."""
+    """Yield orders of `count` levels as ranks, shape (orders, count): first unchanged, then with a group of adjacent
+    levels moved or reversed.
+    """
     rank = np.arange(count)
     yield rank[None, :]
     for length in (each for each in _RUNS if each < count):
@@ -323,7 +345,9 @@ _SLACK = 1e-9  # relative to the radii: touching wheels must not collide due to 
 
 
 def stack_heights(problem: StackProblem, gap: float) -> dict[int, float]:
-    """Return the height of each stack [mm], with the lowest upright wheel at 0 and a `gap` [mm] between levels."""
+    """Return the height of each stack [mm]. The lowest upright wheel is at 0, and the levels are separated by `gap`
+    [mm].
+    """
     if not problem.count:
         return {}
     search = _OrderSearch(problem)
@@ -337,7 +361,9 @@ def stack_heights(problem: StackProblem, gap: float) -> dict[int, float]:
 
 
 def _level_heights(problem: StackProblem, level: Indices, count: int, gap: float) -> Floats:
-    """Return heights of levels [mm], each above the previous level and all blocks that clash with its own."""
+    """Return the heights of levels [mm]. Each level is above the previous level, and above all blocks that clash with
+    its own blocks.
+    """
     blocks = problem.blocks
     level_of = np.array([level[block.stack] for block in blocks])
     bottom = np.array([block.offset - block.low for block in blocks])
@@ -355,7 +381,9 @@ def _level_heights(problem: StackProblem, level: Indices, count: int, gap: float
 
 
 def _thickest(blocks: Sequence[WheelBlock], which: Indices) -> float:
-    """Return the maximum thickness [mm] of the blocks without an offset in their stack; 0 if there are none."""
+    """Return the maximum thickness [mm] of the selected blocks that have no offset in their stack; 0 if there are no
+    such blocks.
+    """
     sizes = [blocks[at].low + blocks[at].high for at in which.tolist() if not blocks[at].offset]
     return max(sizes, default=0.0)
 
@@ -370,10 +398,10 @@ class WheelStack:
     """Gap between levels [mm]."""
     swept: SweptDistances
     given: Mapping[int, float]
-    """Stack -> height [mm] that is determined by parts that are already placed."""
+    """Height [mm] of each stack whose height is determined by parts that are already placed, by stack index."""
 
     def heights(self) -> dict[str, float]:
-        """Return the heights of upright wheels [mm].
+        """Return the height of each upright wheel [mm], by wheel.
 
         Stacks without a given height are shifted by the same distance as the first stack with a given height.
         """
@@ -384,11 +412,11 @@ class WheelStack:
 
     @property
     def upright(self) -> list[WheelBlock]:
-        """Blocks of wheels that turn about the axes of this group."""
+        """Blocks of the wheels that turn about the axes of this group."""
         return [block for block in self.problem.blocks if not block.across]
 
     def collisions(self, height: Mapping[str, float]) -> Iterator[tuple[str, str]]:
-        """Yield pairs of wheels on different axes or arbors that collide at their heights."""
+        """Yield pairs of wheels on different axes or arbors that collide at the given heights."""
         blocks = self.upright
         axis = np.array([block.axis for block in blocks], np.intp)
         outer = np.array([block.outer for block in blocks])
@@ -405,8 +433,8 @@ class WheelStack:
                 yield one.wheel, other.wheel
 
     def pierced(self, height: Mapping[str, float]) -> Iterator[tuple[str, str]]:
-        """Yield arbors with the wheels through which they pass, except a pin's and its slot's arbors, which share a
-        stud.
+        """Yield arbors, each with a wheel through which it passes. The arbors of a pin and its slot are omitted,
+        because they share a stud.
         """
         tied = {frozenset(pair) for pair in self.problem.pins}
         ends = {block.link: block.wheel for block in self.upright if any(block.wheel in pair for pair in tied)}

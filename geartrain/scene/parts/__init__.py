@@ -1,8 +1,8 @@
 """Parts that connect the wheels of a mechanism: plates, pillars, arbors, pipes and studs, with their fits.
 
-The input is wheels as cut, their positions, and the axes that the frame and the carriers carry. The output is a
-`FramePlan`: every part with its link, wheels moved along their axes to make space for plates, the hole of every wheel,
-and notices on parts that could not be placed.
+The input consists of the wheels as cut, their positions, and the axes that the frame and the carriers carry. The output
+is a `FramePlan`: every part with its link, wheels moved along their axes to make space for plates, the hole of every
+wheel, and notices on parts that could not be placed.
 
     processes        laser, mill, printer, hand: kerf, minimum web, running and press fit, backlash
     stack_discs      wheels and plates as discs in the stack; gaps between them; passages through plates

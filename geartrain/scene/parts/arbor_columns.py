@@ -1,8 +1,8 @@
 """Parts on one axis of the frame: an arbor between the plates, or a stud in one plate, and pipes around it.
 
-A pipe covers the arbor inside it from its lowest wheel to its highest, so that no wheel of that arbor may be in this
-interval. Each pair with only one possible nesting is an edge of a graph. A topological order of the graph is the order
-of nesting, and a cycle means that the arbors cannot be nested.
+A pipe extends from its lowest wheel to its highest wheel and covers the arbor inside it, so that no wheel of that arbor
+may be in this interval. Each pair with only one possible nesting is an edge of a graph. A topological order of the
+graph is the order of nesting, and a cycle means that the arbors cannot be nested.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ INTEGRAL = 0.6  # modules between roots and arbor: with less a pinion is cut fro
 HAND = 1.6  # mm by which an arbor extends beyond its pipe if both carry hands
 _MINIMUM = 0.8  # mm: minimum diameter of an arbor
 USUAL = 2 / 3
-"""Default diameter of an arbor divided by the root radius of its smallest wheel."""
+"""Default diameter of an arbor divided by the root radius of the smallest wheel on it."""
 _CORES = (4.0, 3.0, 2.0, 1.5, 1.0, _MINIMUM)  # mm: diameters of arbors that are tried to avoid obstacles
 _PIVOT = 0.55  # diameter of a pivot divided by that of its arbor, which leaves a shoulder
 _WIDEST = 6.0  # mm: maximum default diameter
@@ -51,7 +51,9 @@ class FramePlaces:
 
 @dataclass(frozen=True, slots=True)
 class ColumnMember:
-    """Arbor or pipe of a column, with its link, its ends, and its inside (0 if solid) and outside diameter [mm]."""
+    """Arbor or pipe of a column: its link, its ends [mm], its inner diameter (0 if it is solid) and its outer diameter
+    [mm].
+    """
 
     link: str
     low: float
@@ -76,20 +78,24 @@ class AxisColumn:
     low: float
     high: float
     members: tuple[ColumnMember, ...]
-    """Members from the innermost outwards. For a through arbor, the first member is the core."""
+    """Arbors and pipes of the column, from the innermost outwards. If an arbor extends through both plates, the first
+    member is this arbor.
+    """
     hit: tuple[tuple[StackDisc, float], ...] = ()
-    """Discs of other axes that obstruct the column, each with its gap [mm], which is less than `APART`."""
+    """Discs of other axes that obstruct the column, each with its distance to the column [mm], which is less than
+    `APART`.
+    """
     tangled: tuple[str, str] | None = None
-    """Two links of which neither can be inside the other; None if all links can be nested."""
+    """Two links neither of which can be inside the other; None if all links can be nested."""
     on: str = ""
-    """Axis of the stud from whose end this stud projects, in one piece with it; otherwise empty. `topped` marks the
-    lower one of two such studs.
+    """Axis of another stud, if this stud projects from the end of that stud and is one part with it; empty if it does
+    not. `topped` is True for a stud from whose end another stud projects.
     """
     topped: bool = False
 
     @property
     def is_stud(self) -> bool:
-        """True if the core is fixed in one plate."""
+        """True if the core of the column is fixed in one plate."""
         return self.bearing in (AxisBearing.BACK_STUD, AxisBearing.FRONT_STUD)
 
     def passes(self, plate: tuple[float, float]) -> bool:
@@ -105,8 +111,8 @@ class AxisColumn:
 
 @dataclass(frozen=True)
 class ColumnProblem:
-    """Input for the choice of the arbor, pipes and studs of one axis: its discs, other axes' discs, and ends at
-    dials.
+    """Input for the choice of the arbor, pipes and studs of one axis: discs on the axis, discs on other axes, and ends
+    at dials.
     """
 
     axis: str
@@ -114,29 +120,29 @@ class ColumnProblem:
     discs: Sequence[StackDisc]
     others: Sequence[StackDisc]
     ends: Mapping[str, tuple[int, int]]
-    """Link -> (below, above): number of hands, one above the other, at each end of the link's arbor; 0 if that end does
-    not extend beyond the stack.
+    """Number of hands, one above the other, at the lower and the upper end of each link's arbor, by link; 0 if the end
+    does not extend beyond the stack.
     """
     span: tuple[float, float]
     """Lowest and highest point of the stack, including the space of dials [mm]."""
     frame: str
     process: Process
     core: float | None = None
-    """Diameter of the arbor [mm], as given; None if it may be chosen."""
+    """Given diameter of the arbor [mm]; None if it may be chosen."""
     pivot: float | None = None
-    """Diameter of the arbor's pivots [mm], as given; None if it may be chosen."""
+    """Given diameter of the arbor's pivots [mm]; None if it may be chosen."""
     head: float = SHAKE + HEAD
-    """Length of a stud beyond the parts on it [mm]."""
+    """Length by which a stud extends beyond the parts on it [mm]."""
 
     @cached_property
     def beside(self) -> list[tuple[StackDisc, float]]:
-        """Discs of other axes, each with its gap to the middle of this axis [mm], which does not depend on plate
-        positions.
+        """Discs of other axes, each with its distance to the centre line of this axis [mm], which does not depend on
+        the positions of the plates.
         """
         return beside(self.axis, self.at, self.others)
 
     def columns(self, places: FramePlaces) -> Iterator[AxisColumn]:
-        """Yield possible columns (an arbor or stud with its pipes) with their obstacles, in order of preference."""
+        """Yield the possible columns, each an arbor or stud with its pipes and obstacles, in order of preference."""
         order, tangled = self._ordered(places)
         return (self._thinned(bearing, places, order, tangled) for bearing in self._bearings(places))
 
@@ -150,8 +156,8 @@ class ColumnProblem:
     def _thinned(
         self, bearing: AxisBearing, places: FramePlaces, order: Sequence[CoaxialLink], tangled: tuple[str, str] | None
     ) -> AxisColumn:
-        """Return the column with the given core diameter, or with the thickest standard core that is clear of all
-        obstacles, or with the default core if none is clear.
+        """Return the column with the given core diameter; if none is given, the column with the thickest standard core
+        that is clear of all obstacles. If none is clear, return the column with the default core.
         """
         stud = bearing in (AxisBearing.BACK_STUD, AxisBearing.FRONT_STUD) or all(each.fixed for each in order)
 
@@ -183,8 +189,8 @@ class ColumnProblem:
         return [AxisBearing.THROUGH]
 
     def _ordered(self, places: FramePlaces) -> tuple[tuple[CoaxialLink, ...], tuple[str, str] | None]:
-        """Return the pieces from the innermost outwards, and two links of which neither fits into the other; None if
-        all links fit.
+        """Return the pieces from the innermost outwards, and two links neither of which fits into the other. The two
+        links are None if all links can be nested.
         """
         if not self._fixed_discs:
             return self._turning_order
@@ -198,12 +204,14 @@ class ColumnProblem:
 
     @cached_property
     def _turning_order(self) -> tuple[tuple[CoaxialLink, ...], tuple[str, str] | None]:
-        """Order of nesting without fixed wheels, which does not depend on the positions of the plates."""
+        """Order of nesting of the turning pieces, which does not depend on the positions of the plates, and two links
+        that cannot be nested.
+        """
         return nested(self._turning_pieces)
 
     @cached_property
     def _turning_pieces(self) -> tuple[CoaxialLink, ...]:
-        """Pieces on the axis that turn: the future arbor and pipes."""
+        """Pieces on the axis that turn, which become the arbor and the pipes."""
         found = []
         pieces = by_piece(disc for disc in self.discs if disc.hub and disc.link != self.frame)
         parted = {link for link, apart in pieces if apart}
@@ -222,22 +230,24 @@ class ColumnProblem:
 
     @cached_property
     def _fixed_discs(self) -> list[StackDisc]:
-        """Fixed wheels, from the lowest."""
+        """Discs of the fixed wheels, from the lowest to the highest."""
         return sorted((disc for disc in self.discs if disc.hub and disc.link == self.frame), key=lambda disc: disc.low)
 
     def _single_piece(self, places: FramePlaces) -> CoaxialLink:
-        """Return fixed wheels as one piece without a hub in the nearer plate, so that it has no obstacle there."""
+        """Return the fixed wheels as one piece. The hub in the nearer plate is omitted, so that no pipe is considered
+        to collide with it.
+        """
         held = self._fixed_piece(self._fixed_discs, self._nearer(places)[0])
         return replace(held, hubs=held.hubs[:-1])
 
     def _nearer(self, places: FramePlaces) -> list[tuple[float, float]]:
-        """Return both plates, with the plate that is nearer to the fixed wheels first."""
+        """Return the faces of both plates [mm]; the plate that is nearer to the fixed wheels is first."""
         middle = (self._fixed_discs[0].low + self._fixed_discs[-1].high) / 2
         return sorted((places.back, places.front), key=lambda plate: abs(sum(plate) / 2 - middle))
 
     def _fixed_pieces(self, places: FramePlaces, hubs: Sequence[float]) -> Iterator[list[CoaxialLink]]:
-        """Yield possible pieces that hold the fixed wheels: one piece for all wheels, or two pieces, one of which is
-        next to its plate.
+        """Yield the possible sets of pieces that hold the fixed wheels: one piece for all wheels, or two pieces, one of
+        which is next to its plate.
 
         hubs   heights of all turning discs on the axis, none of which may be between a piece next to a plate and that
         plate
@@ -286,7 +296,7 @@ class ColumnProblem:
         return with_hits(column, self.beside)
 
     def _core(self, order: Sequence[CoaxialLink], stud: bool) -> float:
-        """Return the diameter of the core [mm]: the given diameter, or a diameter such that every pipe fits into its
+        """Return the diameter of the core [mm]: the given diameter, or the diameter at which every pipe fits into its
         smallest wheel.
         """
         if self.core is not None:
@@ -323,17 +333,19 @@ def _reach(order: Sequence[CoaxialLink]) -> list[tuple[float, float]]:
 
 
 def _between(height: float, disc: StackDisc, plate: tuple[float, float]) -> bool:
-    """Return True if a height is between a disc and a plate."""
+    """Return True if a height is between the middle of a disc and a plate."""
     return min(disc.middle, plate[0]) < height < max(disc.middle, plate[1])
 
 
 def beside(axis: str, at: Point, discs: Iterable[StackDisc]) -> list[tuple[StackDisc, float]]:
-    """Return discs of other axes, each with its gap to the middle of an axis [mm]."""
+    """Return the discs of other axes, each with its distance to the centre line of the axis [mm]."""
     return [(disc, disc.clearance_to(at, 0.0)) for disc in discs if disc.axis != axis]
 
 
 def with_hits(column: AxisColumn, others: Iterable[tuple[StackDisc, float]]) -> AxisColumn:
-    """Return the column with its obstacles: discs of other axes at its heights, nearer than the clearance."""
+    """Return the column with its obstacles, which are the discs of other axes, at the same heights, that are nearer
+    than the clearance.
+    """
     # most discs are too far off for the widest part, which saves computing the radius at their height
     room = APART + max([column.core, *(each.outer for each in column.members)]) / 2
     near = ((disc, free, column.radius(disc.low, disc.high)) for disc, free in others if free < room)
@@ -350,23 +362,30 @@ class CoaxialLink:
 
     link: str
     hubs: tuple[float, ...]
-    """Heights at which the piece carries discs [mm], and for fixed wheels the height of the plate that holds it."""
+    """Heights at which the piece carries discs [mm], and, for fixed wheels, the height of the plate that holds the
+    piece.
+    """
     low: float
     high: float
     fixed: bool = False
     discs: tuple[StackDisc, ...] = ()
-    """Discs on the piece; the entries of `ends` (below, above) are True for ends that extend beyond the stack."""
+    """Discs on the piece. The entries of `ends` (below, above) are True for the ends of the piece that extend beyond
+    the stack.
+    """
     ends: tuple[bool, bool] = (False, False)
 
     def covers(self, other: CoaxialLink) -> bool:
-        """Return True if a hub of the other piece is at a height at which this piece would be a pipe around it."""
+        """Return True if a hub of the other piece is between the ends of this piece, so that this piece cannot be a
+        pipe around the other.
+        """
         return any(self.low < height < self.high for height in other.hubs)
 
 
 def nested(links: Sequence[CoaxialLink]) -> tuple[tuple[CoaxialLink, ...], tuple[str, str] | None]:
     """Return the links from the innermost outwards (topological order).
 
-    If no such order exists, the links are returned as given, with two links that conflict.
+    The second item is None. If no such order exists, the links are returned as given, with the names of two links that
+    conflict.
     """
     around = [{k for k, other in enumerate(links) if k != at and other.covers(each)} for at, each in enumerate(links)]
     left, order = list(range(len(links))), list[int]()

@@ -1,4 +1,4 @@
-"""Additional parts of carriers and turning rings: a plate with studs, a wheel used as a plate, or a disc."""
+"""Additional parts of carriers and turning rings: a plate with studs, a wheel that is used as a plate, or a disc."""
 
 from __future__ import annotations
 
@@ -24,15 +24,15 @@ class TurningPlate:
     """Plate of a carrier or a turning ring, to be inserted into a gap of the stack, with the axes that it carries."""
 
     disc: StackDisc
-    """Cylinder that the plate sweeps, at the height of its gap."""
+    """Cylinder that the plate sweeps as it turns, at the height of its gap."""
     spots: tuple[str, ...] = ()
-    """Axes that the plate carries; empty for the disc of a ring."""
+    """Labels of the axes that the plate carries; empty for the disc of a ring."""
     ring: str = ""
     """Name of the ring wheel that the plate holds; empty for other plates."""
     round: bool = False
-    """True if the outline is the full circle that the plate sweeps."""
+    """True if the outline of the plate is the full circle that it sweeps."""
     flange: bool = False
-    """True if the plate is a flange for brakes and clutches, on a shaft without wheels."""
+    """True if the plate is a flange for brakes and clutches on a shaft without wheels."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,13 +45,15 @@ class CarrierSeat:
 
     @property
     def is_bearing(self) -> bool:
-        """True if the link carries axes or pins here; False for discs of rings, for arms, and for flanges of shafts."""
+        """True if the link carries axes or pins at this seat; False for discs of rings, arms, and flanges of shafts."""
         return not any(plate.ring or plate.disc.apart or plate.flange for plate in self.plates)
 
 
 @dataclass(frozen=True, slots=True)
 class CarriedAxis:
-    """Axis that a link carries, with its discs; `through` are other links' wheels with holes for its arbor."""
+    """Axis that a link carries, with the discs on it. `through` contains wheels of other links that have holes for its
+    arbor.
+    """
 
     label: str
     carrier: str
@@ -68,8 +70,8 @@ def plate_seat(
     round_: bool = False,
     flange: bool = False,
 ) -> CarrierSeat:
-    """Return the seat on a plate in a gap of the stack, at a given height; its faces are nominal until heights
-    are set.
+    """Return a seat on a plate at the given height, in a gap of the stack. The faces of the plate are nominal until
+    heights are set.
     """
     disc = replace(disc, low=height - _THIN, high=height + _THIN)
     return CarrierSeat(disc.link, disc.name, (TurningPlate(disc, spots, ring, round_, flange),))
@@ -83,8 +85,8 @@ def carrier_seats(
     own: Sequence[StackDisc],
     slab_gaps: Sequence[float],
 ) -> list[CarrierSeat]:
-    """Return the possible seats of the axes that a link carries: on its wheels, then on a plate at either side of the
-    wheels of these axes.
+    """Return the possible seats of the axes that a link carries: first on its own wheels, then on a plate above or
+    below the wheels of these axes.
     """
     reach = max(dist(at, each.at) for each in carried) + BOSS
     fit = (disc for disc in own if disc.hub and disc.root > reach + WIDEST / 2)
@@ -99,14 +101,14 @@ def carrier_seats(
 
 
 def ring_seats(ring: StackDisc, rim: float, slab_gaps: Sequence[float]) -> list[CarrierSeat]:
-    """Return the seats on a disc that holds a turning ring, above the ring or below it."""
+    """Return the possible seats on a disc that holds a turning ring: above the ring and below it."""
     disc = replace(ring, name=f"{ring.name} disc", outer=rim, inner=0.0, root=rim, hub=True)
     heights = gap_beside(slab_gaps, ring.high, 1) - _FAR, gap_beside(slab_gaps, ring.low, -1) + _FAR
     return [plate_seat(disc, height, (), ring.name, round_=True) for height in heights]
 
 
 def gap_beside(slab_gaps: Sequence[float], face: float, side: int) -> float:
-    """Return the height of the gap nearest to a face, above it for side 1 or below it for side -1 [mm]."""
+    """Return the height of the gap nearest to a face [mm]: above the face if `side` is 1, below it if `side` is -1."""
     return min((each for each in slab_gaps if (each - face) * side > 0), key=lambda each: abs(each - face))
 
 
@@ -118,11 +120,12 @@ def carried_columns(
     core: float | None,
     head: float = SHAKE + HEAD,
 ) -> list[AxisColumn]:
-    """Return the column (stud and pipes) of each axis in `axes`, which one carrier carries, relative to the carrier.
+    """Return the column (stud and pipes) of each axis in `axes`, all on one carrier, in positions relative to the
+    carrier.
 
-    With a `head` of 0, heads of studs take no space yet. If two axes are so close that their studs would intersect, the
-    stud of the axis whose wheels are farther from the seat starts at the end of the other, as one stud turned with a
-    step.
+    If `head` is 0, no space is reserved for the heads of studs. If two axes are so close that their studs would
+    intersect, the stud of the axis whose wheels are farther from the seat starts at the end of the other stud. Both
+    studs are then one stepped part.
     """
     seen = [seen_from_carrier(seat.link, seat.at, disc) for disc in discs if disc.name != seat.name]
     found = [_carried_column(axis, seat, seen, process, core, head) for axis in axes]
@@ -140,7 +143,9 @@ def carried_columns(
 
 
 def _stepped(near: AxisColumn, far: AxisColumn, others: Sequence[StackDisc]) -> tuple[AxisColumn, AxisColumn]:
-    """Return the nearer axis' stud without a head, and the other axis' stud, which starts at the end of the first."""
+    """Return the column of the nearer axis, whose stud has no head, and the column of the farther axis, whose stud
+    starts at the end of the first stud.
+    """
     up = max(each.high for each in far.members) > max(each.high for each in near.members)
     if up:
         end = max(each.high for each in near.members) + SHAKE / 2
@@ -152,7 +157,7 @@ def _stepped(near: AxisColumn, far: AxisColumn, others: Sequence[StackDisc]) -> 
 
 
 def _away(axis: CarriedAxis, seat: StackDisc) -> float:
-    """Return the axial distance between the seat and the nearest wheel on a carried axis [mm]; 0 for an axis without
+    """Return the axial distance between the seat and the nearest wheel on a carried axis [mm]; 0 if the axis has no
     wheels.
     """
     return min((abs(disc.middle - seat.middle) for disc in axis.discs), default=0.0)
@@ -161,7 +166,7 @@ def _away(axis: CarriedAxis, seat: StackDisc) -> float:
 def _carried_column(
     axis: CarriedAxis, seat: StackDisc, seen: Sequence[StackDisc], process: Process, core: float | None, head: float
 ) -> AxisColumn:
-    """Return the preferred column (stud and pipes) of a carried axis, which is fixed only in its seat."""
+    """Return the preferred column (stud and pipes) of a carried axis. The stud is fixed only in its seat."""
     ends: Mapping[str, tuple[bool, bool]] = {}
     faces = seat.low, seat.high
     others = _others(axis, seen)
@@ -174,7 +179,7 @@ def _others(axis: CarriedAxis, seen: Sequence[StackDisc]) -> list[StackDisc]:
 
 
 def seen_from_carrier(carrier: str, middle: Point, disc: StackDisc) -> StackDisc:
-    """Return a disc as seen from a turning carrier: discs of the carrier and of its axes are fixed, all other discs
+    """Return a disc as seen from a turning carrier. The discs of the carrier and on its axes are fixed; all other discs
     revolve.
     """
     still = disc.link == carrier or (disc.carrier is not None and dist(disc.carrier, middle) < 1e-6)

@@ -1,11 +1,11 @@
 """Eccentrics, circles of pins in plates, and the cups of strain waves.
 
-An eccentric is a round disc, off centre on an arbor, on which a carried wheel turns. It replaces a stud where the
-carried axis is so close to the axis of its carrier that a wheel on it surrounds both. The wheel has a hole for the
-eccentric, and two washers keep it in place.
+An eccentric is a round disc, off centre on an arbor, on which a carried wheel turns. It replaces a stud if the carried
+axis is so close to the axis of its carrier that a wheel on the carried axis surrounds both axes. The wheel has a hole
+for the eccentric, and two washers keep it in place.
 
-Circles of pins are fixed in a plate: the pins of a ring of pins, and the pins that work in round holes of a disc. The
-cup of a strain wave is the wall that connects a flexible wheel to the body that it turns.
+Circles of pins are fixed in a plate: the pins of a pin ring, and the pins that move in round holes of a disc. The cup
+of a strain wave gear is the wall that connects a flexible wheel to the body that the wheel turns.
 """
 
 from __future__ import annotations
@@ -29,27 +29,27 @@ from geartrain.teeth.outlines.fixed_teeth import bent_line
 
 
 KIND = "wall"
-"""Kind of a cup's wall in the part list."""
+"""Kind of the wall of a cup, as named in the parts list."""
 
 
 @dataclass(frozen=True, slots=True)
 class FlexibleCup:
-    """Wall that connects a flexible wheel to another link, the bottom of the cup."""
+    """Wall that connects a flexible wheel to another link, which forms the bottom of the cup."""
 
     name: str
-    """Name of the coupling that makes wheel and bottom turn equally."""
+    """Name of the coupling that makes the wheel and the bottom of the cup turn at equal speeds."""
     link: str
-    """Link with the bottom of the cup; `slot` is the link with the wheel."""
+    """Link that forms the bottom of the cup; `slot` is the link of the wheel."""
     slot: str
     wheel: str
     at: Point
     """Position of the cup's axis in the stack [mm]."""
     reach: float
-    """Outside radius of the wall [mm]; `wall` is the thickness of the wall [mm]."""
+    """Outer radius of the wall [mm]; `wall` is the thickness of the wall [mm]."""
     wall: float
 
     def part(self, plate: tuple[float, float], wheel: StackDisc) -> TurnedPart:
-        """Return the wall, from the face of the wheel to the bottom."""
+        """Return the wall of the cup as a turned part, from the face of the wheel to the bottom."""
         low, high = (wheel.high, plate[0]) if plate[0] > wheel.middle else (plate[1], wheel.low)
         band = Band(low, high, self.reach, self.reach - self.wall)
         return TurnedPart(self.link, f"{self.link} wall", KIND, self.at, (band,), f"one piece with {self.wheel}")
@@ -68,10 +68,10 @@ class FlexibleCup:
 
 WALL = 1.5  # mm: normal wall of an eccentric beside its arbor, and of a wheel beside a hole
 USUAL_ARBOR = 6.0
-"""Default diameter of an arbor in an eccentric [mm]."""
+"""Default diameter of an arbor with an eccentric [mm]."""
 _THIN = 0.6  # mm: minimum wall of an eccentric beside its arbor
 ROOM = SHAKE / 2 + HEAD
-"""Axial space of a washer next to a wheel [mm]."""
+"""Axial space that is reserved for a washer next to a wheel [mm]."""
 _POINTS = 1440  # points of the outline of a wave generator
 _OVER = 1.0  # mm by which a washer extends beyond its eccentric
 
@@ -86,12 +86,12 @@ class Wave:
     towards: float
     """Angle of the first lobe, in the plane of the stack [rad]."""
     length: float
-    """Length of the wall that connects the wheel to its cup [mm]."""
+    """Length of the cup wall that is attached to the wheel [mm]."""
 
 
 @dataclass(frozen=True, slots=True)
 class Eccentric:
-    """Eccentric disc on the arbor of a link, on which wheels turn, or the wave generator of a strain wave."""
+    """Eccentric disc on the arbor of a link, on which wheels turn; or the wave generator of a strain wave gear."""
 
     name: str
     link: str
@@ -106,9 +106,10 @@ class Eccentric:
     carried: str
     """Label of the axis about which the wheels in `wheels` turn."""
     middle: float = 0.0
-    """Radius [mm] of the central hole of wheels that turn on several eccentrics; 0 if they turn only on this one."""
+    """Radius of the central hole in wheels that turn on several eccentrics [mm]; 0 if they turn only on this eccentric.
+    """
     coupling: str = ""
-    """Name of the coupling of parallel cranks that the eccentric implements; empty for other eccentrics."""
+    """Name of the coupling by parallel cranks of which the eccentric is a part; empty for other eccentrics."""
     wave: Wave | None = None
     """Strain wave, if the eccentric is a wave generator; None for a round disc."""
 
@@ -124,7 +125,7 @@ class Eccentric:
 
     @property
     def rise(self) -> float:
-        """Radial amplitude of the eccentric's edge about the arbor's axis [mm]."""
+        """Amplitude of the radius of the eccentric's edge about the arbor's axis [mm]."""
         return self.offset if self.wave is None else self.wave.rise
 
     @property
@@ -144,7 +145,7 @@ class Eccentric:
         return [disc for disc in discs if disc.name in self.wheels]
 
     def disc(self, discs: Iterable[StackDisc], carrier: Point | None) -> StackDisc:
-        """Return the cylinder that the eccentric sweeps in the stack, including its washers."""
+        """Return the cylinder that the eccentric and its washers sweep in the stack."""
         own = self.turning(discs)
         low, high = min(disc.low for disc in own) - ROOM, max(disc.high for disc in own) + ROOM
         reach, high = self.rise + self.radius, high + (0.0 if self.wave is None else self.wave.length)
@@ -152,8 +153,8 @@ class Eccentric:
         return StackDisc(self.name, self.link, self.axis, self.at, low, high, reach, 0.0, root, True, carrier)
 
     def washers(self, disc: StackDisc, bore: float) -> Iterator[TurnedPart]:
-        """Yield a washer on each side of the wheels, on the same arbor; yield nothing for a flexible wheel, which has a
-        wall.
+        """Yield a washer on the same arbor at each side of the wheels; yield nothing for a flexible wheel, which has a
+        cup wall.
         """
         if self.wave is not None:
             return
@@ -163,7 +164,9 @@ class Eccentric:
             yield TurnedPart(self.link, name, "collar", self.at, (ring,), "on the arbor, beside its eccentric")
 
     def faces(self, disc: StackDisc) -> tuple[float, float]:
-        """Return the faces of the eccentric [mm]: between its washers, or below the cup's wall in a flexible wheel."""
+        """Return the heights of the faces of the eccentric [mm]: between its washers, or below the cup's wall in a
+        flexible wheel.
+        """
         if self.wave is not None:
             return disc.low + ROOM, disc.high - ROOM - self.wave.length - SHAKE
         return disc.low + HEAD, disc.high - HEAD
@@ -172,16 +175,16 @@ class Eccentric:
 def eccentric_radius(offset: float, arbor: float | None, free: float) -> float:
     """Return the radius of an eccentric [mm] on an arbor.
 
-    offset   distance of its centre from the arbor's axis [mm]
-    arbor    diameter of the arbor [mm], if it is given
-    free     free radius round its centre [mm]
+    offset   distance from the arbor's axis to the centre of the eccentric [mm]
+    arbor    given diameter of the arbor [mm], or None
+    free     radius of the free space around the centre of the eccentric [mm]
     """
     wanted = offset + (USUAL_ARBOR if arbor is None else arbor) / 2 + WALL
     return round(min(wanted, free - WALL), 2)
 
 
 def too_thin(eccentric: Eccentric, arbor: float) -> Problem | None:
-    """Return the problem of an eccentric that is too thin for an arbor of the diameter `arbor` [mm], or None."""
+    """Return a problem if an eccentric is too thin for an arbor of the diameter `arbor` [mm]; None if it is not."""
     beside = eccentric.wall - arbor / 2
     if beside >= _THIN:
         return None
@@ -192,7 +195,9 @@ def too_thin(eccentric: Eccentric, arbor: float) -> Problem | None:
 
 
 def on_eccentrics(discs: Sequence[StackDisc], eccentrics: Sequence[Eccentric]) -> Iterator[StackDisc]:
-    """Yield all discs, with central holes in the wheels that turn on eccentrics, then the eccentrics."""
+    """Yield all discs, in which wheels that turn on eccentrics have central holes, followed by the discs of the
+    eccentrics.
+    """
     for disc in discs:
         own = [each for each in eccentrics if disc.name in each.wheels]
         yield replace(disc, inner=own[0].middle or own[0].radius) if own else disc
@@ -214,15 +219,15 @@ _RIM = 2.0  # mm: width of plate round a pin
 
 @dataclass(frozen=True, slots=True)
 class PinCircle:
-    """Declared circle of pins in round holes."""
+    """Declared circle of pins that move in round holes."""
 
     name: str
-    """Name of the coupling of the pins."""
+    """Name of the coupling to which the pins belong."""
     link: str
     """Link that carries the pins; `slot` is the link with the holes."""
     slot: str
     radius: float
-    """Radius of the circle [mm]; `pin` and `hole` are diameters [mm]."""
+    """Radius of the circle of pins [mm]; `pin` and `hole` are diameters [mm]."""
     pin: float
     hole: float
 
@@ -233,22 +238,22 @@ class PinCircle:
 
     @property
     def free(self) -> float:
-        """Distance from the axis of the disc to the nearest point of its holes [mm]."""
+        """Distance from the axis of the disc with the holes to the nearest point of a hole [mm]."""
         return self.radius - self.hole / 2
 
 
 @dataclass(frozen=True, slots=True)
 class StandingPins:
-    """Pins fixed in a plate, at their positions, which extend into a wheel."""
+    """Pins at their positions, which are fixed in a plate and extend into a wheel."""
 
     name: str
     link: str
     seat: str
-    """Turning plate in which the pins are fixed; empty for the nearer plate of the frame."""
+    """Turning plate in which the pins are fixed; empty if they are fixed in the nearer plate of the frame."""
     wheel: str
-    """Wheel into which the pins extend, to its far face."""
+    """Wheel into which the pins extend, as far as its far face."""
     spots: tuple[Point, ...]
-    """Centres of the pins in the plane of the stack; `radius` is the radius of a pin [mm]."""
+    """Centres of the pins in the plane of the stack [mm]; `radius` is the radius of a pin [mm]."""
     radius: float
     joined: bool = False
     """True if the pins are also fixed in the wheel, instead of moving in its holes."""
@@ -269,9 +274,10 @@ def pin_seats(
     slab_gaps: Sequence[float],
     carried: Sequence[CarriedAxis] = (),
 ) -> list[CarrierSeat]:
-    """Return the plate beside a disc in which its pins are fixed, or the bottom of a cup.
+    """Return the possible seats of a circle of pins on a plate next to the disc with the holes, or of a cup on its
+    bottom.
 
-    The plate is above the disc, or on the side of the axes that the plate carries.
+    The plate is above the disc, or on the side of the disc at which the plate carries axes.
     """
     low, high = min(disc.low for disc in slots), max(disc.high for disc in slots)
     others = [disc.middle for each in carried for disc in each.discs]

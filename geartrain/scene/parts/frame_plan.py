@@ -4,8 +4,8 @@ The two plates of the frame, and the plates of carriers, are tried in every gap 
 bearing is selected, and the obstacles are counted. Among the positions with the fewest obstacles, the position with the
 lowest cost of studs and of arbors that pass through a plate is selected.
 
-Plates of shafts are arms, which bypass obstacles, and flanges for clutches. Heights of wheels as laid out become
-heights as built, with space for all plates.
+Plates of shafts are either arms, which bypass obstacles, or flanges for clutches. The heights of wheels in the layout
+are changed to heights as built, which include space for all plates.
 """
 
 from __future__ import annotations
@@ -55,16 +55,18 @@ _INSIDE, _OUTSIDE, _PASSING = 30, 15, 11  # costs of a stud between the plates o
 
 @dataclass(frozen=True, slots=True)
 class PlateChoice:
-    """Choice of the heights of the frame plates, the seats of carriers and all columns, with its cost."""
+    """Choice of the heights of the frame plates, of the seats of carriers and of all columns, with the cost of this
+    choice.
+    """
 
     places: FramePlaces
     seats: tuple[CarrierSeat, ...]
     columns: tuple[AxisColumn, ...]
     outside: int
-    """1 if the train extends above the front plate, -1 if below the back plate, 0 if neither."""
+    """1 if the train extends above the front plate, -1 if it extends below the back plate, 0 if neither."""
     cost: tuple[int, int]
-    """Number of obstacles on all axes, including crossing wheels that a plate would cut, and then the cost of studs and
-    of arbors that pass through a plate.
+    """Number of obstacles on all axes, including crossing wheels that a plate would cut, followed by the cost of studs
+    and of arbors that pass through a plate.
     """
 
 
@@ -81,8 +83,8 @@ def best_places(
     At most 64 combinations of seats are tried. One plate is at an end of the stack; only if obstacles remain, both
     plates may be inside the stack.
 
-    blocked   number of obstacles on axes of carriers
-    cut       number of crossing wheels that a plate at some height would cut
+    blocked   function that returns the number of obstacles on axes of carriers for given seats
+    cut       function that returns the number of crossing wheels that a plate at a given height [mm] would cut
     """
     count = len(slab_gaps)
     best: PlateChoice | None = None
@@ -113,7 +115,8 @@ def best_places(
 def _columns(
     problems: list[ColumnProblem], places: FramePlaces, cost: tuple[int, int], bound: tuple[float, int]
 ) -> tuple[dict[str, AxisColumn], tuple[int, int]] | None:
-    """Return the best column of every axis and their total cost; None as soon as the cost reaches the bound.
+    """Return the best column of every axis, by axis, and the total cost of these columns; None if the cost reaches the
+    bound.
 
     The axis at which the cost reaches the bound is moved to the front of `problems` in place, because it is likely to
     exclude the next positions of the plates too.
@@ -136,21 +139,21 @@ def _effort(column: AxisColumn, places: FramePlaces) -> int:
 
 
 def obstacles(columns: Iterable[AxisColumn]) -> int:
-    """Return the number of obstacles of columns; a pair of links that cannot be nested counts as one."""
+    """Return the number of obstacles of all columns; a pair of links that cannot be nested counts as one obstacle."""
     return sum(len(each.hit) + bool(each.tangled) for each in columns)
 
 
 def with_discs(axis: ColumnProblem, discs: Sequence[StackDisc]) -> ColumnProblem:
-    """Return the `ColumnProblem` of the same axis with other discs in the stack."""
+    """Return the same `ColumnProblem` for a stack with other discs."""
     own = [disc for disc in discs if disc.axis == axis.axis]
     others = [disc for disc in discs if disc.axis != axis.axis]
     return replace(axis, discs=own, others=others)
 
 
 def best_column(columns: Iterable[AxisColumn]) -> AxisColumn:
-    """Return the first column without an obstacle, otherwise the first column.
+    """Return the first column without an obstacle; if all have obstacles, return the first column.
 
-    The iterable is read no further than needed.
+    The iterable is read only as far as necessary.
     """
     first = None
     for each in columns:
@@ -169,7 +172,7 @@ _DIAL = 6.0  # mm by which an arbor extends towards a dial
 
 @dataclass(frozen=True)
 class FramePlan:
-    """Positions of all parts of a mechanism, with heights along the plates' normal; lengths in mm."""
+    """Positions of all parts of a mechanism. Heights are measured along the normal of the plates; lengths are in mm."""
 
     stack: FrameStack
     """Wheels at their positions in the layout."""
@@ -178,13 +181,13 @@ class FramePlan:
     core: float | None
     """Diameter of all arbors [mm]; None if it may be chosen for each axis."""
     ends: Mapping[str, tuple[int, int]]
-    """Link -> (below, above): number of hands, one above the other, at each end of the link's arbor; 0 if that end does
-    not extend to a dial.
+    """Number of hands, one above the other, at the lower and the upper end of each link's arbor, by link; 0 if the end
+    does not extend to a dial.
     """
 
     @property
     def has_sized_dials(self) -> bool:
-        """True if the diameter of a dial is declared."""
+        """True if the diameter of at least one dial is declared."""
         return any(each.diameter is not None for each in self.stack.train.declaration.dials.values())
 
     # --------------------------------------------------------------------------------------------------- as laid out
@@ -201,8 +204,8 @@ class FramePlan:
     def choice(self) -> PlateChoice:
         """Positions of the plates with the fewest obstacles; ties are broken in favour of the lowest cost of studs.
 
-        If the arbor of a link cannot be nested and extends to a dial, the link gets an arm, connected to it by a bar,
-        provided that this leaves fewer obstacles.
+        If the arbor of a link extends to a dial but cannot be nested, the link gets an arm that is connected to it by a
+        bar, if this reduces the number of obstacles.
         """
         first = self._best([])
         tangled = [each for each in first.columns if each.tangled]
@@ -236,7 +239,7 @@ class FramePlan:
         return 1000 * thinnest.diameter.si, None if thinnest.pivot is None else 1000 * thinnest.pivot.si
 
     def _seats(self) -> Iterator[list[CarrierSeat]]:
-        """Yield the possible seats of each carrier, circle of pins, cup, turning ring and flange."""
+        """Yield the list of possible seats of each carrier, circle of pins, cup, turning ring and flange."""
         by_carrier: dict[str, list[CarriedAxis]] = {}
         for each in self.stack.carried.values():
             by_carrier.setdefault(each.carrier, []).append(each)
@@ -282,7 +285,7 @@ class FramePlan:
         )
 
     def _blocked(self, seats: Sequence[CarrierSeat]) -> int:
-        """Return the number of obstacles on all axes that carriers carry, with all turning plates in their gaps."""
+        """Return the number of obstacles on all axes that carriers carry, when all turning plates are in their gaps."""
         plates = [plate for seat in seats for plate in seat.plates]
         return sum(self._carried_cost(seat, self._borne_by(seat), plates) for seat in seats)
 
@@ -292,7 +295,7 @@ class FramePlan:
     def _carried_cost(
         self, way: CarrierSeat, carried: Sequence[CarriedAxis], plates: Sequence[TurningPlate] = ()
     ) -> int:
-        """Return the number of obstacles on a carrier's axes, before space is added for the heads of studs."""
+        """Return the number of obstacles on the axes of a carrier, if no space is reserved for the heads of studs."""
         every = [*self.stack.discs, *(plate.disc for plate in plates or way.plates)]
         if not carried:
             return 0
@@ -303,7 +306,7 @@ class FramePlan:
 
     @cached_property
     def turning(self) -> tuple[TurningPlate, ...]:
-        """Plates of carriers and discs of rings, at the heights of the layout."""
+        """Plates of carriers and discs of rings, at their heights in the layout."""
         return tuple(plate for seat in self.choice.seats for plate in seat.plates)
 
     @cached_property
@@ -318,7 +321,7 @@ class FramePlan:
 
     @cached_property
     def discs(self) -> tuple[StackDisc, ...]:
-        """Wheels and turning plates at heights as built."""
+        """Wheels and turning plates as discs, at their heights as built."""
         rises = [(disc, self.heights.shift(disc.middle)) for disc in self.stack.discs]
         faces = [(plate.disc, *self.heights.plates[plate.disc.name]) for plate in self.turning]
         faces = [*((disc, disc.low + rise, disc.high + rise) for disc, rise in rises), *faces]
@@ -326,8 +329,8 @@ class FramePlan:
 
     @cached_property
     def columns(self) -> tuple[AxisColumn, ...]:
-        """Column (arbor or stud, with pipes) of each axis of the frame, in a bridge if no plate can support the
-        axis.
+        """Column (arbor or stud, with pipes) of each axis of the frame. It is supported by a bridge if no plate can
+        support the axis.
         """
         found = [best_column(axis.columns(self.places)) for axis in self._built_axes(self.bridge)]
         if self.bridge is None:
@@ -336,7 +339,7 @@ class FramePlan:
         return tuple(other if one.hit and not other.hit else one for one, other in zip(found, bridged, strict=True))
 
     def members_of(self, link: str | None) -> list[tuple[AxisColumn, ColumnMember]]:
-        """Return arbors and pipes of a link on axes of the frame, each with its column."""
+        """Return the arbors and pipes of a link on axes of the frame, each with the column that contains it."""
         return [(column, each) for column in self.columns for each in column.members if each.link == link]
 
     @cached_property
@@ -344,7 +347,7 @@ class FramePlan:
         """Heights of the faces of a plate beyond all wheels on one side [mm], which supports an axis that the frame
         plates cannot support.
 
-        It is None if no axis needs a bridge, or if no bridge supports such an axis.
+        The value is None if no axis needs a bridge, or if no bridge can support the axis.
         """
         blocked = [axis for axis in self._built_axes(None) if best_column(axis.columns(self.places)).hit]
         low, high = (end(face for disc in self.discs for face in (disc.low, disc.high)) for end in (min, max))
@@ -371,7 +374,7 @@ class FramePlan:
 
     @cached_property
     def carried(self) -> dict[str, AxisColumn]:
-        """Column (stud, with pipes) of each carried axis."""
+        """Column (stud, with pipes) of each carried axis, by axis."""
         named = {disc.name: disc for disc in self.discs}
         found: dict[str, AxisColumn] = {}
         for seat in self.choice.seats:
@@ -384,29 +387,31 @@ class FramePlan:
         return found
 
     def seat_of(self, carrier: str) -> str:
-        """Return the wheel or plate on which a carrier carries its axes, or its pins."""
+        """Return the name of the wheel or plate on which a carrier carries its axes or its pins."""
         return next(seat.seat for seat in self.choice.seats if seat.link == carrier and seat.is_bearing)
 
     @property
     def plated_pins(self) -> dict[str, str]:
-        """Plate of each coupling whose pins are fixed in a turning plate."""
+        """Name of the turning plate in which the pins of a coupling are fixed, by coupling."""
         bearing = {seat.link for seat in self.choice.seats if seat.is_bearing}
         circles = self.stack.pin_circles.values()
         return {each.name: self.seat_of(each.link) for each in circles if each.link in bearing}
 
     @cached_property
     def all_columns(self) -> tuple[AxisColumn, ...]:
-        """Columns (arbor or stud, with pipes) of axes of the frame, then of carried axes."""
+        """Columns (arbor or stud, with pipes) of the axes of the frame, followed by those of the carried axes."""
         return *self.columns, *self.carried.values()
 
     @cached_property
     def members(self) -> dict[str, ColumnMember]:
-        """Arbor or pipe of each wheel, and of each turning plate."""
+        """Arbor or pipe on which each wheel and each turning plate is mounted, by name of the wheel or plate."""
         return {disc.name: each for column in self.all_columns for each in column.members for disc in each.discs}
 
     @cached_property
     def cut(self) -> frozenset[str]:
-        """Pinions cut from the solid arbor, because too little material is between their roots and the arbor."""
+        """Names of the pinions that are cut from the solid arbor, because there is too little material between their
+        roots and the arbor.
+        """
         wheels = self.stack.layout.wheels
         return frozenset(
             disc.name
@@ -418,7 +423,7 @@ class FramePlan:
 
     @cached_property
     def bores(self) -> dict[str, float]:
-        """Diameter of each wheel's and turning plate's hole [mm], 0 for a pinion cut from a solid arbor."""
+        """Diameter of the hole in each wheel and turning plate [mm], by name; 0 for a pinion cut from a solid arbor."""
         found = {}
         for name, member in self.members.items():
             found[name] = member.inner if name in self.cut else member.outer + self.process.press
@@ -429,16 +434,20 @@ class FramePlan:
 
     @cached_property
     def layout(self) -> Layout:
-        """Layout with wheels moved along the plates' normal, and wheels of crossing axes moved with their mates."""
+        """Layout in which wheels are moved along the normal of the plates to their heights as built. Wheels on crossing
+        axes are moved together with their mates.
+        """
         return self.stack.raised(self.heights.shift)
 
     @cached_property
     def wheels_across(self) -> tuple[AcrossWheel, ...]:
-        """Wheels that are not upright, at their positions as built."""
+        """Wheels on axes that are not perpendicular to the plates, at their positions as built."""
         return replace(self.stack, layout=self.layout).across
 
     def across(self, low: float, high: float) -> list[tuple[Point, float]]:
-        """Return circles that contain the wheels that are not upright between two heights."""
+        """Return circles that contain the wheels that are not upright between two heights, each as centre and radius
+        [mm].
+        """
         return [circle for wheel in self.wheels_across if wheel.is_between(low, high) for circle in wheel.circles]
 
     @cached_property
@@ -488,7 +497,9 @@ _ROOM = 4.0  # mm of a disc beyond all others on its axis, for a bar
 def arm_seats(
     stack: FrameStack, column: AxisColumn, ends: Mapping[str, tuple[int, int]], slab_gaps: Sequence[float]
 ) -> Iterator[CarrierSeat]:
-    """Yield arms beyond all wheels for links that extend to a dial and cannot be nested; each is connected by a bar."""
+    """Yield the seats of arms beyond all wheels, for links that extend to a dial and cannot be nested. Each arm is
+    connected to its link by a bar.
+    """
     for link in column.tangled or ():
         below, above = ends.get(link, (0, 0))
         about = [disc for disc in stack.discs if disc.axis == column.axis and disc.hub]
@@ -503,7 +514,9 @@ def arm_seats(
 
 
 def flange_seats(stack: FrameStack, slab_gaps: Sequence[float]) -> Iterator[list[CarrierSeat]]:
-    """Yield the seats of a flange, below or above all wheels, for each shaft that only has brakes or clutches."""
+    """Yield the possible seats of a flange, below or above all wheels, for each shaft that only has brakes or
+    clutches.
+    """
     train = stack.train
     held = {link for each in train.declaration.clutches.values() for link in each.locks or (each.fixes,)}
     bearing = {axis.carrier for axis in stack.layout.axes.values()}
@@ -527,13 +540,15 @@ class StackHeights:
     """Heights of all parts as built, with plates inserted into the stack of the layout."""
 
     starts: tuple[float, ...]
-    """Lower face of each slab in the layout [mm]; `shifts` are the distances by which the slabs move up [mm]."""
+    """Height of the lower face of each slab in the layout [mm]; `shifts` are the distances by which the slabs are moved
+    up [mm].
+    """
     shifts: tuple[float, ...]
     places: FramePlaces
     plates: dict[str, tuple[float, float]]
 
     def shift(self, height: float) -> float:
-        """Return the distance by which a part at a given height moves up [mm]."""
+        """Return the distance by which a part at a given height in the layout is moved up [mm]."""
         # a part on the lower face of a slab moves with the slab, despite rounding errors
         return self.shifts[max(bisect_right(self.starts, height + 1e-6) - 1, 0)]
 
@@ -541,7 +556,7 @@ class StackHeights:
 def stack_up(
     taken: Sequence[tuple[float, float]], places: FramePlaces, turning: Sequence[TurningPlate], thickness: float
 ) -> StackHeights:
-    """Return the heights as built: plates are inserted between slabs of wheels, and the lowest slab stays in place."""
+    """Return the heights as built. Plates are inserted between slabs of wheels, and the lowest slab is not moved."""
     rows = [(low, high - low, BETWEEN, ("slab", str(at))) for at, (low, high) in enumerate(taken)]
     rows += [(each.disc.middle, thickness, BETWEEN, ("turning", each.disc.name)) for each in turning]
     rows += [

@@ -29,7 +29,7 @@ _BLADE = 0.05  # mm: minimum web between holes
 
 @dataclass(frozen=True, slots=True)
 class Hole:
-    """Round hole: its purpose, its centre in the stack, and its diameter [mm]."""
+    """Round hole: its purpose, its centre in the coordinates of the stack [mm], and its diameter [mm]."""
 
     name: str
     at: Point
@@ -43,16 +43,16 @@ class FlatPlate:
     link: str
     name: str
     outline: Contour
-    """Edge of the plate, in the coordinates of the stack [mm]."""
+    """Edge of the plate in the coordinates of the stack [mm]."""
     holes: tuple[Hole, ...]
     low: float
     """Height of the plate's lower face along the normal [mm]."""
     high: float
     """Height of the plate's upper face along the normal [mm]."""
     at: Point = (0.0, 0.0)
-    """Origin of the coordinates of the plate [mm]."""
+    """Origin of the coordinates of the plate, in the coordinates of the stack [mm]."""
     windows: tuple[Contour, ...] = ()
-    """Windows for crossing wheels and for brackets [mm]."""
+    """Openings for crossing wheels and for brackets [mm]."""
 
     @property
     def contours(self) -> tuple[Contour, ...]:
@@ -63,7 +63,9 @@ class FlatPlate:
 
 
 def _windows(eccentric: Eccentric, bore: float) -> Iterator[Hole]:
-    """Yield six or more holes in a wide wave generator between its lobes, around a hole of the diameter `bore` [mm]."""
+    """Yield six or more holes between the lobes of a wide wave generator, around a central hole of the diameter `bore`
+    [mm].
+    """
     wave, radius = eccentric.wave, eccentric.radius
     if wave is None or radius < _WIDE * bore:
         return
@@ -83,9 +85,9 @@ class FramePlates:
 
     plan: FramePlan
     feet: tuple[TurnedPart, ...] = ()
-    """Feet of dials, and the cock of a pendulum, each in one of the plates."""
+    """Feet of dials and the cock of a pendulum. Each is fixed in one of the plates."""
     mortises: Mapping[str, Sequence[Passage]] = field(default_factory=dict)
-    """Mortises of brackets within the outline of a plate, by the name of the plate (back or front)."""
+    """Mortises for brackets within the outline of a plate, by the name of the plate (back or front)."""
     standing: tuple[StandingPins, ...] = ()
     barrel: Barrel | None = None
     """Barrel from which a weight hangs; None for a train without a weight."""
@@ -102,15 +104,15 @@ class FramePlates:
 
     @cached_property
     def circles(self) -> list[tuple[Point, float]]:
-        """Circles that contain the parts that turn between the plates, in all positions of carriers, as centre and
-        radius [mm].
+        """Circles that contain the parts that turn between the plates, for all positions of carriers, each as centre
+        and radius [mm].
         """
         low, high = self.plan.places.back[0], self.plan.places.front[1]
         return [swept_circle(disc) for disc in self.plan.discs if low < disc.middle < high]
 
     @cached_property
     def pillars(self) -> list[Point]:
-        """Centres of the pillars."""
+        """Centres of the pillars in the coordinates of the stack [mm]."""
         places = self.plan.places
         across = self.plan.across(places.back[0], places.front[1])
         axes = [column.at for column in self.plan.columns]
@@ -124,7 +126,7 @@ class FramePlates:
 
     @cached_property
     def bridge_pillars(self) -> list[Point]:
-        """Centres of the pillars of a bridge, around all axes that extend into it."""
+        """Centres of the pillars of a bridge, around all axes that extend into the bridge [mm]."""
         bridge = self.plan.bridge
         if bridge is None:
             return []
@@ -171,7 +173,9 @@ class FramePlates:
 
     @cached_property
     def sides(self) -> Mapping[str, tuple[float, float]]:
-        """Faces of the plates by name. The front plate is the plate towards the dials or the viewer."""
+        """Heights of the faces of the plates by name [mm]. The front plate is the plate nearer to the dials or the
+        viewer.
+        """
         places, outside = self.plan.places, self.plan.choice.outside or self.plan.stack.layout.front
         names = ("back", "front") if outside > 0 else ("front", "back")
         return dict(zip(names, (places.back, places.front), strict=True))
@@ -181,7 +185,7 @@ class FramePlates:
         return [*own, *self._disjoint(self._bearings(faces), own)]
 
     def _tenon_holes(self, faces: tuple[float, float]) -> list[Hole]:
-        """Return the holes of pillars, and of posts, feet and pins that pass through a plate."""
+        """Return the holes for pillars, and for the posts, feet and pins that pass through a plate."""
         press = self.plan.process.press
         pillars = [] if faces == self.plan.bridge else self.pillars
         if faces in (self.plan.bridge, self.plan.bridged_plate):
@@ -199,7 +203,9 @@ class FramePlates:
         return [hole for column in self.plan.columns if (hole := self._bearing(column, faces))]
 
     def _bearing(self, column: AxisColumn, faces: tuple[float, float]) -> Hole | None:
-        """Return the hole in a plate that supports an axis or lets it pass; None if the plate has no such hole."""
+        """Return the hole in a plate that supports the arbor of an axis or lets it pass; None if the plate has no such
+        hole.
+        """
         process = self.plan.process
         middle = sum(faces) / 2
         passing = [
@@ -219,8 +225,8 @@ class FramePlates:
         return Hole(column.axis, column.at, column.core + process.press) if own == faces else None
 
     def seat_holes(self, seat: str) -> list[Hole]:
-        """Return the holes for studs, posts, pins and eccentrics in a wheel or plate that carries axes, but not the
-        hole of its hub.
+        """Return the holes for studs, posts, pins and eccentrics in a wheel or plate that carries axes. The hole for
+        its own arbor is not included.
         """
         return [*self._disjoint(self._seat_holes(seat), self._hub(seat)), *self._eccentric_holes(seat)]
 
@@ -236,7 +242,7 @@ class FramePlates:
         return [] if member is None else [Hole("hub", next(at), self.plan.bores[seat])]
 
     def _disjoint(self, holes: Iterable[Hole], taken: Sequence[Hole]) -> list[Hole]:
-        """Return the holes that do not intersect an earlier hole."""
+        """Return the holes that intersect neither an earlier hole nor one of the holes in `taken`."""
         found: list[Hole] = []
         for hole in holes:
             if not any(_meet(hole, other) for other in (*taken, *found)):
@@ -306,7 +312,7 @@ class FramePlates:
         return ring_posts(self.plan)
 
     def problems(self) -> Iterator[Problem]:
-        """Yield problems with holes that would intersect each other, and with posts that collide with wheels."""
+        """Yield problems with holes that would intersect, and with posts that collide with wheels."""
         for side, faces in self.sides.items():
             yield from self._missing_holes(f"the {side} plate", self._bearings(faces), self._tenon_holes(faces))
         for seat in self.plan.choice.seats:
@@ -324,7 +330,7 @@ class FramePlates:
 
 
 def _box(points: Sequence[Point]) -> list[Point]:
-    """Return the corners of the upright bounding rectangle of points, because clocks have rectangular plates."""
+    """Return the corners of the upright bounding rectangle of points. Clocks have rectangular plates."""
     (left, right), (low, high) = ((min(values), max(values)) for values in zip(*points, strict=True))
     return [(left, low), (right, low), (right, high), (left, high)]
 

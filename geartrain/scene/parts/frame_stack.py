@@ -1,6 +1,6 @@
 """Stack of a frame and its carriers: axes perpendicular to the plates, with their wheels as discs.
 
-The stack includes the eccentrics on which wheels turn, and the pins in plates that work in round holes.
+The stack includes the eccentrics on which wheels turn, and the pins in plates that move in round holes.
 """
 
 from __future__ import annotations
@@ -55,21 +55,23 @@ _RIM = 2.0  # modules of rim outside the teeth of a ring without a flat shape
 
 @dataclass(frozen=True, slots=True)
 class AcrossWheel:
-    """Wheel about an axis that is not upright: the heights between which it extends, and circles that contain it."""
+    """Wheel on an axis that is not upright: the heights between which it extends, and circles that contain it."""
 
     name: str
     low: float
     high: float
     circles: tuple[tuple[Point, float], ...]
     section: tuple[Point, Point, float, float, float] | None = None
-    """Section of a wheel that the frame carries, with its axis perpendicular to the normal; None for other wheels.
+    """Section of a wheel on an axis of the frame that is perpendicular to the normal; None for other wheels.
 
     The items are: centre in the plane of the stack, direction of the axis in that plane, height, radius, and half the
     thickness of the wheel [mm].
     """
 
     def passage(self, faces: tuple[float, float]) -> Passage | None:
-        """Return the wheel's passage through a plate; None if it does not meet the plate or has no section."""
+        """Return the passage that the wheel requires in a plate; None if the wheel does not intersect the plate or has
+        no section.
+        """
         if self.section is None:
             return None
         (x, y), (u, v), height, reach, half = self.section
@@ -84,7 +86,9 @@ class AcrossWheel:
 
 
 def find_normal(train: GearTrain, layout: Layout) -> Vector | None:
-    """Return the axis direction of most wheels that the frame carries; None if it carries no wheel."""
+    """Return the direction of the axes on which most wheels of the frame are mounted; None if the frame carries no
+    wheel.
+    """
     count: Counter[Vector] = Counter()
     for place in layout.wheels.values():
         axis = layout.axes[place.axis]
@@ -96,8 +100,8 @@ def find_normal(train: GearTrain, layout: Layout) -> Vector | None:
 
 @dataclass(frozen=True)
 class FrameStack:
-    """Train with its positions, in plan view of its plates; `core` is the diameter of all arbors [mm], if it is
-    given.
+    """Train with its positions in the plan view of its plates. `core` is the diameter of all arbors [mm]; None if it
+    may be chosen.
     """
 
     train: GearTrain
@@ -114,7 +118,9 @@ class FrameStack:
 
     @cached_property
     def turn(self) -> Floats:
-        """Rotation matrix whose columns are the directions right and up and the normal of the stack. Shape (3, 3)."""
+        """Rotation matrix, shape (3, 3). Its columns are the rightward direction, the upward direction and the normal
+        of the stack.
+        """
         return np.column_stack([*basis(self.normal), self.normal])
 
     def in_space(self, at: Point, height: float = 0.0) -> Vector:
@@ -124,7 +130,7 @@ class FrameStack:
 
     @cached_property
     def axes(self) -> dict[str, AxisPlace]:
-        """Axes of the frame perpendicular to its plates."""
+        """Axes of the frame that are perpendicular to its plates, by label."""
         return {
             label: axis
             for label, axis in self.layout.axes.items()
@@ -136,13 +142,13 @@ class FrameStack:
         return abs(abs(dot(axis.direction, self.normal)) - 1) < _PARALLEL
 
     def flat(self, point: Vector) -> Point:
-        """Return the coordinates of a point in space in plan view of the plates [mm]."""
+        """Return the coordinates of a point in the plan view of the plates [mm]."""
         right, up = basis(self.normal)
         return dot(point, right), dot(point, up)
 
     @cached_property
     def carried(self) -> dict[str, CarriedAxis]:
-        """Axes that are carried by a carrier on an axis of the frame."""
+        """Axes that are carried by a carrier which is itself on an axis of the frame, by label."""
         return {
             label: CarriedAxis(
                 label,
@@ -158,7 +164,9 @@ class FrameStack:
         }
 
     def carrier_axis(self, axis: AxisPlace) -> str | None:
-        """Return the axis of the frame about which an upright axis is carried; None for other axes."""
+        """Return the axis of the frame about which an upright axis is carried; None if the axis is not carried in this
+        way.
+        """
         own = (
             None
             if axis.carrier == self.frame or not self.is_upright(axis)
@@ -168,12 +176,12 @@ class FrameStack:
 
     @cached_property
     def discs(self) -> tuple[StackDisc, ...]:
-        """Wheels on axes of the frame and of its carriers, and eccentrics."""
+        """Discs of the wheels on axes of the frame and of its carriers, and of the eccentrics."""
         return tuple(on_eccentrics(self.wheel_discs, self.eccentrics))
 
     @cached_property
     def wheel_discs(self) -> tuple[StackDisc, ...]:
-        """Wheels on axes of the frame and of its carriers."""
+        """Discs of the wheels on axes of the frame and of its carriers."""
         return tuple(self._discs())
 
     def _discs(self) -> Iterator[StackDisc]:
@@ -212,25 +220,27 @@ class FrameStack:
 
     @cached_property
     def on_eccentrics(self) -> frozenset[str]:
-        """Axes whose wheels turn on eccentrics."""
+        """Labels of the axes whose wheels turn on eccentrics."""
         return frozenset(each.carried for each in self.eccentrics)
 
     @cached_property
     def pin_circles(self) -> dict[str, PinCircle]:
-        """Circles of pins in round holes, by coupling, if no wheel of the link of the pins is wide enough for them."""
+        """Circles of pins in round holes, by coupling. A circle is included only if the link of its pins has no wheel
+        of sufficient size.
+        """
         return {each.name: each for each in find_pin_circles(self)}
 
     @cached_property
     def cups(self) -> tuple[FlexibleCup, ...]:
-        """Walls that connect flexible wheels to other links."""
+        """Cup walls that connect flexible wheels to other links."""
         return tuple(find_cups(self))
 
     @property
     def ends(self) -> dict[str, tuple[bool, bool]]:
-        """Link -> (below, above): True where the link's shaft extends out of the mechanism.
+        """Flags (below, above) that are True if the shaft of a link extends out of the mechanism at that end, by link.
 
-        In a cycloidal or strain wave drive, the eccentric shaft extends below, and the link of pins or cup above. With
-        parallel cranks, their carrier extends below, and wheels about its axis above.
+        In a cycloidal or strain wave drive, the eccentric shaft extends below, and the link of the pins or of the cup
+        extends above. With parallel cranks, their carrier extends below, and the wheels about its axis extend above.
         """
         # eccentrics on the main axis: a cycloidal or strain wave drive; on carried axes: parallel cranks
         inner = {each.link for each in self.eccentrics if each.axis in self.axes}
@@ -244,8 +254,8 @@ class FrameStack:
 
     @cached_property
     def tied(self) -> dict[str, tuple[float, float]]:
-        """Heights between which a plate would separate wheels from their mates [mm], by axis of wheels that are not
-        upright.
+        """Heights between which a plate would separate wheels that are not upright from their mates [mm], by axis of
+        these wheels.
         """
         heights: dict[str, list[float]] = {}
         upright = {disc.name: disc for disc in self.discs}
@@ -258,7 +268,7 @@ class FrameStack:
 
     @cached_property
     def across(self) -> tuple[AcrossWheel, ...]:
-        """Wheels that are not upright."""
+        """Wheels on axes that are not perpendicular to the plates."""
         upright = {disc.name for disc in self.discs}
         return tuple(self._across(place) for name, place in self.layout.wheels.items() if name not in upright)
 
@@ -285,8 +295,8 @@ class FrameStack:
         return AcrossWheel(place.wheel, low, high, circles, section)
 
     def raised(self, shift: Callable[[float], float]) -> Layout:
-        """Return the layout with wheels shifted along the normal; wheels of axes that are not upright move with their
-        mates.
+        """Return the layout with each wheel shifted along the normal of the stack. Wheels whose axes are not parallel
+        to this normal are shifted together with the wheels that they mesh with.
 
         shift   function of the height [mm] that returns the shift [mm]
         """
@@ -304,7 +314,7 @@ class FrameStack:
         return replace(old, wheels=wheels, axes=axes)
 
     def with_head_room(self) -> FrameStack:
-        """Return the stack with space for heads of studs beside the wheels of carriers, and for washers."""
+        """Return the stack with space reserved for heads of studs next to the wheels of carriers, and for washers."""
         taken = slabs(self.wheel_discs, list(self.tied.values())) if self.carried or self.eccentrics else []
         if not taken:
             return self
@@ -334,7 +344,7 @@ class FrameStack:
 
 
 def rim(blank: Blank) -> float:
-    """Return the outside radius of a ring, or of a lantern's discs [mm]."""
+    """Return the outer radius of a ring, or of the discs of a lantern pinion [mm]."""
     return float(abs(blank.contours[0].points).max())
 
 
@@ -353,7 +363,7 @@ _BESIDE = 1.0  # mm of clearance between the central hole of a wheel and an arbo
 
 
 def find_eccentrics(stack: FrameStack) -> Iterator[Eccentric]:
-    """Yield the eccentrics of a stack; eccentrics of the same name are numbered from the second one.
+    """Yield the eccentrics of a stack. If several have the same name, numbers are added from the second eccentric on.
 
     A wheel whose carried axis is close to the axis of its carrier turns on an eccentric of the carrier. If the carrier
     represents parallel cranks, each crank has an eccentric.
@@ -380,7 +390,7 @@ def find_eccentrics(stack: FrameStack) -> Iterator[Eccentric]:
 
 
 def _wave(stack: FrameStack, bent: BentWheel, label: str, at: Point) -> Eccentric:
-    """Return the generator of a strain wave, as an eccentric."""
+    """Return the wave generator of a strain wave gear as an eccentric."""
     (x, y), blank = _place(stack, label), stack.blanks[bent.wheel]
     thin = wall(blank.pitch_radius)
     wave = Wave(size(bent.offset), bent.lobes, thin, atan2(y - at[1], x - at[0]), CUP * 2 * blank.pitch_radius)
@@ -401,13 +411,15 @@ def _on_arbor(stack: FrameStack, link: str, own: str, label: str, discs: Sequenc
 
 
 def _arbor(stack: FrameStack, link: str) -> float | None:
-    """Return the diameter of the arbor of a link [mm], as requested or as declared; None if it may be chosen."""
+    """Return the requested or declared diameter of the arbor of a link [mm]; None if it may be chosen."""
     declared = stack.train.declaration.links[link].arbor
     return stack.core if stack.core is not None or declared is None else 1000 * declared.diameter.si
 
 
 def _cranks(stack: FrameStack, link: str, own: str) -> Iterator[tuple[str, str, str]]:
-    """Yield the link, axis and coupling of each parallel crank that a link represents, carried about its axis."""
+    """Yield the link, the axis and the coupling of each parallel crank that a link represents and that is carried about
+    the axis of this link.
+    """
     tree = stack.train.kinematics.tree
     for coupling in stack.train.declaration.pin_couplings:
         pair = coupling.pin, coupling.slot
@@ -435,7 +447,7 @@ def _on_cranks(
 
 
 def find_cups(stack: FrameStack) -> Iterator[FlexibleCup]:
-    """Yield the walls that connect flexible wheels to links on axes of the frame."""
+    """Yield the cup walls that connect flexible wheels to links on axes of the frame."""
     declared, tree = stack.train.declaration, stack.train.kinematics.tree
     for coupling in (each for each in declared.pin_couplings if isinstance(each, Parallel)):
         for cup, thin in ((coupling.pin, coupling.slot), (coupling.slot, coupling.pin)):
@@ -449,7 +461,7 @@ def find_cups(stack: FrameStack) -> Iterator[FlexibleCup]:
 
 
 def find_pin_circles(stack: FrameStack) -> Iterator[PinCircle]:
-    """Yield the circles of pins in round holes for which no wheel of the link of the pins is wide enough."""
+    """Yield the circles of pins in round holes for which the link of the pins has no wheel of sufficient size."""
     for declared in stack.train.declaration.pin_couplings:
         places = [
             stack.layout.axes.get(stack.train.kinematics.tree.axis(link) or "")

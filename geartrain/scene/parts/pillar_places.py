@@ -1,7 +1,7 @@
-"""Positions of pillars and posts.
+"""Positions of the pillars of a frame and of the posts that hold rings.
 
-Pillars are outside of all parts that turn between the plates, and surround all axes. Posts hold rings, in a plate of
-the frame or in the disc of a turning ring.
+Pillars are outside of all parts that turn between the plates, and surround all axes. Posts connect a ring to a plate
+of the frame, or to the disc of a turning ring.
 """
 
 from __future__ import annotations
@@ -40,13 +40,13 @@ def pillar_places(
 ) -> list[Point]:
     """Return four, three or five positions of pillars [mm], in this order of preference.
 
-    Their polygon contains all axes and has the shortest perimeter. If no such polygon exists, the result is up to five
-    positions that are far apart.
+    The polygon of the positions contains all axes and has the shortest perimeter. If no such polygon exists, the result
+    contains up to five positions that are far apart.
 
-    In each direction from the middle of the axes the candidate is the innermost position with free space outwards.
-    Candidates that do not satisfy `suits` are used only if too few do. About one axis many polygons have nearly the
-    same perimeter, some with three positions at one end and one at the other. With `even` the positions surround a
-    single axis evenly, wider than high.
+    In each direction from the middle of the axes, the candidate is the innermost position with free space outwards.
+    Candidates that do not satisfy `suits` are used only if too few candidates satisfy it. For a single axis, many
+    polygons have nearly the same perimeter, some of them with three positions at one end and one at the other end. If
+    `even` is True, the positions surround a single axis evenly, and their polygon is wider than high.
     """
     points = np.array(axes, dtype=float)
     middle = (points.min(axis=0) + points.max(axis=0)) / 2
@@ -64,7 +64,9 @@ def pillar_places(
 
 
 def far_apart(spots: Sequence[Point], first: Point, count: int) -> list[Point]:
-    """Return the first position, then repeatedly the position farthest from the chosen ones (greedy dispersion)."""
+    """Return `count` positions: the first position, then repeatedly the position that is farthest from those already
+    chosen (greedy dispersion).
+    """
     taken = [first]
     while len(taken) < min(count, len(set(spots))):
         taken.append(max(spots, key=lambda each: min(dist(each, other) for other in taken)))
@@ -72,7 +74,7 @@ def far_apart(spots: Sequence[Point], first: Point, count: int) -> list[Point]:
 
 
 def _free(middle: Floats, angle: float, blocked: Sequence[tuple[Floats, float]]) -> Floats:
-    """Return the point of a ray just beyond the last circle that the ray intersects [mm]."""
+    """Return the point on a ray from `middle` that is just beyond the last circle that the ray intersects [mm]."""
     along = np.array([cos(angle), sin(angle)])
     far = 0.0
     for centre, reach in blocked:
@@ -84,8 +86,8 @@ def _free(middle: Floats, angle: float, blocked: Sequence[tuple[Floats, float]])
 
 
 def _around(tried: Floats, axes: Floats, count: int, minimum_edge: float, even: bool) -> Floats | None:
-    """Return the shortest polygon (count, 2) of candidates around all axes, relative to their middle; None if none
-    exists.
+    """Return the polygon of `count` candidates with the shortest perimeter around all axes, shape (count, 2), relative
+    to the middle of the axes; None if none exists.
     """
     best, minimum = None, np.inf
     steps = tried[None, :, :] - tried[:, None, :]
@@ -107,7 +109,9 @@ def _around(tried: Floats, axes: Floats, count: int, minimum_edge: float, even: 
 
 
 def clear_of(at: Point, circles: Sequence[tuple[Point, float]]) -> float:
-    """Return the minimum distance of a point from circles [mm], negative inside a circle; infinite without circles."""
+    """Return the minimum distance from a point to the circles [mm]. It is negative inside a circle, and infinite if
+    there are no circles.
+    """
     return min((dist(at, centre) - reach for centre, reach in circles), default=np.inf)
 
 
@@ -115,15 +119,15 @@ def clear_of(at: Point, circles: Sequence[tuple[Point, float]]) -> float:
 
 
 TENON = 0.6
-"""Radius of the end of a pillar or post in a plate, divided by the radius of the pillar or post."""
+"""Radius of the tenon of a pillar or post, which is fixed in a plate, divided by the radius of the pillar or post."""
 _POSTS, _TRIED = 3, 72
 _POST_WIDEST = 2.0  # mm: maximum radius of a post
 _RIM_PART = 0.3  # radius of the end of a post divided by the width of a ring's rim
 
 
 def ring_posts(plan: FramePlan) -> tuple[TurnedPart, ...]:
-    """Return the parts that hold all rings of a plan: posts in a frame plate, and drums between turning rings and their
-    discs.
+    """Return the parts that hold all rings of a plan: posts in a frame plate, and drums that connect turning rings to
+    their discs.
     """
     found: list[TurnedPart] = []
     discs = {plate.ring: plate.disc.name for plate in plan.turning if plate.ring}
@@ -139,17 +143,17 @@ def ring_posts(plan: FramePlan) -> tuple[TurnedPart, ...]:
 
 
 def nearer_plate(plan: FramePlan, height: float) -> tuple[float, float]:
-    """Return the faces of the frame plate whose middle is nearer to a height [mm]."""
+    """Return the heights of the faces of the frame plate whose middle is nearer to a height [mm]."""
     return min((plan.places.back, plan.places.front), key=lambda each: abs(sum(each) / 2 - height))
 
 
 def _between(ring: StackDisc, plate: tuple[float, float]) -> tuple[float, float]:
-    """Return the faces of a ring and of a plate that are opposite to each other, as heights in ascending order [mm]."""
+    """Return the heights of the facing faces of a ring and a plate, in ascending order [mm]."""
     return (plate[1], ring.low) if plate[1] < ring.low else (ring.high, plate[0])
 
 
 def _posts(plan: FramePlan, ring: StackDisc, plate: tuple[float, float]) -> Iterator[TurnedPart]:
-    """Yield the posts of one ring in a frame plate, placed with clearance to other parts."""
+    """Yield the posts of one ring in a frame plate, placed with clearance from other parts."""
     radius = min(_RIM_PART / TENON * (ring.outer - ring.root), _POST_WIDEST)
     spots = _spots(plan, ring, plate, (ring.outer + ring.root) / 2, radius)
     low, high, inner = min(plate[0], ring.low), max(plate[1], ring.high), _between(ring, plate)
@@ -159,7 +163,9 @@ def _posts(plan: FramePlan, ring: StackDisc, plate: tuple[float, float]) -> Iter
 
 
 def _spots(plan: FramePlan, ring: StackDisc, plate: tuple[float, float], away: float, radius: float) -> list[Point]:
-    """Return three equally spaced positions on a rim with maximum clearance to arbors and parts, up to 0.5 mm."""
+    """Return three equally spaced positions on a rim. Their clearance from arbors and other parts is the maximum, up to
+    0.5 mm.
+    """
     low, high = sorted((sum(plate) / 2, ring.middle))
     between = [disc for disc in plan.discs if low < disc.middle < high and disc.name != ring.name]
     circles = [swept_circle(disc) for disc in between]
@@ -171,7 +177,7 @@ def _spots(plan: FramePlan, ring: StackDisc, plate: tuple[float, float], away: f
 
 
 def blocked_posts(plan: FramePlan, posts: Iterable[TurnedPart]) -> Iterator[Problem]:
-    """Yield a problem for each post in the frame that collides with a wheel."""
+    """Yield a problem for each post in the frame that would collide with a wheel."""
     low, high = plan.places.back[0], plan.places.front[1]
     for post in (each for each in posts if each.link == plan.stack.frame):
         inside = [disc for disc in plan.discs if post.ends[0] < disc.low and disc.high < post.ends[1]]

@@ -15,7 +15,7 @@ from geartrain.errors import Problem, QuestionError, suggest
 class Process:
     """Manufacturing process with its kerf and fits [mm].
 
-    `web` is the minimum width of material between two cuts, and `wall` the minimum thickness of a pipe's wall.
+    `web` is the minimum width of material between two cuts, and `wall` the minimum wall thickness of a pipe.
     """
 
     name: str
@@ -31,7 +31,7 @@ class Process:
     """Circumferential backlash at the pitch circle [modules]."""
     wall: float
     joint: str
-    """Method by which wheels are fixed on arbors."""
+    """Method by which wheels are fixed on arbors, as text."""
 
 
 PROCESSES = {
@@ -50,7 +50,9 @@ USUAL = "hand"
 
 
 def process_named(name: str | None) -> Process:
-    """Return the process of a name, or the default process for None; raise `QuestionError` if it is unknown."""
+    """Return the process with a given name, or the default process if the name is None; raise `QuestionError` if the
+    name is unknown.
+    """
     wanted = USUAL if name is None else name
     if wanted not in PROCESSES:
         what, fix = f"'{wanted}' is not a manufacturing process", suggest(wanted, PROCESSES)

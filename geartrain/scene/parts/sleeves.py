@@ -1,6 +1,6 @@
 """Rings on arbors and pipes: spacers between two wheels, collets that fix wheels, and the barrel of a weight.
 
-The barrel is a drum beside the widest wheel of the arbor at which power enters.
+The barrel is a drum next to the widest wheel of the arbor at which power enters.
 """
 
 from __future__ import annotations
@@ -27,11 +27,11 @@ _FREE = 0.3  # mm between a collet and the next turning part
 
 
 def sleeves(plan: FramePlan, held: str = "") -> Iterator[TurnedPart]:
-    """Yield the spacers and collets of all arbors and pipes of a plan, where there is space.
+    """Yield the spacers and collets of all arbors and pipes of a plan, if there is space for them.
 
-    Links with pins and slots have none, because pins and slots work beside the wheels.
+    Links with pins or slots have no spacers or collets, because the pins move next to the wheels.
 
-    held   a wheel that needs no collet, because a barrel is fixed to it
+    held   name of a wheel that needs no collet because a barrel is fixed to it
     """
     coupled = {link for each in plan.stack.train.declaration.pin_couplings for link in each.ends}
     for column in plan.all_columns:
@@ -44,7 +44,8 @@ def sleeves(plan: FramePlan, held: str = "") -> Iterator[TurnedPart]:
 def free_beside(
     plan: FramePlan, column: AxisColumn, member: ColumnMember, name: str, size: tuple[float, float]
 ) -> tuple[float, float] | None:
-    """Return the ends, next to a wheel, of a drum that has clearance to all other parts [mm]; None if it does not fit.
+    """Return the heights of the ends of a drum next to a wheel with clearance to all other parts [mm]; None if it does
+    not fit.
 
     size   radius and maximum length of the drum [mm]; the length is reduced to a quarter if necessary
     """
@@ -57,7 +58,9 @@ def free_beside(
 def _beside(
     disc: StackDisc, longest: float, shortest: float
 ) -> Iterator[tuple[tuple[float, float], tuple[float, float]]]:
-    """Yield the ends of rings on either side of a wheel, longest first, each with the ends of the space it needs."""
+    """Yield the ends of possible rings on either side of a wheel, longest first, each with the ends of the space that
+    the ring needs [mm].
+    """
     for part in (1.0, 0.75, 0.5, 0.25):
         length = max(part * longest, shortest)
         yield (disc.high, disc.high + length), (disc.high, disc.high + length + _FREE)
@@ -66,14 +69,16 @@ def _beside(
 
 @dataclass(frozen=True)
 class _Obstacles:
-    """Parts that limit the rings on one axis."""
+    """Parts that limit the size of rings on one axis."""
 
     plan: FramePlan
     column: AxisColumn
 
     @cached_property
     def discs(self) -> tuple[StackDisc, ...]:
-        """Discs of the train and arbors of other axes, relative to the column's axis, which may be carried."""
+        """Discs of the train, and arbors of other axes as discs, with positions relative to the axis of the column,
+        which may be carried.
+        """
         discs = *self.plan.discs, *self._rods()
         if self.column.axis in self.plan.carried:
             carrier = self.plan.stack.carried[self.column.axis].carrier
@@ -82,7 +87,7 @@ class _Obstacles:
         return discs
 
     def _rods(self) -> Iterator[StackDisc]:
-        """Yield arbors and pipes of other axes, as discs."""
+        """Yield the arbors and pipes of other axes, as discs."""
         for other in self.plan.all_columns:
             if other is not self.column:
                 for each in other.members:
@@ -93,7 +98,7 @@ class _Obstacles:
 
     @cached_property
     def walls(self) -> tuple[tuple[float, float], ...]:
-        """Heights occupied by plates of the frame, including shoulders and collars."""
+        """Heights occupied by the plates of the frame, including shoulders and collars [mm]."""
         places = [self.plan.places.back, self.plan.places.front, *([self.plan.bridge] if self.plan.bridge else [])]
         goes_on = any(crosses(each, faces) for each in self.column.members for faces in places)
         room = SHAKE + COLLAR if goes_on else SHAKE
@@ -101,12 +106,14 @@ class _Obstacles:
 
     @cached_property
     def span(self) -> tuple[float, float]:
-        """Lowest and highest face of all discs [mm]; dials are beyond this interval."""
+        """Heights of the lowest and the highest face of all discs [mm]; dials are beyond this interval."""
         faces = [face for disc in self.plan.discs for face in (disc.low, disc.high)]
         return min(faces), max(faces)
 
     def is_free(self, member: ColumnMember, low: float, high: float, radius: float) -> bool:
-        """Return True if a ring on a member between two heights has clearance to all other parts."""
+        """Return True if a ring on a member, between two heights and with a given radius, has clearance to all other
+        parts.
+        """
         if low < self.span[0] or high > self.span[1] or low < member.low or member.high < high:
             return False
         # a wider member at these heights would be a pipe around the ring
@@ -128,11 +135,11 @@ class _MemberSleeves:
 
     @cached_property
     def discs(self) -> Sequence[StackDisc]:
-        """Discs on the arbor or pipe, from the lowest."""
+        """Discs on the arbor or pipe, from the lowest to the highest."""
         return sorted(self.member.discs, key=lambda disc: disc.low)
 
     def all(self, fixed: str) -> Iterator[TurnedPart]:
-        """Yield spacers, then collets of wheels that no spacer touches."""
+        """Yield the spacers, then the collets of the wheels that no spacer touches."""
         held = {*self.around.plan.cut, fixed}
         for below, above in pairwise(self.discs):
             band = self._ring(below.high, above.low)
@@ -153,7 +160,9 @@ class _MemberSleeves:
         return None if wall is None else Band(low, high, bore + wall, bore + self.around.plan.process.press / 2)
 
     def _collet(self, disc: StackDisc) -> Band | None:
-        """Return the longest collet on either side of a wheel with clearance to turning parts; None if none fits."""
+        """Return the longest collet on either side of a wheel that has clearance to turning parts; None if no collet
+        fits.
+        """
         for faces, room in _beside(disc, _LONGEST * self.member.outer, _SHORTEST):
             if (band := self._ring(*room)) is not None:
                 return Band(*faces, band.radius, band.bore)
@@ -171,15 +180,15 @@ _LONGEST_BARREL = 10.0  # mm: maximum length of a barrel
 
 @dataclass(frozen=True, slots=True)
 class Barrel:
-    """Drum for the line of a weight, fixed to a wheel at its side; like a collet it fixes the wheel to the arbor."""
+    """Drum for the line of a weight, fixed to the side of a wheel. Like a collet, it fixes the wheel to the arbor."""
 
     wheel: str
     part: TurnedPart
 
 
 def find_barrel(plan: FramePlan, link: str | None) -> Barrel | None:
-    """Return the barrel of the link at which power enters; None if no weight or drum is declared, or if space is
-    insufficient.
+    """Return the barrel of the link at which power enters; None if no weight or drum is declared, or if there is not
+    enough space.
     """
     drive = plan.stack.train.declaration.drive
     if drive is None or drive.weight is None or drive.drum is None:

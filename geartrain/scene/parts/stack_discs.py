@@ -23,7 +23,9 @@ _SAME = 1e-6  # mm: touching faces must not overlap due to rounding errors
 
 @dataclass(frozen=True, slots=True)
 class StackDisc:
-    """Cylinder that contains a wheel or turning plate of a link, from `low` to `high` along its axis; lengths in mm."""
+    """Cylinder that contains a wheel or a turning plate of a link. It extends from `low` to `high` along its axis;
+    lengths are in mm.
+    """
 
     name: str
     link: str
@@ -35,15 +37,17 @@ class StackDisc:
     outer: float
     """Outer radius of the teeth or of the rim [mm]."""
     inner: float = 0.0
-    """Radius of the free space within a ring's teeth, or of a central hole for an eccentric [mm]; 0 for other discs."""
+    """Radius of the free space inside the teeth of a ring, or of a central hole for an eccentric [mm]; 0 for other
+    discs.
+    """
     root: float = 0.0
     """Root radius of the teeth [mm]; 0 for a plate, which does not limit the diameter of its arbor."""
     hub: bool = True
-    """True if the disc is mounted on the arbor of its link; False for a ring."""
+    """True if the disc is mounted on the arbor of its link; False if it is a ring."""
     carrier: Point | None = None
     """Position of the axis about which the disc's axis is carried [mm]; None if it is not carried."""
     apart: bool = False
-    """True for an arm that is connected to its link by an eccentric bar, past the parts between them."""
+    """True for an arm that is connected to its link by an eccentric bar, which bypasses the parts between them."""
 
     @property
     def middle(self) -> float:
@@ -53,7 +57,8 @@ class StackDisc:
     def clearance_to(self, at: Point, radius: float) -> float:
         """Return the minimum gap [mm] between the disc, at all positions of its carrier, and a fixed cylinder.
 
-        It is negative for an overlap. The cylinder has the given radius and may be inside a ring.
+        The gap is negative for an overlap. The cylinder has the given radius, and its axis is at `at`. It may be inside
+        a ring.
         """
         if self.carrier is None:
             away = dist(at, self.at)
@@ -65,7 +70,9 @@ class StackDisc:
 
 
 def slabs(discs: Iterable[StackDisc], tied: Sequence[tuple[float, float]] = ()) -> list[tuple[float, float]]:
-    """Return occupied intervals of height [mm] from the lowest, merging overlapping discs and `tied` intervals."""
+    """Return the occupied intervals of height from the lowest [mm]. Overlapping discs and the intervals in `tied` are
+    merged.
+    """
     found: list[tuple[float, float]] = []
     for low, high in sorted([*((disc.low, disc.high) for disc in discs), *tied]):
         if found and low < found[-1][1] - _SAME:
@@ -76,7 +83,7 @@ def slabs(discs: Iterable[StackDisc], tied: Sequence[tuple[float, float]] = ()) 
 
 
 def gaps(taken: Sequence[tuple[float, float]]) -> list[float]:
-    """Return the middle heights of the gaps below, between and above slabs [mm]."""
+    """Return the mid-heights of the gaps below, between and above slabs [mm]."""
     between = [(below[1] + above[0]) / 2 for below, above in pairwise(taken)]
     return [taken[0][0] - EDGE, *between, taken[-1][1] + EDGE]
 
@@ -89,7 +96,7 @@ def swept_circle(disc: StackDisc) -> tuple[Point, float]:
 
 
 def by_piece(discs: Iterable[StackDisc]) -> Mapping[tuple[str, bool], list[StackDisc]]:
-    """Return the discs by link and piece, in order; discs that are apart from their link are a separate piece."""
+    """Return the discs in order, grouped by link and piece. Discs with `apart` are a separate piece of their link."""
     found: dict[tuple[str, bool], list[StackDisc]] = {}
     for disc in discs:
         found.setdefault((disc.link, disc.apart), []).append(disc)
@@ -106,7 +113,7 @@ _WEB = 1.0  # mm: minimum web between a window and the edge, and between two win
 
 @dataclass(frozen=True, slots=True)
 class Passage:
-    """Rectangular passage in a plate, for a wheel or bracket that crosses the plate."""
+    """Rectangular passage in a plate for a wheel or bracket that crosses the plate."""
 
     middle: Point
     """Centre of the rectangle, in the coordinates of the stack [mm]."""
@@ -124,7 +131,7 @@ class Passage:
 
     @property
     def circles(self) -> list[tuple[Point, float]]:
-        """Circles in a row that cover nearly all of the passage, each as centre and radius [mm]."""
+        """Circles in a row that cover nearly all of the passage, each as a centre and a radius [mm]."""
         (x, y), (u, v), count = self.middle, self.way, ceil(self.length / self.width)
         steps = [self.length * k / count for k in range(-count, count + 1)]
         return [((x + u * step, y + v * step), self.width) for step in steps]
@@ -146,8 +153,8 @@ class Passage:
 
 
 def with_passages(edge: Contour, passages: Iterable[Passage]) -> tuple[Contour, tuple[Contour, ...]]:
-    """Return a plate's convex edge with notches, and the plate's windows; passages that would divide the plate are
-    omitted.
+    """Return the convex edge of a plate with notches, and the windows of the plate. Passages that would divide the
+    plate are omitted.
     """
     windows = []
     for each in passages:
@@ -181,15 +188,17 @@ def _is_inside(line: Floats, point: Floats) -> bool:
 
 
 def _notched(line: Floats, start: float, width: float) -> Floats:
-    """Return a closed line, counter-clockwise, with a notch beyond `start` along x and within `width` of the x axis."""
+    """Return a closed counter-clockwise line with a notch, which begins at x = `start` and includes all points up to
+    `width` from the x axis.
+    """
     (last, below), (first, above) = (_exit(line, level, start) for level in (-width, width))
     order = (first + 1 + np.arange((last - first - 1) % len(line) + 1)) % len(line)
     return np.vstack([above, line[order], below, [[start, -width], [start, width]]])
 
 
 def _exit(line: Floats, level: float, start: float) -> tuple[int, Floats]:
-    """Return the first edge beyond `start` along x that crosses the height `level`: the index of its first point, and
-    the intersection.
+    """Return the first edge of a closed line, beyond `start` along x, that crosses the height `level`: the index of the
+    first point of the edge, and the intersection.
     """
     after = np.roll(line, -1, axis=0)
     crossing = np.flatnonzero((line[:, 1] < level) != (after[:, 1] < level))
@@ -200,11 +209,11 @@ def _exit(line: Floats, level: float, start: float) -> tuple[int, Floats]:
 
 
 def clear_passages(passages: Iterable[Passage], holes: Iterable[tuple[Point, float]]) -> list[Passage]:
-    """Return the passages that do not intersect a hole, and between which a web of the plate is left.
+    """Return the passages that do not intersect a hole and are separated from each other by a web of the plate.
 
     If two passages are too close together, the earlier passage is kept.
 
-    holes   centres and radii [mm]
+    holes   centres and radii of the holes [mm]
     """
     there, found = list(holes), list[Passage]()
     for each in passages:

@@ -1,4 +1,6 @@
-"""Arbors, pipes, studs and pillars: bodies of revolution as bands of constant radius, and their solids."""
+"""Arbors, pipes, studs and pillars as bodies of revolution, which consist of bands of constant radius, and their
+solids.
+"""
 
 from __future__ import annotations
 
@@ -28,7 +30,7 @@ _SAME = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class Band:
-    """Section of a turned part between two heights along its axis, with constant outside and inside radius [mm]."""
+    """Section of a turned part between two heights along its axis, with constant outer and inner radius [mm]."""
 
     low: float
     high: float
@@ -47,15 +49,17 @@ class TurnedPart:
     at: Point
     """Position of the part's axis in the stack [mm]."""
     bands: tuple[Band, ...]
-    """Bands from the lowest to the highest. A gap between two bands is a pinion cut from the same piece."""
+    """Bands from the lowest to the highest. A gap between two bands is occupied by a pinion that is cut from the same
+    piece.
+    """
     joint: str = ""
     """Part to which this part is joined, or method of joining."""
     through: tuple[str, ...] = ()
-    """Wheels and turning plates with a hole for the part."""
+    """Names of the wheels and turning plates that have a hole for the part."""
 
     @property
     def ends(self) -> tuple[float, float]:
-        """Heights of the lowest and the highest point [mm]."""
+        """Heights of the lowest and the highest point of the part [mm]."""
         return self.bands[0].low, self.bands[-1].high
 
     @property
@@ -65,11 +69,11 @@ class TurnedPart:
 
     @property
     def volume(self) -> float:
-        """Volume of the part [mm3], without pinions that are cut from the same piece."""
+        """Volume of the part [mm3], not including pinions that are cut from the same piece."""
         return sum(pi * (band.radius**2 - band.bore**2) * (band.high - band.low) for band in self.bands)
 
     def sections(self) -> list[list[Band]]:
-        """Return the bands grouped into connected sections."""
+        """Return the bands of the part grouped into connected sections."""
         found = [[self.bands[0]]]
         for before, band in pairwise(self.bands):
             if band.low > before.high + _SAME:
@@ -78,12 +82,14 @@ class TurnedPart:
         return found
 
     def solid(self) -> Solid:
-        """Return the surface as triangles, with the axis of the part along z."""
+        """Return the surface of the part as triangles, with the axis of the part along z."""
         return joined(revolved(profile(section)) for section in self.sections())
 
 
 def profile(bands: Sequence[Band]) -> list[tuple[float, float]]:
-    """Return radius and height [mm] of the corners of half a section, counter-clockwise, without collinear corners."""
+    """Return the radius and the height of the corners of half an axial section [mm], counter-clockwise, without
+    collinear corners.
+    """
     outside = [corner for band in bands for corner in ((band.radius, band.low), (band.radius, band.high))]
     inside = [corner for band in bands[::-1] for corner in ((band.bore, band.high), (band.bore, band.low))]
     corners = [*outside, *inside]
@@ -100,7 +106,7 @@ def profile(bands: Sequence[Band]) -> list[tuple[float, float]]:
 
 
 def revolved(corners: Sequence[tuple[float, float]]) -> Solid:
-    """Return the closed surface that half a section generates by revolution about z."""
+    """Return the closed surface that half an axial section generates by revolution about z."""
     turn = 2 * pi * np.arange(SIDES) / SIDES
     rows = [np.column_stack([r * np.cos(turn), r * np.sin(turn), np.full(SIDES, height)]) for r, height in corners]
     # a corner on the axis is one vertex
@@ -110,7 +116,9 @@ def revolved(corners: Sequence[tuple[float, float]]) -> Solid:
 def column_parts(
     column: AxisColumn, places: FramePlaces, frame: str, process: Process, cut: frozenset[str]
 ) -> Iterator[TurnedPart]:
-    """Yield an axis' arbor or stud, pipes and collars; the pinions `cut` are one piece with their arbor or pipe."""
+    """Yield the arbor or stud, the pipes and the collars of an axis. Pinions in `cut` are one part with their arbor or
+    pipe.
+    """
     members = column.members
     if column.is_stud or not members or members[0].inner:
         if column.is_stud:
@@ -128,7 +136,9 @@ def column_parts(
 
 
 def rod_name(column: AxisColumn, member: ColumnMember) -> str:
-    """Return the name of an arbor or a pipe; a wheel's name distinguishes several pipes of one link on an axis."""
+    """Return the name of an arbor or a pipe. If one link has several pipes on an axis, the name includes the name of a
+    wheel.
+    """
     if not member.inner:
         return f"{member.link} arbor"
     first = next(each for each in column.members if each.link == member.link and each.inner)
@@ -157,7 +167,7 @@ def _carries(member: ColumnMember) -> str:
 def _core(
     column: AxisColumn, member: ColumnMember, places: FramePlaces, process: Process, cut: frozenset[str]
 ) -> Iterator[TurnedPart]:
-    """Yield an arbor from shoulder to shoulder, with a pivot at each plate, or a collar where it passes through the
+    """Yield an arbor between two shoulders, with a pivot at each plate, or with a collar if it passes through the
     plate.
     """
     low, high = places.back[1] + SHAKE / 2, places.front[0] - SHAKE / 2
@@ -183,7 +193,7 @@ def _core(
 def _in_bridge(
     column: AxisColumn, member: ColumnMember, places: FramePlaces, process: Process, cut: frozenset[str]
 ) -> Iterator[TurnedPart]:
-    """Yield an arbor of uniform thickness, with a collar on each side of the plate."""
+    """Yield an arbor of uniform thickness that is supported by a bridge, with a collar on each side of the bridge."""
     radius = column.core / 2
     bands = without([Band(column.low, column.high, radius)], member, cut)
     yield TurnedPart(member.link, f"{member.link} arbor", "arbor", column.at, tuple(bands), _carries(member))
@@ -195,12 +205,14 @@ def _in_bridge(
 
 
 def crosses(member: ColumnMember, plate: tuple[float, float]) -> bool:
-    """Return True if a member extends beyond both faces of a plate."""
+    """Return True if an arbor or pipe extends beyond both faces of a plate."""
     return member.low < plate[0] and plate[1] < member.high
 
 
 def _stud(column: AxisColumn, places: FramePlaces, frame: str, process: Process) -> TurnedPart:
-    """Return a pin held in one plate, with a head for the turning parts unless another stud is on its end."""
+    """Return a stud that is fixed in one plate. It has a head that retains the turning parts, unless another stud is on
+    its end.
+    """
     plate = places.back if column.bearing is AxisBearing.BACK_STUD else places.front
     radius = column.core / 2
     low, high = column.low, column.high

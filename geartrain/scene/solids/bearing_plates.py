@@ -1,4 +1,4 @@
-"""Flat drawings to scale with cut contours and marks, curves around holes, and discs of pins and slots.
+"""Full-scale drawings of flat parts with cut contours and marks, curves around holes, and discs of pins and slots.
 
 Lengths are in mm, and y points upwards.
 """
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 CUT, PITCH, ENGRAVE = "CUT", "PITCH", "ENGRAVE"
 LAYERS = (CUT, PITCH, ENGRAVE)
-"""Names of the layers of a drawing: contours to cut, circles for orientation, and engraved letters."""
+"""Names of the layers of a drawing: contours to cut, circles for orientation (pitch circles), and engraved letters."""
 
 MARGIN = 2.0  # mm of margin round the part
 _MANY = 64  # number of vertices above which they bound a contour sufficiently
@@ -32,7 +32,9 @@ TOLERANCE = 0.001  # mm: tolerance of chords
 
 @dataclass(frozen=True, slots=True)
 class EngravedText:
-    """Letters of a given height [mm], with their centre [mm] and the angle of the text from the x axis [degrees]."""
+    """Text with letters of a given height [mm], the position of its centre [mm], and its angle from the x axis
+    [degrees].
+    """
 
     text: str
     at: tuple[float, float]
@@ -45,11 +47,11 @@ class FlatDrawing:
     """Drawing of one flat part at full scale (1:1), with contours to cut, curves for orientation and engraving [mm]."""
 
     title: str
-    """Title of the drawing, in one line."""
+    """Title of the drawing, on one line."""
     cut: tuple[Contour, ...]
-    """Closed curves to cut: first the outer curve, then holes."""
+    """Closed curves to cut: first the outer curve, then the holes."""
     pitch: tuple[Contour, ...] = ()
-    """Curves that are not cut: pitch circles, the edge of a sheet."""
+    """Curves that are not cut, such as pitch circles and the edge of a sheet."""
     marks: tuple[EngravedText, ...] = ()
     tolerance: float = TOLERANCE
     lines: tuple[Floats, ...] = ()
@@ -57,13 +59,15 @@ class FlatDrawing:
 
     @property
     def box(self) -> tuple[Floats, Floats]:
-        """Minimum and maximum of x and y of all contours [mm], including a margin."""
+        """Minimum x and y, and maximum x and y, of all contours [mm], including a margin."""
         points = np.concatenate([_bounds(each) for each in (self.cut[0], *self.pitch)])
         return points.min(axis=0) - MARGIN, points.max(axis=0) + MARGIN
 
 
 def _bounds(contour: Contour) -> Floats:
-    """Return points that bound a contour: its vertices if they are many, otherwise vertices of its chords."""
+    """Return points that bound a contour: its vertices if there are many, or the vertices of a polygon that
+    approximates it if there are few.
+    """
     return contour.points if len(contour.points) > _MANY else contour.flattened(0.01)
 
 
@@ -108,9 +112,9 @@ class Plates:
 def coupling_discs(
     couplings: Sequence[PinCoupling], bores: Mapping[str, float], holed: frozenset[str] = frozenset()
 ) -> Plates:
-    """Return the discs of pins and slots that are not in wheels, and notices on couplings that are not modelled.
+    """Return the discs of pins and slots that are not part of wheels, and notices on couplings that are not modelled.
 
-    bores   diameters of holes for arbors by link [mm]
+    bores   diameters of the holes for arbors, by link [mm]
     holed   couplings whose holes are in a wheel
     """
     plates: list[Plate] = []
@@ -138,7 +142,9 @@ def coupling_discs(
 
 
 def around(points: Sequence[Point], radius: float) -> Contour:
-    """Return the convex curve at the distance `radius` from the convex hull of points: straight edges and arcs."""
+    """Return the convex curve at the distance `radius` from the convex hull of points, which consists of straight edges
+    and arcs.
+    """
     corners = _hull(points)
     if len(corners) == 1:
         return Contour.circle(radius, corners[0])
@@ -175,24 +181,27 @@ def _hull(points: Sequence[Point]) -> list[Point]:
 
 
 def pin_diameter(radius: float) -> float:
-    """Return the default diameter of a pin [mm] at a distance from its axis [mm]: a quarter of it, at most 2 mm."""
+    """Return the default diameter of a pin [mm]: a quarter of the distance `radius` [mm] from its axis of revolution,
+    at most 2 mm.
+    """
     return min(2.0, _PIN * radius)
 
 
 def slotted_bar(r: float, e: float, pin: float) -> tuple[Contour, ...]:
-    """Return the edge and the slot of a bar from its axis at the origin along x [mm].
+    """Return the edge and the slot of a bar that extends along x from its axis at the origin [mm].
 
-    The pin at the radius r about an axis at the distance e moves in the slot between |r - e| and r + e from the origin.
+    The pin revolves at the radius `r` about an axis at the distance `e`. It moves in the slot between |r - e| and r + e
+    from the origin. `pin` is the diameter of the pin.
     """
     low, high = abs(r - e), r + e
     return around([(0.0, 0.0), (high, 0.0)], 1.2 * pin), around([(low, 0.0), (high, 0.0)], 0.55 * pin)
 
 
 def holed_bar(r: float, e: float, pin: float) -> tuple[Contour, ...]:
-    """Return the edge and the hole of a bar from its axis at the origin along x, with a round hole in which a pin
-    revolves [mm].
+    """Return the edge and the round hole of a bar that extends along x from its axis at the origin [mm]. A pin of the
+    diameter `pin` revolves in the hole.
 
-    The pin moves at the radius r about an axis at the distance e. A pin without declared sizes moves its slot
+    The pin moves at the radius `r` about an axis at the distance `e`. A pin without declared sizes moves its slot
     uniformly, at the mean of the transmission function. If this mean ratio is 1 (r > e), the pin moves relative to the
     bar on a circle of radius e about (r, 0); if it is 0, on a circle of radius r about (e, 0).
     """
@@ -207,8 +216,8 @@ def holed_bar(r: float, e: float, pin: float) -> tuple[Contour, ...]:
 
 
 def _disc(coupling: PinCoupling, link: str, diameters: Mapping[str, float], slotted: bool) -> Plate:
-    """Return the disc of a pin at radius r, or of its slot, which extends from |r - e| to r + e from an axis at the
-    offset e.
+    """Return the disc that carries a pin at the radius r, or the disc with its slot. The slot extends from |r - e| to r
+    + e from the axis, where e is the distance between the axes.
     """
     assert coupling.pin_radius is not None
     assert coupling.offset is not None

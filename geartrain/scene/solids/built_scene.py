@@ -1,4 +1,4 @@
-"""Scene of a train as built, with plates, arbors and dials, and with hands on the ends of arbors."""
+"""Scene of a train as built, with plates, arbors and dials, and with hands at the ends of arbors."""
 
 from __future__ import annotations
 
@@ -99,7 +99,9 @@ def build_scene(
 
 
 def _with_holes(wheel: SceneWheel, model: SolidModel) -> SceneWheel:
-    """Return a wheel with its slots and its hole for an eccentric; other holes are omitted because parts fill them."""
+    """Return a wheel with its slots and its hole for an eccentric. Other holes are omitted because they are filled by
+    parts.
+    """
     blank = model.blanks.wheels.get(wheel.id)
     moved_in = {cut.slot.id for cut in model.cut_couplings.values()}
     if model.plan is not None:
@@ -149,7 +151,7 @@ def _vector(values: Floats) -> Vector:
 
 
 def _sized_dials(scene: Scene, model: SolidModel) -> tuple[DialFace, ...]:
-    """Return the dials, each in the size of its plate and on the face of the plate that is read."""
+    """Return the dials. Each has the size of its plate and is on the face of the plate that is read."""
     faces = list(scene.dials)
     if model.plan is None:
         return tuple(faces)
@@ -166,7 +168,7 @@ def _sized_dials(scene: Scene, model: SolidModel) -> tuple[DialFace, ...]:
 
 
 def _with_seated(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tuple[DialFace, ...]:
-    """Return the dials; a dial that turns with a hand of another dial is moved to the position of that hand."""
+    """Return the dials. If a dial turns with a hand of another dial, it is moved to the position of that hand."""
     found = list(dials)
     for at, face in enumerate(dials):
         for each in pointers:
@@ -185,7 +187,8 @@ def _on_bracket(
 ) -> tuple[tuple[DialFace, ...], tuple[Pointer, ...]]:
     """Return all dials and pointers. A dial without a plate is placed on the bracket of the arbor of its pointers.
 
-    Neighbouring arbors limit the radius of the dial. If the bracket or the space is missing, the dial is unchanged.
+    Neighbouring arbors limit the radius of the dial. The dial is not changed if there is no bracket or not enough
+    space.
     """
     face = dials[at]
     own = [n for n, each in enumerate(pointers) if each.dial == at and not each.seat]
@@ -204,7 +207,9 @@ def _on_bracket(
 
 
 def _radius_limits(face: DialFace, parts: Sequence[ScenePart]) -> Iterator[float]:
-    """Yield limits on the radius of a dial [mm] from turned parts parallel to its axis, except coaxial parts."""
+    """Yield upper limits on the radius of a dial [mm]: distances to turned parts that are parallel to its axis but not
+    coaxial.
+    """
     for part in parts:
         off = minus(part.place, face.centre)
         apart = float(np.sqrt(max(dot(off, off) - dot(off, face.normal) ** 2, 0.0)))
@@ -213,12 +218,12 @@ def _radius_limits(face: DialFace, parts: Sequence[ScenePart]) -> Iterator[float
 
 
 def _widest(body: int, parts: Sequence[ScenePart]) -> float:
-    """Return the diameter of the widest turned part of a body [mm]; 0 if it has none."""
+    """Return the maximum diameter of the turned parts of a body [mm]; 0 if it has none."""
     return 2 * max((band[2] for part in parts if part.body == body for band in part.bands), default=0.0)
 
 
 def _on_arbor(pointer: Pointer, scene: Scene, dials: Sequence[DialFace], plan: FramePlan) -> Pointer:
-    """Return a pointer with its hand on the end of its arbor or pipe, if one extends beyond the dial."""
+    """Return a pointer whose hand is on the end of its arbor or pipe, if an arbor or a pipe extends beyond the dial."""
     face = None if pointer.dial is None else dials[pointer.dial]
     if face is None or not (face.plate or face.seated):
         return pointer

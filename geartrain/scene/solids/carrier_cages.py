@@ -3,11 +3,11 @@
 A bracket is a plate perpendicular to an arbor and to the plates of the frame, which bears an end of the arbor.
 
 A cage holds axes of a carrier that are inclined to the carrier's axis, such as the axes of the pinions of a
-differential. An eye bears the outer end of the pinion's arbor. A post extends from the eye along the carrier's axis, to
-a wheel of the carrier of sufficient radius, otherwise to an arm beyond all wheels that extends inwards to the carrier's
-axis. If a plate of the frame is in front of the wheel, the arm is beside the pinion.
+differential. An eye bears the outer end of the pinion's arbor. A post extends from the eye along the carrier's axis to
+a wheel of the carrier, if one has a sufficient radius. If none has, the post extends to an arm beyond all wheels, which
+extends inwards to the carrier's axis. If a plate of the frame is in front of the wheel, the arm is next to the pinion.
 
-The pendulum of an escapement and the driving weight hang on a train in true size.
+The pendulum of an escapement and the driving weight are drawn in true size.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ _LINE, _START = 0.6, 150.0  # mm: radius of a line, its length in the zero pose
 
 @dataclass(frozen=True)
 class HangingParts:
-    """Pendulum and weight of a train with a dial, whose zero mark defines the upward direction."""
+    """Pendulum and weight of a train with a dial. The zero mark of the dial defines the upward direction."""
 
     scene: Scene
     declared: Train
@@ -64,7 +64,7 @@ class HangingParts:
     barrel: Barrel | None
 
     def found(self) -> tuple[SceneHanger, ...]:
-        """Return the pendulum, the line and the weight that are declared; empty if the train has no dial."""
+        """Return the declared hanging parts: pendulum, line and weight; empty if the train has no dial."""
         return () if self.front is None else tuple(each for each in (self.pendulum, *self._weight()) if each)
 
     @property
@@ -74,7 +74,7 @@ class HangingParts:
 
     @cached_property
     def front(self) -> tuple[Vector, Vector] | None:
-        """Direction towards the reader of the first dial on a face of the train, and downward direction; None if no
+        """Direction towards the reader of the first dial on a face of the train, and the downward direction; None if no
         such dial exists.
         """
         normal = self.plan.stack.normal
@@ -84,7 +84,9 @@ class HangingParts:
 
     @cached_property
     def pendulum(self) -> SceneHanger | None:
-        """Pendulum behind the frame, above the escape wheel; None if none is declared or it cannot be placed."""
+        """Pendulum behind the frame, above the escape wheel; None if no pendulum is declared, or if it cannot be
+        placed.
+        """
         escapement, normal = self.declared.escapement, self.plan.stack.normal
         if self.front is None or escapement is None or escapement.pendulum is None:
             return None
@@ -105,19 +107,21 @@ class HangingParts:
 
     @property
     def _side(self) -> float:
-        """1 if the normal points away from the reader, so that the space behind the frame is above it; otherwise -1."""
+        """1 if the normal points away from the reader, so that the space behind the frame is above it; -1 if the normal
+        points towards the reader.
+        """
         assert self.front is not None
         return -1.0 if dot(self.front[0], self.plan.stack.normal) > 0 else 1.0
 
     @property
     def _last(self) -> float:
-        """Height of the rearmost face of plates and wheels along the normal [mm]."""
+        """Position along the normal of the rearmost face of all plates and wheels [mm]."""
         places, way = self.plan.places, max if self._side > 0 else min
         faces = [face for plate in (places.back, places.front, self.plan.bridge or ()) for face in plate]
         return way([*faces, *(face for disc in self.plan.discs for face in (disc.low, disc.high))])
 
     def cock(self) -> Iterator[TurnedPart]:
-        """Yield the stud in the frame on which the pendulum hangs, if there is a pendulum."""
+        """Yield the stud in the frame from which the pendulum hangs, if there is a pendulum."""
         if self.pendulum is None:
             return
         stack, places, side = self.plan.stack, self.plan.places, self._side
@@ -129,7 +133,7 @@ class HangingParts:
         yield TurnedPart(stack.frame, "pendulum cock", "cock", at, bands if side > 0 else bands[::-1], joint)
 
     def _weight(self) -> Iterator[SceneHanger]:
-        """Yield the line from the barrel, and the weight."""
+        """Yield the line that hangs from the barrel, and the weight."""
         barrel, drive, crank = self.barrel, self.declared.drive, self.scene.crank
         if barrel is None or drive is None or drive.weight is None or crank is None or self.front is None:
             return
@@ -151,8 +155,8 @@ class HangingParts:
 
 
 def hanging_solids(hanger: SceneHanger, frame: int) -> Iterator[SolidPart]:
-    """Yield the turned parts of a hanging part, at rest relative to the body with index `frame`; yield nothing for a
-    line.
+    """Yield the turned parts of a hanging part at their positions relative to the body with index `frame`; yield
+    nothing for a line.
     """
     end, wide = plus(hanger.point, hanger.down, hanger.length), hanger.wide
     if hanger.kind == "pendulum":
@@ -184,16 +188,19 @@ class Bracket:
     """Support of one end of an arbor that is parallel to the plates: a plate with a hole, fixed in a frame plate."""
 
     body: int
-    """Index of the arbor's body; `reach` is the outer face of the bracket along the arbor's direction [mm]."""
+    """Index of the arbor's body; `reach` is the position of the bracket's outer face along the arbor's direction [mm].
+    """
     reach: float
     side: str
-    """Side of the frame plate to which the bracket is fixed, through the `mortise` there."""
+    """Name of the frame plate to which the bracket is fixed, through the passage `mortise`."""
     mortise: Passage
     part: SolidPart
 
 
 def find_brackets(scene: Scene, plan: FramePlan, bores: Mapping[str, float]) -> tuple[Bracket, ...]:
-    """Return the brackets of arbors that are parallel to the frame plates; `bores` are arbor diameters by axis [mm]."""
+    """Return the brackets of all arbors that are parallel to the frame plates; `bores` contains the arbor diameters by
+    axis [mm].
+    """
     sides = FramePlates(plan).sides
     borne = {column.axis for column in plan.all_columns}
     found: list[Bracket] = []
@@ -206,8 +213,8 @@ def find_brackets(scene: Scene, plan: FramePlan, bores: Mapping[str, float]) -> 
 
 
 def wheel_ends(scene: Scene, at: int) -> tuple[float, float] | None:
-    """Return the ends of a body's wheels along its direction, from its point [mm]; None for a body without wheels or
-    with rings only.
+    """Return the positions of the ends of a body's wheels along its direction, relative to its point [mm]; None for a
+    body without wheels, or with only rings.
     """
     body = scene.bodies[at]
     along = np.array(body.direction)
@@ -237,7 +244,9 @@ def _brackets(
 def _best_plate(
     plan: FramePlan, body: SceneBody, face: float, way: int, sides: Mapping[str, tuple[float, float]]
 ) -> tuple[int, float, str]:
-    """Return the number of wheels before the best plate for a bracket, the distance of the plate [mm], and its side."""
+    """Return the number of wheels in front of the best plate for a bracket, the distance of this plate [mm], and its
+    name.
+    """
     place, stack = _middle(plan, body, face, way), plan.stack
     height, foot = float(place @ np.array(stack.normal)), stack.flat(tuple(place.tolist()))
 
@@ -263,7 +272,9 @@ def _bracket(
     way: int,
     radius: float,
 ) -> Bracket:
-    """Return the bracket at one end of an arbor, on the plate with fewer wheels before it, or on the nearer plate."""
+    """Return the bracket at one end of an arbor. It is on the plate with fewer wheels in front of it, or, for equal
+    numbers, on the nearer plate.
+    """
     body, stack = scene.bodies[at], plan.stack
     place, normal = _middle(plan, body, face, way), np.array(stack.normal)
     height, foot, edge = float(place @ normal), stack.flat(tuple(place.tolist())), radius + LAND
@@ -285,7 +296,7 @@ def _frame(scene: Scene, plan: FramePlan) -> int:
 
 
 def on_axis(body: SceneBody, along: float) -> Floats:
-    """Return the point of a body's axis at a given position along it [mm]."""
+    """Return the point on a body's axis at the position `along` [mm]."""
     return np.asarray(np.array(body.point) + along * np.array(body.direction))
 
 
@@ -299,7 +310,9 @@ _SAME = 1e-6
 
 @dataclass(frozen=True)
 class Cage:
-    """Support of a body whose axis is inclined to its carrier's axis; `reach` is the outer end of its arbor [mm]."""
+    """Support of a body whose axis is inclined to its carrier's axis; `reach` is the position of the outer end of its
+    arbor [mm].
+    """
 
     body: int
     reach: float
@@ -307,7 +320,9 @@ class Cage:
 
 
 def find_cages(scene: Scene, plan: FramePlan, bores: Mapping[str, float]) -> tuple[Cage, ...]:
-    """Return the cages of axes carried at an angle to the carrier's axis; `bores` are arbor diameters by axis [mm]."""
+    """Return the cages of axes that are inclined to the axis of their carrier; `bores` contains the arbor diameters by
+    axis [mm].
+    """
     found = []
     for at, body in enumerate(scene.bodies):
         carrier = None if body.parent is None else scene.bodies[body.parent]
@@ -319,7 +334,7 @@ def find_cages(scene: Scene, plan: FramePlan, bores: Mapping[str, float]) -> tup
 
 
 class _CageBuilder:
-    """Builder of the cage of the body with index `at`; `along` is the unit vector of its carrier's axis."""
+    """Builder of the cage of the body with the index `at`; `along` is the unit vector of the axis of its carrier."""
 
     def __init__(self, scene: Scene, plan: FramePlan, at: int, bores: Mapping[str, float]) -> None:
         self.scene, self.plan, self.at, self.bores = scene, plan, at, bores
@@ -355,7 +370,9 @@ class _CageBuilder:
         return Cage(self.at, end + side * (GAP + 2 * post), tuple(parts))
 
     def _outer_end(self) -> tuple[int, float]:
-        """Return the outer end of the wheels on their arbor: side of the carrier's axis (1 or -1) and position [mm]."""
+        """Return the outer end of the wheels on an arbor: its side along the arbor's direction (1 or -1) and its
+        position [mm].
+        """
         ends = wheel_ends(self.scene, self.at)
         assert ends is not None
         normal = np.cross(self.body.direction, self.along)
@@ -372,15 +389,17 @@ class _CageBuilder:
         return turned_about(self.index, part, self.body.direction, on_axis(self.body, middle))
 
     def _post(self, foot: Floats, ends: Sequence[float], radius: float) -> SolidPart:
-        """Return the post from the first to the second height, with a tenon from the second to the third height."""
+        """Return the post between the first and the second height of `ends`, and its tenon between the second and the
+        third height.
+        """
         sizes = zip(pairwise(ends), (radius, TENON * radius), strict=False)
         bands = sorted((Band(min(pair), max(pair), size) for pair, size in sizes), key=lambda band: band.low)
         part = TurnedPart(self.carrier.id, f"{self.body.id} cage post", "post", (0.0, 0.0), tuple(bands))
         return turned_about(self.index, part, self.carrier.direction, foot)
 
     def _own_wheel(self, height: float, away: float) -> float | None:
-        """Return the height of the nearest face of a carrier's wheel whose tips are outside of a post [mm]; None if
-        none exists.
+        """Return the height of the nearest face among the carrier's own wheels that extend beyond a post at the radius
+        `away` [mm]; None if there is no such wheel.
         """
         own = (wheel for wheel in self._coaxial() if wheel.body == self.index and wheel.tip > away)
         faces = (face for wheel in own for face in self._faces(wheel, wheel.web))
@@ -396,7 +415,7 @@ class _CageBuilder:
         return any(low < each < high for each in plates)
 
     def _beside(self, height: float) -> float:
-        """Return the middle height of an arm beside the pinion [mm], on the side with fewer obstructing wheels."""
+        """Return the mid-height of an arm next to the pinion [mm], on the side on which fewer wheels obstruct it."""
         reach = max(wheel.radius for wheel in self.scene.wheels if wheel.body == self.at) + _PAST + _ARM / 2
 
         def hit(level: float) -> int:
@@ -407,7 +426,7 @@ class _CageBuilder:
         return min((height + reach, height - reach), key=hit)
 
     def _coaxial(self) -> Iterator[SceneWheel]:
-        """Yield wheels about the carrier's axis."""
+        """Yield the wheels that turn about the carrier's axis."""
         for wheel in self.scene.wheels:
             aside = np.array(wheel.centre) - on_axis(self.carrier, self.height(wheel.centre))
             upright = abs(float(np.dot(wheel.direction, self.along))) > 1 - _SAME
@@ -415,13 +434,15 @@ class _CageBuilder:
                 yield wheel
 
     def _faces(self, wheel: SceneWheel, ends: tuple[float, float]) -> tuple[float, float]:
-        """Return the heights of a wheel's `ends`, given relative to its centre, along the carrier's axis [mm]."""
+        """Return the heights, along the carrier's axis, of the ends of a wheel [mm], given by `ends` relative to the
+        centre of the wheel.
+        """
         up = 1 if float(np.dot(wheel.direction, self.along)) > 0 else -1
         low, high = sorted(self.height(wheel.centre) + up * end for end in ends)
         return low, high
 
     def _level(self, height: float, inner: float) -> float:
-        """Return the middle height of an arm beyond all wheels [mm], where fewer wheels obstruct the post."""
+        """Return the mid-height of an arm beyond all wheels [mm], on the side where fewer wheels obstruct the post."""
         wheels = list(self._coaxial())
 
         def cost(side: int) -> tuple[int, float]:
@@ -438,7 +459,9 @@ class _CageBuilder:
         return beyond(side) + side * (_PAST + _ARM / 2)
 
     def _arm(self, aside: Floats, away: float, level: float, post: float) -> SolidPart:
-        """Return the arm from the carrier's axis to a post; its hub turns on the member that passes through the hub."""
+        """Return the arm that extends from the carrier's axis to a post. Its hub turns on the arbor or pipe that passes
+        through it.
+        """
         hub = self.bores.get(self.carrier.axis, 2.0) / 2 + self.plan.process.running / 2
         across = aside / (away or 1.0)
         wide = max(hub + LAND, post)

@@ -1,7 +1,7 @@
-"""Plates of dials before and behind a mechanism: their sizes, heights, holes and scales.
+"""Plates of dials in front of and behind a mechanism: their sizes, heights, holes and scales.
 
-A plate of dials is mounted on feet: pins between the plate and the frame plate behind it, which are clear of all
-turning parts.
+A plate of dials is mounted on feet, which are pins between this plate and the nearest frame plate. The feet are clear
+of all turning parts.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from geartrain.train.outputs import FacePlate
 
 THICKNESS = 1.5
-"""Default thickness of a dial [mm]."""
+"""Default thickness of a plate of dials [mm]."""
 _AWAY = 2.0  # mm from turning parts to a dial
 _ROOM = 0.5  # mm of clearance round the arbor of its pointer
 _BESIDE = 1.0  # mm from a dial's edge to the arbor of another
@@ -47,7 +47,7 @@ _SAME = 1e-6
 
 @dataclass(frozen=True, slots=True)
 class DialCircle:
-    """Disc of all dials about one axis, with the scales of these dials."""
+    """Disc that contains all dials about one axis, with their scales."""
 
     at: Point
     """Centre of the disc, in the coordinates of the stack [mm]."""
@@ -57,16 +57,18 @@ class DialCircle:
     """Diameter of the hole for the arbors of the pointers [mm]."""
     scales: dict[str, DialScale]
     radii: dict[str, float]
-    """Radius of the scale of each dial [mm]."""
+    """Radius of the scale of each dial [mm], by name of the dial."""
 
     def lines(self) -> Iterator[Floats]:
-        """Yield the engraved lines, including letters, relative to the centre of the disc [mm]."""
+        """Yield the engraved lines, including letters, in coordinates relative to the centre of the disc [mm]."""
         for name, scale in self.scales.items():
             for each in engrave(scale):
                 yield from (self.radii[name] * np.array(line) for line in each.lines)
 
     def marks(self) -> Iterator[EngravedText]:
-        """Yield the names of dials that fit, as letters engraved below the hole, relative to the centre of the disc."""
+        """Yield the names of dials that fit, as letters engraved below the hole, in coordinates relative to the centre
+        of the disc [mm].
+        """
         height = max(_LETTER * self.radius, _SMALLEST)
         inside = min(self.radii.values()) * (1 - DEPTH)
         for depth, name in enumerate(self.scales):
@@ -77,24 +79,26 @@ class DialCircle:
 
 @dataclass(frozen=True, slots=True)
 class DialPlate:
-    """Plate with all dials on one side of the frame."""
+    """Plate with all dials on one side of the frame, as engraved."""
 
     name: str
-    """Name of the plate: "dial" and the names of its dials."""
+    """Name of the plate, which consists of "dial" and the names of its dials."""
     low: float
     """Height of the plate's lower face along the normal of the frame plates [mm]."""
     high: float
     """Height of the plate's upper face along the normal of the frame plates [mm]."""
     circles: tuple[DialCircle, ...]
-    """Discs of the dials, one for each axis."""
+    """Discs of the dials, one for each axis of pointers."""
     feet: tuple[TurnedPart, ...]
-    """Pins that support the plate before a plate of the frame."""
+    """Pins that support the plate in front of a plate of the frame."""
     right: Point
-    """Unit vector to the right of the plate's reader, in the coordinates of the stack."""
+    """Unit vector that points to the right for the reader of the plate, in the coordinates of the stack."""
     up: Point
-    """Unit vector upwards for the plate's reader, in the coordinates of the stack."""
+    """Unit vector that points up for the reader of the plate, in the coordinates of the stack."""
     corners: tuple[Point, ...] = ()
-    """Corners of a rectangular plate, in the coordinates of the stack [mm]; empty if the edge follows the dials."""
+    """Corners of a rectangular plate, in the coordinates of the stack [mm]; empty if the edge follows the outlines of
+    the dials.
+    """
 
     @property
     def at(self) -> Point:
@@ -103,14 +107,18 @@ class DialPlate:
 
     @property
     def contours(self) -> tuple[Contour, ...]:
-        """Edge of the plate, and holes for pointers and feet, in the coordinates of the stack relative to `at` [mm]."""
+        """Edge of the plate, followed by the holes for pointers and feet, in the coordinates of the stack relative to
+        `at` [mm].
+        """
         return self._contours(self._own)
 
     def _own(self, point: Point) -> Point:
         return point[0] - self.at[0], point[1] - self.at[1]
 
     def _seen(self, point: Point) -> Point:
-        """Return the coordinates of a point of the stack to the right and upwards for the plate's reader [mm]."""
+        """Return the coordinates of a point of the stack as distances to the right and upwards for the reader of the
+        plate [mm].
+        """
         x, y = self._own(point)
         return x * self.right[0] + y * self.right[1], x * self.up[0] + y * self.up[1]
 
@@ -120,8 +128,8 @@ class DialPlate:
         return self._edge(place), *(Contour.circle(radius, place(at)) for at, radius in holes)
 
     def _edge(self, place: Callable[[Point], Point]) -> Contour:
-        """Return the declared rectangle, or a single dial's disc if it contains all feet, otherwise the convex curve
-        around all dials and feet.
+        """Return the edge of the plate: the declared rectangle, or the disc of a single dial if it contains all feet.
+        In all other cases, return the convex curve around all dials and feet.
         """
         first, wide = self.circles[0], FOOT_RADIUS + _LAND
         if self.corners:
@@ -151,8 +159,8 @@ class DialPlate:
 
 
 def dial_plates(scene: Scene, plan: FramePlan, thickness: float = THICKNESS) -> list[DialPlate]:
-    """Return a plate for each side of the frame with dials that are parallel to its plates and that a pointer's arbor
-    reaches.
+    """Return the plates of dials, at most one for each side of the frame. Only dials that are parallel to the plates
+    and that a pointer's arbor reaches are included.
     """
     stack, columns = plan.stack, {column.axis: column for column in plan.columns}
     groups: dict[int, dict[str, list[DialFace]]] = {}
@@ -175,7 +183,9 @@ def _plate(
     plan: FramePlan,
     thickness: float,
 ) -> DialPlate | None:
-    """Return the plate of dials on one side; None if no pointer's arbor reaches it or its dials have no space."""
+    """Return the plate of dials on one side; None if no pointer's arbor reaches it, or if there is no space for its
+    dials.
+    """
     ends = [face for disc in plan.discs for face in (disc.low, disc.high)]
     ends += [*plan.places.back, *plan.places.front, *(plan.bridge or ())]
     ends += [face for each in plan.wheels_across for face in (each.low, each.high) if plan.has_sized_dials]
@@ -205,7 +215,7 @@ def _corners(sheet: FacePlate | None, right: Point, up: Point) -> tuple[Point, .
 
 
 def _inset(corners: Sequence[Point], far: float) -> tuple[Point, ...]:
-    """Return the corners of a rectangle moved inwards by a distance from both of their sides."""
+    """Return the corners of a rectangle whose sides are moved inwards by the distance `far`."""
     found = []
     for at, (x, y) in enumerate(corners):
         for u, v in (corners[at - 1], corners[(at + 1) % 4]):
@@ -266,11 +276,11 @@ def dial_feet(
     faces: tuple[float, float],
     corners: Sequence[Point] = (),
 ) -> list[TurnedPart]:
-    """Return up to four feet of a plate of dials, at its corners or far apart inside its dials, otherwise outside all
-    turning parts.
+    """Return up to four feet of a plate of dials. They are at its corners or far apart inside its dials, or, if there
+    is not enough space, outside all turning parts.
 
-    circles   centres and radii of the discs of its dials [mm]
-    faces     heights of its faces [mm]
+    circles   centres and radii of the discs of the dials [mm]
+    faces     heights of the faces of the plate [mm]
     """
     above = faces[0] > plan.places.front[1]
     plate = plan.places.front if above else plan.places.back
@@ -293,14 +303,16 @@ def dial_feet(
 
 
 def _between(plan: FramePlan, low: float, high: float) -> Iterator[tuple[Point, float]]:
-    """Yield circles that contain fixed and turning parts between two heights."""
+    """Yield circles that contain the fixed and turning parts between two heights, each as centre and radius [mm]."""
     yield from (swept_circle(disc) for disc in plan.discs if disc.low < high and low < disc.high)
     yield from ((column.at, wide) for column in plan.columns if (wide := column.radius(low, high)))
     yield from plan.across(low, high)
 
 
 def _reaches(spot: Point, dials: Sequence[tuple[Point, float]], others: Sequence[tuple[Point, float]]) -> float:
-    """Return the clearance [mm] between circles `others` and a plate that extends straight from its dials to a foot."""
+    """Return the clearance [mm] between the circles in `others` and a plate that extends straight from each dial to a
+    foot at `spot`.
+    """
     minimum = inf
     for (x, y), radius in dials:
         for step in range(_STEPS + 1):

@@ -27,8 +27,8 @@ _STOCK = (
     *(10.0, 12.0, 15.0, 20.0, 25.0, 30.0),
 )  # mm: standard thicknesses of sheet
 _MADE = {"module": (0.05, 100), "thickness": (0.01, 1000), "bore": (0.01, 1000), "backlash": (1e-6, 100)}
-"""Minimum and maximum sizes that can be made [mm]: outlines are accurate to 0.001 mm, and arbors and plates are a few
-mm.
+"""Minimum and maximum of each size that can be made [mm]. Outlines are accurate to 0.001 mm, and arbors and plates are
+a few mm thick.
 """
 _SHEET = (1, 1e5)  # mm: limits of the sides of sheets
 _NEAR = 1.3  # maximum ratio of a sheet's thickness to 2.5 modules, or the inverse
@@ -50,7 +50,9 @@ class ManufacturingSizes(Shown):
     """
 
     module: float | None = None
-    """Module: pitch diameter divided by tooth count [mm], above 0; only for declarations without sizes."""
+    """Module, which is the pitch diameter divided by the tooth count [mm], above 0. Only for declarations without
+    sizes.
+    """
     thickness: float | None = None
     """Thickness of wheels and plates [mm], above 0."""
     bore: float | None = None
@@ -59,14 +61,18 @@ class ManufacturingSizes(Shown):
     """Circumferential backlash at the pitch circle of every pair whose backlash is not determined by its declaration
     [mm], 0 or more.
 
-    By default it is the backlash of a named process, otherwise 1/20 of the module.
+    If it is None, it is the backlash of the process, or 1/20 of the module if no process is named.
     """
     process: str | None = None
-    """Manufacturing process: laser, cnc, fdm or hand, by default hand. It determines kerf and fits."""
+    """Manufacturing process: laser, cnc, fdm or hand; None for hand. It determines the kerf and the fits."""
     arms: int | None = None
-    """Number of spokes of each wheel with enough space for openings between spokes, 3 or more; None for solid webs."""
+    """Number of spokes, 3 or more, of each wheel that has enough space for openings between spokes; None for solid
+    webs.
+    """
     sheet: tuple[float, float] | None = None
-    """Width and height of the sheets on which flat parts are arranged [mm], above 0; None if no sheets are used."""
+    """Width and height of the sheets on which flat parts are arranged [mm], above 0; None if parts are not arranged on
+    sheets.
+    """
 
     def __post_init__(self) -> None:
         """Raise `QuestionError` if a size is out of range or the process is unknown."""
@@ -87,7 +93,7 @@ class ManufacturingSizes(Shown):
 
 
 def _beyond(noun: str, value: float, bounds: tuple[float, float], place: str) -> list[Problem]:
-    """Return the problem that a size [mm] is out of the range that can be made; empty if it is within the range."""
+    """Return a problem if a size [mm] is out of the range that can be made; empty if it is within the range."""
     low, high = bounds
     if low <= value <= high:
         return []
@@ -100,10 +106,10 @@ def sized(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> GearT
 
     The same train is returned if no module is requested and no tooth form is declared.
 
-    Raise `QuestionError` if the declaration gives sizes, which take precedence, if a wheel is too small or too large to
+    Raise `QuestionError` if a module is requested but the train declares sizes, if a wheel is too small or too large to
     be made, or if the requested backlash is not possible for the teeth.
 
-    layout   layout of the train as it is declared
+    layout   layout of the train as declared
     """
     declared, factor = train.declaration, scale_of(layout, making)
     modules = {name: Fraction(place.module) * Fraction(factor) for name, place in layout.wheels.items()}
@@ -115,7 +121,7 @@ def sized(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> GearT
 
 
 def _check_made(declared: Train, modules: Mapping[str, Fraction], layout: Layout) -> None:
-    """Raise `QuestionError` for wheels that are declared too small or too large to be made."""
+    """Raise `QuestionError` if the declared size of a wheel is too small or too large to be made."""
     problems: list[Problem] = []
     for name, module in modules.items():
         place = declared.place("links", declared.wheels[name][0], "wheels", name)
@@ -128,7 +134,7 @@ def _check_made(declared: Train, modules: Mapping[str, Fraction], layout: Layout
 def scale_of(layout: Layout, making: ManufacturingSizes) -> float:
     """Return the factor by which a requested module enlarges a layout; 1 if no module is requested.
 
-    Raise `QuestionError` if the declaration gives sizes.
+    Raise `QuestionError` if a module is requested but the train declares sizes.
     """
     if making.module is None or not layout.wheels:
         return 1.0
@@ -158,7 +164,9 @@ def _with_modules(declared: Train, modules: Mapping[str, Fraction]) -> Train:
 
 
 def _with_backlash(declared: Train, modules: Mapping[str, Fraction], backlash: float | None) -> Train:
-    """Return the declaration with the backlash of pairs that allow it; raise `QuestionError` if none does."""
+    """Return the declaration with the given backlash for all pairs that allow it; raise `QuestionError` if no pair
+    allows it.
+    """
     own = {gear.name: problem for gear in declared.gears if (problem := _own_backlash(declared, gear)) is not None}
     if backlash is not None and own and len(own) == sum(declared.form_of(gear) is not None for gear in declared.gears):
         places = {gear.name: declared.place("gears", at) for at, gear in enumerate(declared.gears)}
@@ -183,13 +191,15 @@ def _thinned(declared: Train, gear: GearPair, modules: Mapping[str, Fraction], b
 
 
 def _own_backlash(declared: Train, gear: GearPair) -> Problem | None:
-    """Return the problem that the tooth form of a pair fixes its backlash; None if the backlash can be chosen."""
+    """Return a problem if the tooth form of a pair determines its backlash; None if the backlash can be chosen."""
     form = declared.form_of(gear)
     return None if form is None or not form.has_shape else form.own_backlash(gear.name)
 
 
 def with_backlash(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> ManufacturingSizes:
-    """Return the sizes with the backlash of a named process, unless it is given or determined by all tooth forms."""
+    """Return the sizes with the backlash of the named process, unless a backlash is given or all tooth forms determine
+    it.
+    """
     declared = train.declaration
     own = [_own_backlash(declared, gear) is not None for gear in declared.gears if declared.form_of(gear) is not None]
     if making.process is None or making.backlash is not None or not layout.wheels or (own and all(own)):
@@ -199,13 +209,14 @@ def with_backlash(train: GearTrain, layout: Layout, making: ManufacturingSizes) 
 
 
 def usual_module(layout: Layout) -> float:
-    """Return the most frequent module of the wheels [mm]."""
+    """Return the most frequent module among the wheels [mm]."""
     # rounded, so that equal modules count as one
     return Counter(round(place.module, 9) for place in layout.wheels.values()).most_common(1)[0][0]
 
 
 def thick(declared: Train, layout: Layout, making: ManufacturingSizes) -> Layout:
-    """Return the layout with wheels of the requested thickness, otherwise with the thickness of standard sheets.
+    """Return the layout with wheels of the requested thickness; if none is requested, with thicknesses of standard
+    sheets.
 
     If all axes are along z, levels are moved apart as wheels become thicker.
     """
@@ -227,8 +238,8 @@ def thick(declared: Train, layout: Layout, making: ManufacturingSizes) -> Layout
 
 
 def _thicknesses(declared: Train, layout: Layout, making: ManufacturingSizes) -> dict[str, float]:
-    """Return the thicknesses of wheels [mm]: as requested or declared, and one stock size for all others if it is near
-    enough.
+    """Return the thickness of each wheel [mm], by name. It is as requested or declared. All other wheels have one stock
+    thickness if this is near enough to their default.
     """
     if making.thickness is not None:
         return dict.fromkeys(layout.wheels, making.thickness)
@@ -243,15 +254,17 @@ def _thicknesses(declared: Train, layout: Layout, making: ManufacturingSizes) ->
 
 
 def _is_free(declared: Train, name: str, place: WheelPlace) -> bool:
-    """Return True if a spur wheel has the default thickness of its module, neither declared nor broadened."""
+    """Return True if a spur wheel has the default thickness for its module, and its thickness is neither declared nor
+    increased.
+    """
     wheel = declared.wheels[name][1]
     plain = abs(place.thickness - WIDE * place.module) <= _SAME_LEVEL
     return wheel.kind == "spur" and wheel_thickness(declared, wheel) is None and plain
 
 
 def bores(layout: Layout, making: ManufacturingSizes) -> dict[str, float]:
-    """Return arbor diameters by axis [mm] where no plate holds them: as given, or 1/3 of the root diameter up
-    to 6 mm.
+    """Return the diameters of arbors [mm], by axis, if no plates hold them: the given bore, or 1/3 of the smallest root
+    diameter, up to 6 mm.
     """
     if making.bore is not None:
         return dict.fromkeys(layout.axes, making.bore)

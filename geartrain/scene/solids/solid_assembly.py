@@ -60,8 +60,9 @@ class SolidModel(Shown):
     Raises
     ------
     QuestionError
-        At first use, if `making` contains sizes that the train already declares, or if its teeth cannot have the
-        requested backlash.
+        When a property is first used, if `making` contains sizes that the train already declares, or if the teeth
+        cannot have
+    the requested backlash.
 
     Examples
     --------
@@ -80,7 +81,9 @@ class SolidModel(Shown):
     """State in which the train is built; by default the first state."""
 
     def __post_init__(self) -> None:
-        """Unfold equal planets, because each planet is made separately."""
+        """Replace equal planets that are declared as one by separate planets, because each planet is manufactured
+        separately.
+        """
         object.__setattr__(self, "train", self.train.unfolded)
 
     @cached_property
@@ -100,7 +103,7 @@ class SolidModel(Shown):
 
     @cached_property
     def plan(self) -> FramePlan | None:
-        """Positions of plates and arbors; None if the frame carries no wheel, or if a bore of 0 omits arbors."""
+        """Positions of plates and arbors; None if the frame carries no wheel, or if the bore is 0 (no arbors)."""
         normal = find_normal(self.sized, self._spread)
         # a bore of 0 requests wheels without arbors and plates
         if self.making.bore == 0 or normal is None:
@@ -123,7 +126,7 @@ class SolidModel(Shown):
 
     @cached_property
     def hanging(self) -> HangingParts | None:
-        """Pendulum and weight with their supports; None for a model without plates (`plan` is None)."""
+        """Pendulum and weight of the train with their supports; None for a model without plates (`plan` is None)."""
         if self.plan is None:
             return None
         crank = self.scene.crank
@@ -132,7 +135,7 @@ class SolidModel(Shown):
 
     @cached_property
     def brackets(self) -> tuple[Bracket, ...]:
-        """Brackets of arbors that are parallel to the plates."""
+        """Brackets that support arbors parallel to the plates."""
         return () if self.plan is None else find_brackets(self.scene, self.plan, bores(self.layout, self.making))
 
     @cached_property
@@ -142,7 +145,7 @@ class SolidModel(Shown):
 
     @cached_property
     def blanks(self) -> Blanks:
-        """Flat shapes of the wheels, with holes for arbors and for other parts that the wheels carry."""
+        """Flat shapes of the wheels by name, with holes for arbors and for other parts that the wheels carry."""
         holes = self.bores_of_wheels
         wheels, notices = {}, [*self._toothed.notices]
         for name, blank in self._toothed.wheels.items():
@@ -156,13 +159,13 @@ class SolidModel(Shown):
 
     @cached_property
     def bores_of_wheels(self) -> dict[str, float]:
-        """Diameter of the hole of each wheel [mm]."""
+        """Diameter of the hole for the arbor in each wheel [mm], by name of the wheel."""
         rods = bores(self._spread, self.making)
         found = {name: rods[place.axis] for name, place in self._spread.wheels.items()}
         return found if self.plan is None else found | self.plan.bores
 
     def _own_holes(self, name: str) -> list[Contour]:
-        """Return the slots of a wheel and its holes for studs, posts and pins, in the coordinates of the wheel."""
+        """Return the slots of a wheel and its holes for studs, posts and pins, in the wheel's own coordinates [mm]."""
         wheel = next(wheel for wheel in self.scene.wheels if wheel.id == name)
         turn, place = wheel_frame(wheel)
         found = []
@@ -178,12 +181,12 @@ class SolidModel(Shown):
 
     @cached_property
     def cut_couplings(self) -> dict[str, CutCoupling]:
-        """Pins and slots that are cut into wheels."""
+        """Couplings whose pins and slots are cut into wheels, by name."""
         return cut_couplings(self.scene, self._toothed.wheels, self.bores_of_wheels)
 
     @cached_property
     def couplings(self) -> Plates:
-        """Discs of pins and slots that are not cut into wheels, with notices on couplings that are not modelled."""
+        """Discs of the pins and slots that are not cut into wheels, with notices on couplings that are not modelled."""
         whole = {name for name, each in self.cut_couplings.items() if each.pin is not None}
         if self.plan is not None:
             whole |= self.plan.plated_pins.keys() & self.cut_couplings.keys()
@@ -252,9 +255,9 @@ class SolidModel(Shown):
         return replace(flat, drawn=wheel_solid(blank))
 
     def _rods(self) -> Iterator[SolidPart]:
-        """Yield an arbor without bearings for every body with wheels whose axis no plate supports.
+        """Yield an arbor without bearings for every body with wheels that is not supported by a plate.
 
-        Each arbor is as long as its wheels and its brackets or cages require.
+        Each arbor is as long as the wheels, brackets and cages on it require.
         """
         radii, borne = bores(self.layout, self.making), set[str]()
         if self.plan is not None:
@@ -271,14 +274,14 @@ class SolidModel(Shown):
             yield turned_about(at, part, body.direction, body.point)
 
     def _turned(self, frame: FramePlates) -> Iterator[SolidPart]:
-        """Yield all turned parts of the frame and of its carriers, such as arbors, pipes, studs and pillars."""
+        """Yield all turned parts of the frame and of the carriers, such as arbors, pipes, studs and pillars."""
         stack = frame.plan.stack
         for part in frame.turned():
             place = np.array(stack.in_space(part.at))
             yield SolidPart(self._bodies[part.link], part.name, part.kind, stack.turn, place, turned=part)
 
     def _plates(self, frame: FramePlates) -> Iterator[SolidPart]:
-        """Yield plates of the frame, turning plates and eccentrics."""
+        """Yield the plates of the frame, the turning plates and the eccentrics."""
         stack = frame.plan.stack
         eccentrics = {each.name for each in stack.eccentrics}
         for plate in frame.plates():
@@ -288,7 +291,7 @@ class SolidModel(Shown):
             yield SolidPart(self._bodies[plate.link], plate.name, kind, stack.turn, place, "", cut, thickness)
 
     def _dials(self, frame: FramePlates) -> Iterator[SolidPart]:
-        """Yield plates of dials, which are fixed to the frame."""
+        """Yield the plates of dials, which are fixed to the frame."""
         stack = frame.plan.stack
         for dial in self.dials:
             place, thickness = np.array(stack.in_space(dial.at, (dial.low + dial.high) / 2)), dial.high - dial.low

@@ -35,17 +35,17 @@ class SolidPart(Shown):
     name: str
     """Name of the wheel or part."""
     kind: str
-    """Kind of part.
+    """Kind of the part.
 
     It is one of wheel, plate, arbor, pipe, eccentric, stud, collar, spacer, collet, barrel, pillar, post, foot, cock,
     pin, wall, rod, bob or weight.
     """
     turn: Floats
-    """Rotation matrix from the coordinates of the part to the zero pose, of shape (3, 3)."""
+    """Rotation matrix from the coordinates of the part to those of the zero pose, shape (3, 3)."""
     place: Floats
-    """Translation from the coordinates of the part to the zero pose [mm]."""
+    """Translation from the coordinates of the part to those of the zero pose [mm]."""
     status: str = ""
-    """Declared status of a wheel, such as surviving or reconstructed."""
+    """Declared status of a wheel, such as surviving or reconstructed; empty if none is declared."""
     contours: tuple[Contour, ...] = ()
     """Flat shape from which the part is made; empty if the part is not flat."""
     height: float = 0.0
@@ -53,7 +53,7 @@ class SolidPart(Shown):
     turned: TurnedPart | None = None
     """Turned part about the z axis of the solid; None if the solid is not a body of revolution."""
     drawn: Solid | None = None
-    """Surface of a wheel, either with teeth cut from its flat shape or approximate; None for other parts."""
+    """Surface of a wheel, cut from its flat shape or approximate; None for other parts."""
 
     @cached_property
     def solid(self) -> Solid:
@@ -69,13 +69,17 @@ class SolidPart(Shown):
 
 
 def turned_about(body: int, part: TurnedPart, direction: Vector, place: Sequence[float] | Floats) -> SolidPart:
-    """Return a turned part of a body, with its axis along a direction through a point [mm]."""
+    """Return a turned part of a body as a solid whose axis passes through the point `place` [mm] in the given
+    direction.
+    """
     turn = np.column_stack([*basis(direction), direction])
     return SolidPart(body, part.name, part.kind, turn, np.array(place), turned=part)
 
 
 def wheel_frame(wheel: SceneWheel) -> tuple[Floats, Floats]:
-    """Return the axes of a wheel's own coordinates as columns, with x through its first tooth, and its centre [mm]."""
+    """Return the matrix whose columns are the axes of a wheel's own coordinates, with x through its first tooth, and
+    the centre of the wheel [mm].
+    """
     along, reference = np.array(wheel.direction), np.array(wheel.reference)
     across = np.cross(along, reference)
     x = cos(wheel.turn) * reference + sin(wheel.turn) * across

@@ -1,8 +1,9 @@
 """Pins, slots and bars: cut into wheels, fixed in plates, or made as separate parts.
 
-A wheel whose root circle extends beyond the pin bears the pin; a wheel that covers the whole path of the pin has the
-slot. Otherwise the slot is in a separate bar. Plates bear the pins of rings of pins, and the pins that work in holes of
-a disc. An eccentric bar connects an arm to its link; the bar is fixed in the widest wheel of the link.
+A wheel whose root circle extends beyond the pin carries the pin. A wheel that covers the whole path of the pin contains
+the slot; if there is no such wheel, the slot is in a separate bar. Plates carry the pins of pin rings, and the pins
+that move in holes of a disc. An eccentric bar connects an arm to its link; the bar is fixed in the widest wheel of the
+link.
 """
 
 from __future__ import annotations
@@ -47,7 +48,7 @@ _WEB = 0.6  # mm: minimum width of a wheel round a pin and round a slot
 class CutCoupling:
     """Coupling cut into wheels: a pin in one wheel, and its slot or holes in another.
 
-    The wheel of the pins is None if no wheel carries the pins of round holes.
+    The wheel with the pins is None if the pins move in round holes and no wheel carries them.
     """
 
     coupling: SceneCoupling
@@ -56,8 +57,8 @@ class CutCoupling:
 
 
 def cut_couplings(scene: Scene, blanks: Mapping[str, Blank], bores: Mapping[str, float]) -> dict[str, CutCoupling]:
-    """Return the couplings, by name, that can be cut into flat wheels with given bores [mm]; pins of round holes need
-    no wheel.
+    """Return the couplings, by name, that can be cut into flat wheels with the given bores [mm]. A coupling by pins in
+    round holes does not require a wheel for the pins.
     """
     found = {}
     for coupling in scene.couplings:
@@ -83,7 +84,7 @@ def pin_width(coupling: SceneCoupling) -> float:
 def _wide_wheels(
     scene: Scene, body: int, blanks: Mapping[str, Blank], bores: Mapping[str, float], reach: tuple[float, float]
 ) -> list[SceneWheel]:
-    """Return flat external wheels of a body that have material from one radius to another [mm]."""
+    """Return the flat external wheels of a body that have material between the two radii in `reach` [mm]."""
     low, high = reach
     return [
         wheel
@@ -97,18 +98,24 @@ def _wide_wheels(
 
 
 def slot_bar(coupling: SceneCoupling) -> tuple[Contour, ...]:
-    """Return the edge of a bar and its slot, or a round hole in which the pin revolves if no sizes are declared."""
+    """Return the edge of a bar and its slot. If no sizes are declared, the bar has a round hole in which the pin
+    revolves.
+    """
     shape = slotted_bar if coupling.drawn else holed_bar
     return shape(coupling.pin_radius, coupling.offset, pin_diameter(coupling.pin_radius))
 
 
 def slot_reach(coupling: SceneCoupling) -> tuple[float, float]:
-    """Return the distance from the slot's axis to the centre of the bar's outer end, and half the bar's width [mm]."""
+    """Return the distance from the slot's axis to the centre of the bar's rounded outer end, and half the width of the
+    bar [mm].
+    """
     return coupling.pin_radius + coupling.offset, 1.2 * pin_diameter(coupling.pin_radius)
 
 
 def slot_frame(scene: Scene, coupling: SceneCoupling) -> Floats:
-    """Return unit vectors along the slot outwards, across the slot and along the axis, as columns in the zero pose."""
+    """Return the matrix whose columns are the unit vectors outwards along the slot, across the slot, and along the
+    axis, in the zero pose.
+    """
     along = np.array(scene.bodies[coupling.slot].direction)
     out = np.subtract(coupling.pin_at, coupling.slot_at)
     x = out / np.linalg.norm(out)
@@ -117,8 +124,8 @@ def slot_frame(scene: Scene, coupling: SceneCoupling) -> Floats:
 
 
 def holes(scene: Scene, cut: CutCoupling, wheel: str, turn: Floats, place: Floats, process: Process) -> list[Contour]:
-    """Return a wheel's holes for pins and for a slot, in the wheel's coordinates with rotation `turn` and centre
-    `place`.
+    """Return the holes in a wheel for pins and for a slot, in the wheel's own coordinates, which have the rotation
+    `turn` and the origin `place`.
     """
     coupling, thick = cut.coupling, pin_width(cut.coupling)
     found = []
@@ -151,15 +158,17 @@ _GAP = 1.0  # mm between a plate and the next turning part
 
 @dataclass(frozen=True)
 class CouplingParts:
-    """Parts of the couplings of a scene: pins in wheels, and arms and bars where no wheel has the pin or the slot."""
+    """Parts of the couplings of a scene: pins in wheels, and the arms and bars that replace wheels without space for a
+    pin or a slot.
+    """
 
     scene: Scene
     cut: Mapping[str, CutCoupling]
     process: Process
 
     def parts(self) -> Iterator[SolidPart]:
-        """Yield pins from wheel to wheel, and arms and bars of couplings not cut into wheels; pins fixed in plates are
-        omitted.
+        """Yield the pins that connect two wheels, and the arms and bars of couplings, unless they are cut into a wheel.
+        Pins that are fixed in plates are omitted.
         """
         for coupling in self.scene.couplings:
             direction, cut = self.scene.bodies[coupling.slot].direction, self.cut.get(coupling.id)
@@ -184,7 +193,9 @@ class CouplingParts:
                 yield self._bar(coupling, along)
 
     def _faces(self, pin: SceneWheel, slot: SceneWheel, along: Floats) -> tuple[float, float]:
-        """Return the heights from the far face of the pin's wheel to the far face of the slot's wheel [mm]."""
+        """Return the heights of the two ends of a pin [mm]: the far face of its own wheel, and the far face of the
+        slot's wheel.
+        """
         ends = [float(wheel.centre @ along) + side * wheel.thickness / 2 for wheel in (pin, slot) for side in (-1, 1)]
         return min(ends), max(ends)
 
@@ -207,7 +218,7 @@ class CouplingParts:
         return SolidPart(coupling.slot, f"{coupling.id} slot", "plate", turn, place, "", slot_bar(coupling), _GAP)
 
     def _level(self, body: int, height: float, along: Floats) -> float:
-        """Return the middle height of a plate on the face of a body's wheels that is nearest to a height [mm]."""
+        """Return the mid-height of a plate on the face of a body's wheels that is nearest to the given height [mm]."""
         own = [wheel for wheel in self.scene.wheels if wheel.body == body]
         faces = [
             float(np.array(wheel.centre) @ along) + side * (wheel.thickness + _GAP) / 2
@@ -260,8 +271,8 @@ def _of_ring(scene: Scene, plan: FramePlan, wheel: SceneWheel) -> StandingPins:
 
 
 def with_pins_apart(scene: Scene, plan: FramePlan) -> Scene:
-    """Return the scene with new profiles for rings of separate pins: their teeth are the material between two seats of
-    pins.
+    """Return the scene with new tooth profiles for rings with separate pins. The teeth of such a ring are the material
+    between two seats of pins.
     """
     wheels, profiles = list(scene.wheels), list(scene.profiles)
     for at, wheel in enumerate(wheels):
@@ -282,7 +293,9 @@ def with_pins_apart(scene: Scene, plan: FramePlan) -> Scene:
 
 
 def _tooth_between_seats(blank: Blank) -> tuple[tuple[float, float], ...]:
-    """Return the profile of a ring between the middles of two seats, as relative radius and angle [rad]."""
+    """Return the profile of a ring between the middles of two seats. Each point is a radius divided by the pitch
+    radius, and an angle [rad].
+    """
     assert blank.pins is not None
     x, y = (float(part) for part in blank.contours[1].points[0])  # on the inner circle, at the start of the first seat
     R, half, pitch = blank.pins.circle * blank.module, pi / blank.teeth, blank.pitch_radius
@@ -316,8 +329,8 @@ def side_bars(scene: Scene, plan: FramePlan) -> Iterator[StandingPins]:
 
 
 def _spot(scene: Scene, plan: FramePlan, wheel: StackDisc, arm: StackDisc) -> Point:
-    """Return the outermost bar position with enough clearance to wheel and arm; if there is none, the position with the
-    most clearance.
+    """Return the outermost bar position with sufficient clearance to the other parts. If there is none, return the
+    position with the most clearance.
     """
     low, high = min(wheel.high, arm.high), max(wheel.low, arm.low)
     seen = [seen_from_carrier(wheel.link, wheel.at, disc) for disc in plan.discs if disc.low < high and low < disc.high]
@@ -339,7 +352,9 @@ def _spot(scene: Scene, plan: FramePlan, wheel: StackDisc, arm: StackDisc) -> Po
 
 
 def _swept(scene: Scene, plan: FramePlan, coupling: SceneCoupling, wheel: StackDisc) -> Iterator[tuple[Point, float]]:
-    """Yield circles around a slotted bar at all positions of its pin, if `wheel` is of the pin's carrier."""
+    """Yield circles that cover a slotted bar for all positions of its pin, if `wheel` is part of the carrier of the
+    coupling.
+    """
     if scene.bodies[coupling.carrier].id != wheel.link:
         return
     stack = plan.stack

@@ -1,9 +1,9 @@
-"""Closed surfaces of triangles: extruded flat shapes, arbors, wheels.
+"""Closed surfaces of triangles: extruded flat shapes, turned parts and wheels.
 
-A polygon with holes is triangulated by ear clipping, its holes first joined to the outside by bridges (Eberly,
-"Triangulation by ear clipping"). A corner is an ear if it is convex and no other point lies in its triangle; every
-polygon with more than three corners has an ear (Meisters 1975). The ear with the best aspect ratio is cut off first, to
-avoid slivers.
+A polygon with holes is triangulated by ear clipping, after its holes are joined to the outer polygon by bridges
+(Eberly, "Triangulation by ear clipping"). A corner is an ear if it is convex and no other point lies in its triangle;
+every polygon with more than three corners has an ear (Meisters 1975). The ear with the best aspect ratio is cut off
+first, to avoid slivers.
 
 Wheels without planar teeth (bevel wheels, crown wheels, worms) are approximate.
 """
@@ -39,8 +39,8 @@ def fill(outer: Floats, holes: Sequence[Floats] = ()) -> tuple[Floats, Integers]
     """Return the points (n, 2) of a polygon with holes, and counter-clockwise triangles (m, 3) as indices of these
     points.
 
-    The points of the polygon are followed by the points of its holes. Polygons (k, 2) may have either orientation. They
-    must not intersect themselves or each other.
+    The points of the polygon are followed by the points of its holes. Polygons, shape (k, 2), may have either
+    orientation. They must not intersect themselves or each other.
     """
     parts = [outer if area(outer) > 0 else outer[::-1], *(hole if area(hole) < 0 else hole[::-1] for hole in holes)]
     points = np.concatenate(parts)
@@ -54,14 +54,16 @@ def fill(outer: Floats, holes: Sequence[Floats] = ()) -> tuple[Floats, Integers]
 
 
 def area(polygon: Floats) -> float:
-    """Return the signed area of a polygon, in the squared unit of its points; it is positive if counter-clockwise."""
+    """Return the signed area of a polygon, in the squared unit of its points; it is positive if the points are
+    counter-clockwise.
+    """
     x, y = polygon.T
     return float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
 
 
 def _bridged(points: Floats, loop: list[int], hole: list[int]) -> list[int]:
-    """Return the loop joined to a hole by a bridge from the hole's rightmost point to the nearest visible point of the
-    loop.
+    """Return the loop after joining it to a hole by a bridge, which connects the rightmost point of the hole to the
+    nearest visible point of the loop.
 
     Only points to the right of the hole are considered. Raise `ValueError` if none is visible.
     """
@@ -88,13 +90,13 @@ def _inside(points: Floats, loop: list[int], k: int, to: Floats) -> bool:
 
 
 def _turn(a: Floats, b: Floats, c: Floats) -> Floats:
-    """Return twice the signed area of the triangle a b c, with broadcast arguments."""
+    """Return twice the signed area of the triangle a b c; the arguments are broadcast."""
     turn: Floats = (b[..., 0] - a[..., 0]) * (c[..., 1] - a[..., 1]) - (b[..., 1] - a[..., 1]) * (c[..., 0] - a[..., 0])
     return turn
 
 
 def _ears(points: Floats, loop: list[int]) -> list[tuple[int, int, int]]:
-    """Return triangles by ear clipping; the ear with the best aspect ratio is clipped first."""
+    """Return the triangles of a polygon, found by ear clipping. The ear with the best aspect ratio is clipped first."""
     corners = _Corners(points[loop])
     found: list[tuple[int, int, int]] = []
     while corners.left.sum() > 3:
@@ -107,7 +109,9 @@ def _ears(points: Floats, loop: list[int]) -> list[tuple[int, int, int]]:
 
 
 class _Corners:
-    """Corners of a polygon; corners in `left` are not cut off yet, and a cut changes two neighbours."""
+    """Corners of a polygon during ear clipping. `left` contains the corners that are not cut off yet; a cut changes two
+    neighbours.
+    """
 
     def __init__(self, corners: Floats) -> None:
         count = len(corners)
@@ -129,8 +133,8 @@ class _Corners:
                 return at
 
     def _empty(self, at: int) -> bool:
-        """Return True if no other point is in the triangle of a convex corner; otherwise, record one such point as its
-        blocker.
+        """Return True if no other point is in the triangle of a convex corner. If a point is in it, record this point
+        as the blocker of the corner.
         """
         own = self.corners[[self.before[at], at, self.after[at]]]
         (ax, ay), (x, y) = own.T[..., None], self.corners.T
@@ -148,7 +152,9 @@ class _Corners:
         self._measure(c)
 
     def _measure(self, at: int) -> None:
-        """Update twice the signed area of a corner's triangle, and its ratio to a bound of the longest side squared."""
+        """Update twice the signed area of a corner's triangle, and its ratio to a bound on the square of the longest
+        side.
+        """
         a, b, c = self.corners[[self.before[at], at, self.after[at]]].tolist()
         turn = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
         # the sum of two squares bounds the larger one, which is sufficient to rank corners
@@ -162,24 +168,28 @@ class _Corners:
 FINE = 0.02  # mm: tolerance of chords of a solid
 _SAME = 7  # decimals (mm) to which points are merged
 SIDES = 96
-"""Number of sides of turned parts and round holes: at a radius of 4 mm chords deviate by 2 um."""
+"""Number of sides of the polygons that represent turned parts and round holes. At a radius of 4 mm, the chords deviate
+by 2 um.
+"""
 _SLICE = 0.1  # rad: maximum rotation of helical teeth between layers
 
 
 @dataclass(frozen=True, slots=True)
 class Solid:
-    """Closed surface: vertices (n, 3) in mm, and triangles (m, 3) as indices, counter-clockwise from outside."""
+    """Closed surface: vertices [mm], shape (n, 3), and triangles as vertex indices, shape (m, 3), counter-clockwise as
+    seen from outside.
+    """
 
     vertices: Floats
     faces: Integers
 
     def moved(self, turn: Floats, by: Sequence[float]) -> Solid:
-        """Return the solid rotated by a matrix (3, 3), then translated."""
+        """Return the solid rotated by the matrix `turn`, shape (3, 3), and then translated by `by` [mm]."""
         return Solid(self.vertices @ turn.T + np.asarray(by), self.faces)
 
 
 def joined(solids: Iterable[Solid]) -> Solid:
-    """Return several surfaces as one surface."""
+    """Return several surfaces combined into one surface."""
     parts = list(solids)
     starts = np.cumsum([0, *(len(part.vertices) for part in parts)])
     return Solid(
@@ -198,8 +208,8 @@ def _merged(points: Floats, faces: Integers) -> tuple[Floats, Integers]:
 def wheel_solid(blank: Blank) -> Solid:
     """Return the solid of a wheel from its flat shape, centred at the origin.
 
-    One pitch is triangulated and repeated if the wheel has no holes besides its bore; otherwise the whole shape is
-    triangulated, without twist.
+    If the wheel has no holes except its bore, one pitch is triangulated and repeated. If it has other holes, the whole
+    shape is triangulated, without twist.
     """
     contours = blank.contours
     ring = blank.kind == "ring"
@@ -223,7 +233,9 @@ def plate_solid(contours: Sequence[Contour], thickness: float) -> Solid:
 
 
 def round_about(circle: Contour) -> Floats:
-    """Return a polygon circumscribed about a circle, so that a part with the diameter of the circle fits into it."""
+    """Return a polygon circumscribed about a circle. A part with the diameter of the circle therefore fits into the
+    polygon.
+    """
     centre = circle.points.mean(axis=0)
     radius = float(abs(circle.points[0] - centre).max()) / np.cos(pi / SIDES)
     turn = 2 * pi * np.arange(SIDES) / SIDES
@@ -252,8 +264,8 @@ def extruded(
 
 
 def lathed(rows: Sequence[Floats]) -> Solid:
-    """Return the closed surface through rows of counter-clockwise points (n, 3); a row of one point is a pole that
-    closes it.
+    """Return the closed surface through rows of counter-clockwise points, each of shape (n, 3). A row of one point is a
+    pole that closes the surface.
     """
     starts = np.cumsum([0, *map(len, rows)])
     count = max(map(len, rows))
@@ -269,7 +281,9 @@ def lathed(rows: Sequence[Floats]) -> Solid:
 
 
 def _pitch(tooth: Floats, radius: float, teeth: int, tolerance: float) -> Floats:
-    """Return the polygon of a tooth with its sector of the web, closed along the bore or at the centre of the wheel."""
+    """Return the polygon of a tooth and its sector of the web. It is closed along the bore, or at the centre of a wheel
+    without a bore.
+    """
     first, last = (float(np.arctan2(y, x)) for x, y in (tooth[0], tooth[-1]))
     if not radius:
         return np.concatenate([tooth, [[0.0, 0.0]]])
@@ -284,7 +298,9 @@ def _pitch(tooth: Floats, radius: float, teeth: int, tolerance: float) -> Floats
 
 
 def _repeated(points: Floats, triangles: Integers, times: int) -> tuple[Floats, Integers]:
-    """Return the triangles of one pitch repeated in every pitch, with coincident points merged."""
+    """Return the points and triangles of one pitch repeated `times` times about the axis, with coincident points
+    merged.
+    """
     turn = 2 * pi * np.arange(times)[:, None] / times
     c, s = np.cos(turn), np.sin(turn)
     x, y = points.T
@@ -301,7 +317,9 @@ _SIDES = 720  # sides of a wheel drawn without teeth
 
 
 def approximation_solid(wheel: SceneWheel, profile: ToothProfile, bore: float = 0.0) -> Solid:
-    """Return a wheel's approximate solid, with the first tooth along x, the axis along z, and a hole of `bore` [mm]."""
+    """Return the approximate solid of a wheel. The first tooth is along x, the axis along z, and the diameter of the
+    hole is `bore` [mm].
+    """
     if wheel.kind == "worm":
         twist = wheel.thickness * tan(wheel.helix) / wheel.radius
         return extruded(*_section(wheel, profile, bore), wheel.thickness, twist, _SLICES)
@@ -313,8 +331,8 @@ def approximation_solid(wheel: SceneWheel, profile: ToothProfile, bore: float = 
 
 
 def _polar(wheel: SceneWheel, profile: ToothProfile) -> tuple[Floats, Floats]:
-    """Return the radius [mm] and angle [rad] of a wheel's whole outline, or of its pitch circle if it has too many
-    teeth.
+    """Return the radii [mm] and the angles [rad] of the whole outline of a wheel. If the wheel has too many teeth,
+    return those of its pitch circle.
     """
     if wheel.teeth > MOST_TEETH:
         return np.full(_SIDES, wheel.radius), np.arange(_SIDES) * 2 * pi / _SIDES
@@ -341,10 +359,10 @@ def _section(wheel: SceneWheel, profile: ToothProfile, bore: float) -> tuple[Flo
 
 
 def _coned(wheel: SceneWheel, profile: ToothProfile, bore: float) -> Solid:
-    """Return the solid of a bevel or crown wheel, with its back, its teeth from the large to the small end, and the
-    disc inside the ring of teeth.
+    """Return the solid of a bevel or crown wheel: its back, its teeth from the large end to the small end, and the disc
+    inside the toothed rim.
 
-    The surface has rows of points, from the bore at the back round the outside to the bore at the front.
+    The surface consists of rows of points, from the bore at the back, around the outside, to the bore at the front.
     """
     radius, cone, thickness = wheel.radius, wheel.cone, wheel.thickness
     r, turn = _polar(wheel, profile)
@@ -365,7 +383,9 @@ def _coned(wheel: SceneWheel, profile: ToothProfile, bore: float) -> Solid:
 
 
 def _cone_points(wheel: SceneWheel, rho: Floats, turn: Floats, scale: float) -> Floats:
-    """Return points (n, 3) of a wheel's outline on its back cone, scaled towards the apex, with the apex upwards."""
+    """Return the points of a wheel's outline on its back cone, shape (n, 3), scaled towards the apex of the pitch cone;
+    the apex is upwards.
+    """
     depth = (rho - 1) * wheel.radius
     r = (wheel.radius + depth * np.cos(wheel.cone)) * scale
     if wheel.cone > CROWN:
@@ -375,8 +395,8 @@ def _cone_points(wheel: SceneWheel, rho: Floats, turn: Floats, scale: float) -> 
 
 
 def _flank_angles(wheel: SceneWheel, turn: Floats, scale: float) -> Floats:
-    """Return the angles [rad] of a crown wheel's flanks at `scale` times the radius, with spaces wide enough for teeth
-    that pass obliquely.
+    """Return the angles of a crown wheel's flanks at `scale` times its radius [rad]. The tooth spaces are wide enough
+    for teeth that pass obliquely.
     """
     pitch = 2 * pi / wheel.teeth
     middle = np.round(turn / pitch) * pitch
@@ -386,7 +406,7 @@ def _flank_angles(wheel: SceneWheel, turn: Floats, scale: float) -> Floats:
 
 
 def _at_bore(row: Floats, bore: float) -> Floats:
-    """Return a row of points contracted to the bore, or to one point if the bore is 0."""
+    """Return a row of points contracted radially to the bore, or to one point if the bore is 0."""
     angle = np.arctan2(row[:, 1], row[:, 0])
     if not bore:
         return np.array([[0.0, 0.0, row[:, 2].mean()]])

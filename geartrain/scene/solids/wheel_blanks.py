@@ -1,6 +1,6 @@
-"""Flat shape of every wheel: its teeth as cut for all mates, the hole for its arbor, and crossings.
+"""Flat shape of every wheel: its teeth as cut for all mates, the hole for its arbor, and crossings (spokes).
 
-Crossings are openings that leave a rim, spokes and a hub, with all inner corners rounded.
+The openings between spokes leave a rim, spokes and a hub. All inner corners are rounded.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from geartrain.train import Wheel
 
 RIM, HUB = 2.25, 1.125
-"""Depth of the rim under the roots in modules, and radius of the hub in diameters of the bore.
+"""Radial depth of the rim below the tooth roots [modules], and radius of the hub [diameters of the bore].
 
 Clockmakers use rims of 2 to 2.5 modules, and hubs of 2 to 2.5 diameters of the arbor.
 """
@@ -40,12 +40,12 @@ Point = tuple[float, float]
 
 
 def spoke_windows(root: float, module: float, bore: float, spokes: int) -> tuple[Contour, ...]:
-    """Return the openings between the spokes of a wheel, each as one hole; empty if there is not enough space.
+    """Return the openings between the spokes of a wheel, each as one contour; empty if there is not enough space.
 
     A spoke has a uniform width equal to the depth of the rim. An opening is bounded by two spokes, the rim and the hub.
 
     root     root radius [mm]; `bore` is the diameter of the hole for the arbor [mm]
-    spokes   number of spokes, 3 or more; fewer give no windows
+    spokes   number of spokes, 3 or more; for fewer, the result is empty
     """
     if spokes < 3:
         return ()
@@ -98,7 +98,7 @@ def _at(radius: float, angle: float) -> Point:
 
 
 def _spoke_edge(along: float, half: float, pitch: float) -> Point:
-    """Return a point on the edge of the spoke at +pitch/2 that faces the opening."""
+    """Return the point at the distance `along` on the edge of the spoke at +pitch/2 that faces the opening."""
     c, s = cos(pitch / 2), sin(pitch / 2)
     return along * c + half * s, along * s - half * c
 
@@ -125,16 +125,16 @@ _THIN = 0.4  # mm: wall between bore and roots that allows a larger bore
 
 @dataclass(frozen=True, slots=True)
 class Blank:
-    """Wheel to be cut flat, with its axis at the origin and its first tooth on the x axis; lengths in mm."""
+    """Flat wheel blank to be cut, with its axis at the origin and its first tooth on the x axis; lengths are in mm."""
 
     wheel: str
     link: str
     teeth: int
     kind: str
-    """Kind of wheel: external, ring or pins."""
+    """Kind of the wheel: external, ring or pins."""
     form: str
     contours: tuple[Contour, ...]
-    """Contours [mm]: first the outer contour, then holes."""
+    """Contours of the blank [mm]: first the outer contour, then the holes."""
     module: float
     pitch_radius: float
     tip_radius: float
@@ -146,7 +146,8 @@ class Blank:
     arms: int = 0
     """Number of spokes; 0 for a solid web."""
     pins: LanternPins | None = None
-    """Pins of a ring, which are separate parts in seats on the inside of the ring [modules]; None for other wheels."""
+    """Pins of a pin ring [modules], which are separate parts in seats on the inside of the ring; None for other wheels.
+    """
 
     @property
     def twist(self) -> float:
@@ -156,18 +157,22 @@ class Blank:
 
 @dataclass(frozen=True, slots=True)
 class Blanks:
-    """Flat shapes of wheels by name, with notices, and the backlash of every pair that is cut."""
+    """Flat shapes of wheels by name, with notices, and the backlash of every pair whose teeth are cut."""
 
     wheels: Mapping[str, Blank]
     notices: tuple[Problem, ...]
     backlashes: tuple[PairBacklash, ...]
     uncut: Mapping[str, tuple[Problem, ...]]
-    """Wheel -> reasons why it cannot be cut; `flat` is the set of all wheels with planar teeth parallel to the axis."""
+    """Reasons why a wheel cannot be cut, by wheel. `flat` is the set of all wheels with planar teeth parallel to the
+    axis.
+    """
     flat: frozenset[str]
 
 
 def find_blanks(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> Blanks:
-    """Return the flat shapes, without holes, of all wheels that can be cut flat, at the sizes of a layout."""
+    """Return the flat shapes of all wheels that can be cut from sheet, at the sizes of a layout. The shapes have no
+    holes.
+    """
     toothed = find_train_teeth(train.mechanics, layout.wheels, making.backlash, layout.apart)
     mated = {name for gear in train.declaration.gears for name in gear.pair}
     wheels, notices = {}, []
@@ -203,7 +208,9 @@ def _blank(toothing: WheelTeeth, place: WheelPlace) -> Blank:
 
 
 def _without_mates(toothing: WheelTeeth, blank: Blank) -> tuple[Blank, Problem]:
-    """Return a wheel without mates, as a disc unless it is an escape wheel, with a notice."""
+    """Return the blank of a wheel without mates, and a notice. The blank is a disc, unless the wheel is an escape
+    wheel.
+    """
     if toothing.form == ESCAPEMENT:
         what = f"the teeth of escape wheel '{blank.wheel}' may not match its anchor"
         fix = "make an anchor to match the teeth, or recut them for another escapement"
@@ -217,7 +224,7 @@ def _without_mates(toothing: WheelTeeth, blank: Blank) -> tuple[Blank, Problem]:
 
 
 def _helix_notice(name: str, wheel: Wheel) -> Iterator[Problem]:
-    """Yield a notice on helical teeth, which a flat file cannot show."""
+    """Yield a notice if a wheel has helical teeth, which a flat drawing cannot show."""
     if wheel.is_helical:
         what = f"wheel '{name}' is drawn flat, but it has a helix angle of {abs(degrees(wheel.helix)):.6g} deg"
         fix = "print it from the .stl, or have it hobbed"
@@ -226,7 +233,7 @@ def _helix_notice(name: str, wheel: Wheel) -> Iterator[Problem]:
 
 
 def with_seats(blank: Blank, wider: float) -> Blank:
-    """Return a ring with seats for pins widened by `wider` [mm]; any other wheel unchanged."""
+    """Return a ring with its seats for pins widened by `wider` [mm]; any other wheel is returned unchanged."""
     if blank.pins is None or not wider:
         return blank
     root = blank.contours[1].points  # corners of the seats are on the inner circle
@@ -236,7 +243,9 @@ def with_seats(blank: Blank, wider: float) -> Blank:
 
 
 def crossed_out(blank: Blank, arms: int) -> tuple[Blank, list[Problem]]:
-    """Return a blank with openings between spokes, if it is a plain spur wheel with enough space, and notices."""
+    """Return a blank and notices. A plain spur wheel with enough space gets openings between `arms` spokes; other
+    blanks are returned unchanged.
+    """
     own = 1 + (blank.bore > 0)
     if blank.kind != "external" or blank.helix:
         return blank, []
@@ -255,8 +264,8 @@ def crossed_out(blank: Blank, arms: int) -> tuple[Blank, list[Problem]]:
 
 
 def bored(blank: Blank, bore: float, holes: Sequence[Contour] = ()) -> tuple[Blank, list[Problem]]:
-    """Return the blank with holes for other parts and, if there is space, the hole for its arbor, and return
-    notices.
+    """Return the blank with holes for other parts and, if there is space, the hole for its arbor. The second item is a
+    list of notices.
     """
     inner = min(blank.root_radius, blank.tip_radius)
     blank = replace(blank, contours=(*blank.contours, *holes)) if holes else blank

@@ -1,6 +1,7 @@
-"""Constraints on tooth counts in addition to ratios: assembly, clearance, sums.
+"""Constraints on tooth counts in addition to ratios: assembly, clearance, sums of tooth counts.
 
-assembly_constraints      constraints of a declared train: assembly, limits of wheels; equal planets: phases, clearance
+assembly_constraints      constraints of a declared train: assembly, limits of wheels, phases and clearance of equal
+                          planets
 count_conditions          linear equations and conditions, evaluated for many candidates
-constraint_options        options, and their parser for the command line
+constraint_options        options of the constraints, and their parser for the command line
 """

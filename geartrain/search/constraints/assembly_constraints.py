@@ -1,7 +1,7 @@
 """Constraints on the tooth counts of a declared train: assembly, equal planets, limits of wheels.
 
-`find_constraints` derives them from a train and `ConstraintOptions`. There are two kinds: a `CountEquation` can be
-solved for the count of a wheel; a `Condition` can only be tested. Both are evaluated for many candidates at once.
+`find_constraints` derives the constraints from a train and `ConstraintOptions`. A `CountEquation` can be solved for the
+tooth count of a wheel; a `Condition` can only be tested. Both are evaluated for many candidates at once.
 """
 
 from __future__ import annotations
@@ -68,11 +68,11 @@ def find_constraints(
 ) -> tuple[CountConstraint, ...]:
     """Return the constraints on the wheels of a train whose tooth counts are varied, in ascending order of cost.
 
-    free   admissible counts by varied wheel; all other wheels have their declared counts
+    free   admissible tooth counts of each varied wheel; all other wheels have their declared tooth counts
 
-    The order is: bounds of single wheels; equations; conditions on pairs, then on sets of planets. Constraints that
-    involve no varied wheel are omitted, because the search cannot change them. `QuestionError` is raised if a requested
-    constraint cannot be evaluated for this train or cannot be satisfied by any counts.
+    Conditions on single wheels come first, then equations, conditions on pairs, and conditions on sets of planets.
+    Constraints that involve no varied wheel are omitted, because the search cannot change them. `QuestionError` is
+    raised if a requested constraint cannot be evaluated for this train or cannot be satisfied by any tooth counts.
     """
     from geartrain.kinematics.formulas.output_formulas import with_counts
 
@@ -82,7 +82,9 @@ def find_constraints(
 
 @dataclass(frozen=True)
 class _ConstraintBuilder:
-    """Builder of the constraints of one train. In the train `fitting`, the varied wheels have placeholder counts."""
+    """Builder of the constraints of one train. In the train `fitting`, the varied wheels have placeholder tooth
+    counts.
+    """
 
     declared: Train
     fitting: TrainAssembly
@@ -97,8 +99,8 @@ class _ConstraintBuilder:
         yield from self._owned()
 
     def _owned(self) -> Iterator[CountConstraint]:
-        """Yield a condition for each collection of available wheels: no tooth count may be used more often than it
-        occurs in the collection.
+        """Yield a condition for each collection of available wheels: no tooth count may be used for more wheels than
+        the collection contains.
         """
         wheels: dict[tuple[tuple[int, int], ...], dict[str, int]] = {}
         for name, (link, wheel) in self.declared.wheels.items():
@@ -129,7 +131,7 @@ class _ConstraintBuilder:
                 yield _bounds(what, name, most=self._most(name, requested.largest_radius))
 
     def _most(self, wheel: str, radius: Quantity) -> int:
-        """Return the maximum tooth count of a wheel whose pitch radius does not exceed `radius`."""
+        """Return the maximum tooth count of a wheel for which its pitch radius does not exceed `radius`."""
         # measure: m for lengths, plain for numbers, empty if not declared
         measure, module = self.fitting.module(wheel)
         if (measure == "m") != (radius.unit is not None) or module is None:
@@ -150,8 +152,8 @@ class _ConstraintBuilder:
     # --------------------------------------------------------------------------------------------------------- coaxial
 
     def _coaxial(self) -> Iterator[CountConstraint]:
-        """Yield the equality of the centre distances of all meshes between the same axes whose modules have the same
-        unit.
+        """Yield constraints that require equal centre distances of meshes between the same two axes. Only meshes whose
+        modules have the same unit are compared.
         """
         if self.requested.coaxial is False:
             return
@@ -182,9 +184,10 @@ class _ConstraintBuilder:
         yield Condition(words, scaled.wheels, partial(is_near_zero, scaled, room.constant))
 
     def _is_broken(self, total: LinearSum, shift: Fraction | int) -> bool:
-        """Return whether the declared counts violate an equality of centre distances that was not requested explicitly.
+        """Return whether the declared tooth counts violate an equality of centre distances that was not requested
+        explicitly.
 
-        The wheels then have different modules or shifted profiles, so the constraint is not applied.
+        In that case the wheels have different modules or shifted profiles, so the constraint is not applied.
         """
         counts = {wheel: self._declared_count(wheel) for wheel in total.terms}
         known = [weight * (counts[wheel] or 0) for wheel, weight in total.terms.items()]
@@ -193,8 +196,8 @@ class _ConstraintBuilder:
         )
 
     def _declared_count(self, wheel: str) -> int | None:
-        """Return the declared tooth count; None for a count to be searched for, whose declared value is only a
-        placeholder.
+        """Return the declared tooth count of a wheel; None if the search varies the count, so that the declared value
+        is only a placeholder.
         """
         teeth = self.declared.wheels[wheel][1].teeth
         if isinstance(teeth, int):
@@ -214,8 +217,8 @@ class _ConstraintBuilder:
             yield from self._different()
 
     def _different(self) -> Iterator[CountConstraint]:
-        """Yield the conditions that the count of a varied wheel differs from all fixed counts, then from the count of
-        each other varied wheel.
+        """Yield conditions that require different tooth counts: first of a varied wheel and all fixed wheels, then of
+        each pair of varied wheels.
         """
         words = "different counts: two wheels have equal counts"
         copied = (pair for one in self.fitting.sets for pair in self._copied(one))
@@ -240,7 +243,7 @@ class _ConstraintBuilder:
     # --------------------------------------------------------------------------------------------------------- planets
 
     def _planet_sets(self) -> Iterator[tuple[PlanetSet, int]]:
-        """Yield each set of planets with its number of equal planets, as requested or as declared by `copies`. Sets
+        """Yield each set of planets and its number of equal planets, as requested or as declared by `copies`. Sets
         without such a number are omitted.
         """
         requested = self.requested.planets
@@ -263,11 +266,15 @@ class _ConstraintBuilder:
             yield one, number
 
     def _declared_sets(self, one: PlanetSet) -> int:
-        """Return the number of equal planet sets that are declared, by `copies` or individually."""
+        """Return the declared number of planet sets equal to the given one. Equal sets are declared by `copies` or
+        individually.
+        """
         return max(len(one.copies) + 1, *(self.declared.links[link].copies for link in one.links))
 
     def _equal(self) -> Iterator[CountConstraint]:
-        """Yield the equations of the tooth counts of equal planets that are declared individually."""
+        """Yield equations stating that the tooth counts of equal planets are equal, for planets that are declared
+        individually.
+        """
         for one, _ in self._planet_sets():
             for first, other in self._copied(one):
                 found = plainest(LinearSum.of([(1, self.fitting.part(first)), (-1, self.fitting.part(other))]))
@@ -339,9 +346,11 @@ def _wrong_planet_number(one: PlanetSet, number: int, declared: int) -> Problem:
 
 
 def can_mesh(number: int, first: Planet, columns: CandidateColumns) -> Bools:
-    """Return whether n equal sets of planets, spaced at 1/n of a revolution, can mesh with the same central wheels.
+    """Return whether `number` equal sets of planets, equally spaced around the central axis, can mesh with the same
+    central wheels.
 
-    The condition is that n divides every number that `phase_numbers` returns, where it is derived.
+    The condition is that `number` divides every integer returned by `phase_numbers`. This condition is derived in
+    `phase_numbers`.
     """
     # b is only needed modulo n; reduced, so that products of counts fit int64
     kind = PhaseArithmetic(lambda part: counts_of(columns, part), np.gcd, bezout, lambda one: one % number)
@@ -352,8 +361,8 @@ def can_mesh(number: int, first: Planet, columns: CandidateColumns) -> Bools:
 
 
 def bezout(a: Ints, b: Ints) -> tuple[Ints, Ints, Ints]:
-    """Return g = gcd(a, b) for each pair of elements of arrays a, b >= 0, and u, v with u a + v b = g, by the extended
-    Euclidean algorithm.
+    """Return g, u and v with u a + v b = g = gcd(a, b) for each pair of elements of the arrays a, b >= 0, by the
+    extended Euclidean algorithm.
     """
     r, s, t, r2, s2, t2 = (np.array(one, dtype=np.int64) for one in np.broadcast_arrays(a, 1, 0, b, 0, 1))
     while np.any(r2):
@@ -370,8 +379,8 @@ def bezout(a: Ints, b: Ints) -> tuple[Ints, Ints, Ints]:
 def equal_planets(found: PlanetSet, number: int, name: str) -> Condition | None:
     """Return the assembly condition of a set of equal, equally spaced planets.
 
-    Return None if no wheel is varied or the planets mesh with fewer than two central wheels, because any number can
-    then be assembled.
+    Return None if no wheel is varied, or if the planets mesh with fewer than two central wheels. In the latter case any
+    number of planets can be assembled.
     """
     assert found.planets is not None
     planets = list(found.planets.walk())
@@ -384,7 +393,7 @@ def equal_planets(found: PlanetSet, number: int, name: str) -> Condition | None:
 
 
 def reason(found: PlanetSet, number: int) -> str:
-    """Return a description of the assembly condition of equal planets, with its formula if there are two central
+    """Return a description of the assembly condition of equal planets. It contains the formula if there are two central
     wheels.
     """
     head = f"{number} equal planets on '{found.carrier}'"
@@ -405,7 +414,7 @@ def are_apart(number: int, reach: WholeSum, tips: WholeSum, columns: CandidateCo
     """Return whether the clearance between the tip circles of neighbouring planets exceeds the required clearance, by
     exact comparison.
 
-    `reach` is twice the distance of a planet's axis from the central axis, and `tips` is the tip diameter plus the
+    `reach` is twice the distance of the axis of a planet from the central axis, and `tips` is the tip diameter plus the
     required clearance; see `neighbour_terms`.
     """
     chord = sine(Fraction(1, 2 * number))
@@ -413,10 +422,11 @@ def are_apart(number: int, reach: WholeSum, tips: WholeSum, columns: CandidateCo
 
 
 def can_pass(number: int, A: WholeSum, B: WholeSum, D: WholeSum, tips: WholeSum, columns: CandidateColumns) -> Bools:
-    """Return whether two meshing planets can be placed on their circles without overlap with the mates of the other
-    planets.
+    """Return whether two meshing planets can be placed on the circles of their axes without overlap with the mates of
+    the other planets.
 
-    A and B are twice the radii of the two circles, D is twice the centre distance of the planets; see `passing_terms`.
+    A and B are twice the radii of the two circles, and D is twice the centre distance of the planets; see
+    `passing_terms`.
     """
     a, b, d, tip = (one.of(columns) for one in (A, B, D, tips))
     # the triangle of the central axis and the two planets must close
@@ -428,20 +438,22 @@ def can_pass(number: int, A: WholeSum, B: WholeSum, D: WholeSum, tips: WholeSum,
 
 
 def is_above_zero(room: WholeSum, columns: CandidateColumns) -> Bools:
-    """Return whether the clearance of a planet is positive for each candidate."""
+    """Return whether the sum `room`, which is the clearance of a planet, is positive for each candidate."""
     return np.asarray(room.of(columns) > 0)
 
 
 @dataclass(frozen=True, slots=True)
 class PlanetClearance:
-    """Number of planets, and required minimum clearance between them [modules], for an addendum of 1 module."""
+    """Number of planets, and required minimum clearance between neighbouring planets [modules]. The addendum is assumed
+    to be 1 module.
+    """
 
     number: int
     clearance: Fraction
 
     def conditions(self, found: PlanetSet, fitting: TrainAssembly) -> Iterator[Condition]:
-        """Yield the clearance conditions of one set of planets: of neighbouring equal wheels, then of planets that
-        mesh.
+        """Yield the clearance conditions of one set of planets: first of neighbouring equal wheels, then of planets
+        that mesh with each other.
 
         Wheels are assumed to be concentric with the axes of their planets. In a set of two planets, if one meshes
         only with external central wheels and the other only with rings, all of these wheels are assumed to lie in
@@ -478,8 +490,8 @@ class PlanetClearance:
                 yield from self._gap_conditions(inner, outer)
 
     def _gap_conditions(self, inner: Planet, outer: Planet) -> Iterator[Condition]:
-        """Yield the conditions on the clearance of the outer planet from the central wheels of the inner planet, and of
-        the inner planet from the rings of the outer planet.
+        """Yield two kinds of conditions: the outer planet has clearance from the central wheels of the inner planet,
+        and the inner planet has clearance from the rings of the outer planet.
         """
         for planet, other in ((outer, inner), (inner, outer)):
             for mesh in other.central:
@@ -501,18 +513,18 @@ class PlanetClearance:
 
 
 def _is_plain(planet: Planet, external: bool) -> bool:
-    """Return whether a planet is one wheel at the end of its set and meshes only with external central wheels (or
-    rings).
+    """Return whether a planet consists of one wheel, is at the end of its planet set, and meshes only with external
+    central wheels (if `external` is True) or only with rings (if it is False).
     """
     alone = len(planet.wheels) == 1 and len(planet.outward) + (planet.inward is not None) == 1
     return alone and bool(planet.central) and all((mesh.ring is None) == external for mesh in planet.central)
 
 
 def _reach(planet: Planet, wheel: str = "") -> LinearSum | None:
-    """Return twice the distance of a planet's axis from the central axis; None if the planet meshes with no central
-    wheel.
+    """Return twice the distance of the axis of a planet from the central axis; None if the planet meshes with no
+    central wheel.
 
-    The distance is computed from a mesh of `wheel` with a central wheel, if there is one; external meshes are preferred
+    The distance is computed from a mesh of `wheel` with a central wheel, if there is one. External meshes are preferred
     to internal meshes.
     """
     meshes = sorted(planet.central, key=lambda mesh: (planet.own(mesh) != wheel, mesh.ring is not None))

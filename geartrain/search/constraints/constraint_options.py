@@ -1,4 +1,4 @@
-"""Options for the constraints on tooth counts in a search, and their parser for the command line."""
+"""Options for the constraints on tooth counts in a search, and a parser of these options for the command line."""
 
 from __future__ import annotations
 
@@ -33,16 +33,16 @@ class ConstraintOptions:
     coaxial: bool | None = None
     """Requirement that spur wheels of the same module between the same two axes have equal centre distances.
 
-    Wheels without a declared module are assumed to have the same module. With None, the requirement does not apply to
-    two pairs of wheels whose counts are all fixed and violate it, because their modules then differ or their profiles
-    are shifted.
+    Wheels without a declared module are assumed to have the same module. With None, two pairs of wheels are exempt if
+    all their tooth counts are fixed and violate the requirement, because in that case their modules differ or their
+    profiles are shifted.
     """
     shift: int = 0
     """Maximum difference between the centre distances of gear pairs between the same two axes, to be compensated by
     profile shift [half modules].
     """
     planets: int | Mapping[str, int] | None = None
-    """Number of equal, equally spaced planets on every carrier with planets, or a mapping carrier -> number. With
+    """Number of equal, equally spaced planets on every carrier with planets, or a mapping from carrier to number. With
     None, the numbers declared by `copies` are used.
 
     The wheels on the arbors of equal planets must have the same relative orientation.
@@ -61,7 +61,7 @@ class ConstraintOptions:
     """True to require that the tooth counts of meshing wheels are coprime."""
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the options as a dict for JSON, with quantities as strings. Options that are None or False are
+        """Return the options as a dict for JSON, in which quantities are strings. Options that are None or False are
         omitted.
         """
         found = {}
@@ -82,12 +82,13 @@ def read_constraint_options(
 ) -> ConstraintOptions:
     """Parse the options from the strings of a command line; options that are None keep their defaults.
 
-    planets         "3" on every carrier, or "arm=3,inner=4"
-    clearance       number of modules: "0.5", "4/5"
-    largest_radius  "60 mm", or "30" modules
-    others          further fields of `ConstraintOptions`
+    planets         number of planets: "3" for every carrier, or "arm=3,inner=4"
+    clearance       clearance in modules, such as "0.5" or "4/5"
+    largest_radius  length, such as "60 mm", or number of modules, such as "30"
+    others          values of other fields of `ConstraintOptions`
 
-    A `QuestionError` lists all strings that cannot be parsed, each with its option of `geartrain teeth train`.
+    The `QuestionError` lists all strings that cannot be parsed, each with the name of its option of `geartrain teeth
+    train`.
     """
     problems: list[Problem] = []
 
@@ -104,7 +105,9 @@ def read_constraint_options(
 
 
 def _read(problems: list[Problem], option: str, text: str | None, parse: Callable[[str], Read]) -> Read | None:
-    """Parse the value of an option; return None and append a problem if the value is invalid."""
+    """Parse the value of an option and return it. If the value is invalid, append a problem to `problems` and return
+    None.
+    """
     if text is None:
         return None
     try:
@@ -118,7 +121,7 @@ def _read(problems: list[Problem], option: str, text: str | None, parse: Callabl
 
 
 def _planets(text: str) -> int | dict[str, int]:
-    """Parse a number of planets, `3`, or a number for each carrier, `arm=3,inner=4`."""
+    """Parse a number of planets, such as `3`, or a number for each carrier, such as `arm=3,inner=4`."""
     names, found = [], []
     for piece in text.split(","):
         name, _, number = piece.rpartition("=")

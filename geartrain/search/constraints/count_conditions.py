@@ -1,7 +1,7 @@
 """Constraints on tooth counts: linear equations, and conditions that reject candidates.
 
-Centre distances are weighted sums of tooth counts. Conditions with sines of angles are evaluated in floats, and with
-fifty digits if the result in floats is within its error bound of 0.
+Centre distances are weighted sums of tooth counts. Conditions with sines of angles are evaluated in floating point, and
+again with fifty digits if the magnitude of the result does not exceed its error bound.
 """
 
 from __future__ import annotations
@@ -28,11 +28,11 @@ _NEAR = 1e-7  # relative to the terms: bound of the float error, which a root of
 _EQUAL = Decimal("1e-25")  # relative to the terms: values that agree to 25 digits are equal
 
 CandidateColumns = Mapping[str, "Ints"]
-"""Tooth counts of many candidates by wheel, int64 arrays of equal length."""
+"""Tooth counts of many candidates, keyed by wheel; int64 arrays of equal length."""
 
 
 CandidateTest = Callable[[CandidateColumns], "Bools"]
-"""Predicate on candidates: a `functools.partial` that lacks only its last argument, so that it can be pickled.
+"""Predicate on candidates. It is a `functools.partial` that lacks only its last argument, so that it can be pickled.
 
 It returns whether each candidate passes, shape (candidates,).
 """
@@ -40,22 +40,26 @@ It returns whether each candidate passes, shape (candidates,).
 
 @dataclass(frozen=True, slots=True)
 class CountEquation:
-    """Linear equation of tooth counts: the sum of coefficients times counts, plus a constant, is 0."""
+    """Linear equation of tooth counts: the sum of the products of coefficients and tooth counts, plus a constant, is
+    0.
+    """
 
     name: str
-    """Description of the constraint in reports."""
+    """Name of the constraint in reports."""
     coefficients: Mapping[str, int]
-    """Nonzero integer coefficient of each varied wheel; at least one wheel."""
+    """Non-zero integer coefficient of each varied wheel; contains at least one wheel."""
     constant: int
-    """Constant term of the equation, contributed by the wheels with fixed counts."""
+    """Constant term of the equation, which is the contribution of the wheels with fixed tooth counts."""
 
     @property
     def wheels(self) -> tuple[str, ...]:
-        """Varied wheels of the equation."""
+        """Ids of the varied wheels in the equation."""
         return tuple(self.coefficients)
 
     def left(self, columns: CandidateColumns) -> Ints:
-        """Return the left side of the equation, shape (candidates,); 0 if it is satisfied. Sums above 2^63 overflow."""
+        """Return the left-hand side of the equation for each candidate, shape (candidates,); 0 if the equation is
+        satisfied. Sums above 2^63 overflow.
+        """
         terms = [factor * columns[wheel] for wheel, factor in self.coefficients.items()]
         return np.asarray(reduce(np.add, terms) + self.constant, dtype=np.int64)
 
@@ -64,10 +68,11 @@ class CountEquation:
         return np.asarray(self.left(columns) == 0)
 
     def solve_for(self, wheel: str, columns: CandidateColumns) -> tuple[Ints, Bools]:
-        """Return the count of one wheel from the counts of the other wheels, and whether it is an integer.
+        """Return the tooth count of one wheel, computed from the tooth counts of the other wheels, and whether the
+        result is an integer.
 
         Both arrays have shape (candidates,), or (1,) if the equation has only one wheel. `columns` need not include
-        `wheel`. The count may be 0 or negative, and is rounded down if it is not an integer.
+        `wheel`. The tooth count may be 0 or negative. It is rounded down if it is not an integer.
         """
         others = [factor * columns[name] for name, factor in self.coefficients.items() if name != wheel]
         total = reduce(np.add, others, np.array(self.constant, dtype=np.int64))
@@ -77,12 +82,12 @@ class CountEquation:
 
 @dataclass(frozen=True, slots=True)
 class Condition:
-    """Constraint that can be tested but not solved for the count of a wheel."""
+    """Constraint that can be tested, but cannot be solved for the tooth count of a wheel."""
 
     name: str
-    """Description of the constraint in reports; several conditions may share it."""
+    """Name of the constraint in reports. Several conditions may have the same name."""
     wheels: tuple[str, ...]
-    """Varied wheels of the condition, at least one."""
+    """Ids of the varied wheels in the condition, at least one."""
     test: CandidateTest
     """Predicate that returns whether each candidate satisfies the condition."""
 
@@ -99,12 +104,16 @@ CountConstraint = CountEquation | Condition
 
 
 def counts_of(columns: CandidateColumns, part: CountRef) -> Ints:
-    """Return the counts of a wheel for all candidates: its column if it is varied, otherwise its fixed count."""
+    """Return the tooth counts of a wheel for all candidates: the column of a varied wheel, or the tooth count of a
+    fixed wheel.
+    """
     return columns[part] if isinstance(part, str) else np.asarray(part, dtype=np.int64)
 
 
 def free_of(*parts: CountRef) -> tuple[str, ...]:
-    """Return the distinct ids of the varied wheels in a list of wheel ids and fixed counts, in order."""
+    """Return the distinct ids of varied wheels in a list of wheel ids and fixed tooth counts, in order of
+    occurrence.
+    """
     return tuple(dict.fromkeys(part for part in parts if isinstance(part, str)))
 
 
@@ -113,14 +122,14 @@ def free_of(*parts: CountRef) -> tuple[str, ...]:
 
 @dataclass(frozen=True, slots=True)
 class LinearSum:
-    """Sum of weights times counts over varied wheels, plus a constant. Weights are never 0."""
+    """Sum of weighted tooth counts of varied wheels, plus a constant. Weights are never 0."""
 
     terms: Mapping[str, Fraction]
     constant: Fraction = Fraction(0)
 
     @classmethod
     def of(cls, parts: Iterable[tuple[Fraction | int, CountRef]]) -> LinearSum:
-        """Build the sum of weights times parts, where a part is the id of a varied wheel or a fixed count."""
+        """Build the sum from pairs (weight, part), where a part is the id of a varied wheel or a fixed tooth count."""
         total = cls({})
         for weight, part in parts:
             total = total + (
@@ -150,19 +159,19 @@ class LinearSum:
 
 @dataclass(frozen=True, slots=True)
 class WholeSum:
-    """Sum of integer weights times counts over varied wheels, plus an integer constant."""
+    """Sum of tooth counts of varied wheels with integer weights, plus an integer constant."""
 
     terms: tuple[tuple[str, int], ...]
     constant: int
 
     @property
     def wheels(self) -> tuple[str, ...]:
-        """Varied wheels of the sum."""
+        """Ids of the varied wheels in the sum."""
         return tuple(wheel for wheel, _ in self.terms)
 
     def of(self, columns: CandidateColumns) -> Ints:
-        """Return the values of the sum, shape (candidates,), or one number if it has no varied wheel. Sums above 2^63
-        overflow.
+        """Return the value of the sum for each candidate, shape (candidates,); a single number if the sum has no varied
+        wheel. Sums above 2^63 overflow.
         """
         total = np.asarray(self.constant, dtype=np.int64)
         for wheel, weight in self.terms:
@@ -171,7 +180,7 @@ class WholeSum:
 
 
 def whole(*sums: LinearSum) -> tuple[WholeSum, ...]:
-    """Multiply several sums by the smallest common positive factor that makes all their weights integers."""
+    """Multiply several sums by the smallest common positive factor for which all weights and constants are integers."""
     scale = lcm(*(number.denominator for one in sums for number in (*one.terms.values(), one.constant)))
     return tuple(
         WholeSum(tuple((wheel, int(weight * scale)) for wheel, weight in one.terms.items()), int(one.constant * scale))
@@ -180,7 +189,7 @@ def whole(*sums: LinearSum) -> tuple[WholeSum, ...]:
 
 
 def plainest(one: LinearSum) -> WholeSum:
-    """Return the multiple of a sum whose weights and constant are coprime integers and whose first weight is
+    """Return a multiple of a sum. Its weights and its constant are coprime integers, and its first weight is
     positive.
     """
     (found,) = whole(one)
@@ -192,7 +201,7 @@ def plainest(one: LinearSum) -> WholeSum:
 
 
 def equality(one: WholeSum) -> str:
-    """Format the equation that a sum is 0, without minus signs: `s + 2 p = r`."""
+    """Format the equation "sum = 0" so that it contains no minus signs, such as `s + 2 p = r`."""
     pieces = [(one.constant, str(abs(one.constant)))] if one.constant else []
     pieces += [(weight, f"{abs(weight)} {wheel}" if abs(weight) != 1 else wheel) for wheel, weight in one.terms]
     left, right = ([text for weight, text in pieces if weight * side > 0] for side in (1, -1))
@@ -203,19 +212,21 @@ def equality(one: WholeSum) -> str:
 
 
 def is_bounded(wheel: str, minimum: int, most: int, columns: CandidateColumns) -> Bools:
-    """Return whether the tooth count of a wheel is from `minimum` to `most`, both inclusive."""
+    """Return whether the tooth count of a wheel is between `minimum` and `most`, both inclusive, for each candidate."""
     return np.asarray((columns[wheel] >= minimum) & (columns[wheel] <= most))
 
 
 def are_coprime(first: CountRef, second: CountRef, columns: CandidateColumns) -> Bools:
-    """Return whether two counts are coprime, so that every tooth meets every tooth of its mate (hunting tooth)."""
+    """Return whether two tooth counts are coprime, so that every tooth of one wheel meets every tooth of the other
+    (hunting tooth).
+    """
     return np.asarray(np.gcd(counts_of(columns, first), counts_of(columns, second)) == 1)
 
 
 def are_owned(numbers: Sequence[tuple[int, int]], used: Mapping[str, int], columns: CandidateColumns) -> Bools:
-    """Return whether each candidate uses at most the given number of wheels of each count.
+    """Return whether each candidate uses no more wheels of each tooth count than are available.
 
-    numbers   tooth counts, and the number of wheels of each
+    numbers   pairs of a tooth count and the number of available wheels with this tooth count
     used      number of equal wheels that each varied wheel represents
     """
     total = {count: sum((columns[wheel] == count) * pieces for wheel, pieces in used.items()) for count, _ in numbers}
@@ -223,23 +234,23 @@ def are_owned(numbers: Sequence[tuple[int, int]], used: Mapping[str, int], colum
 
 
 def is_different(wheel: str, others: Sequence[CountRef], columns: CandidateColumns) -> Bools:
-    """Return whether the tooth count of a wheel differs from all other counts."""
+    """Return whether the tooth count of a wheel differs from all tooth counts in `others`, for each candidate."""
     return np.asarray(np.all([columns[wheel] != counts_of(columns, other) for other in others], axis=0))
 
 
 def is_near_zero(total: WholeSum, most: int, columns: CandidateColumns) -> Bools:
-    """Return whether the absolute value of a sum of counts is at most `most`."""
+    """Return whether the absolute value of a sum of tooth counts is at most `most`, for each candidate."""
     return np.asarray(np.abs(total.of(columns)) <= most)
 
 
 def teeth_of(mesh: AssemblyMesh) -> LinearSum:
-    """Return twice the centre distance of a spur pair [modules]."""
+    """Return twice the centre distance of a spur pair [modules], as a sum of tooth counts."""
     return LinearSum.of(mesh.terms)
 
 
 def distance_of(mesh: AssemblyMesh) -> LinearSum:
-    """Return twice the centre distance of a spur pair whose wheels have the same module [m; dimensionless if the module
-    has no unit].
+    """Return twice the centre distance of a spur pair whose wheels have the same module [m, or dimensionless if the
+    module has no unit].
     """
     assert mesh.module is not None
     return teeth_of(mesh).times(mesh.module)
@@ -249,14 +260,15 @@ def distance_of(mesh: AssemblyMesh) -> LinearSum:
 
 
 Kernel = Callable[..., Sequence[Any]]
-"""Function `kernel(root, *numbers)` that returns the terms of a clearance, for arrays of floats or for decimals.
+"""Function `kernel(root, *numbers)` that returns the terms of a clearance. The numbers are arrays of floats, or
+decimals.
 
-`root` is the square root of the number type, with 0 for negative arguments.
+The argument `root` is the square-root function for the number type; it returns 0 for negative arguments.
 """
 
 
 def decimal(number: Fraction | int) -> Decimal:
-    """Convert a fraction to a decimal, correct to at least fifty digits."""
+    """Convert a fraction to a decimal that is correct to at least fifty digits."""
     with localcontext(prec=_DIGITS):
         return Decimal(Fraction(number).numerator) / Decimal(Fraction(number).denominator)
 
@@ -276,19 +288,19 @@ def sine(turns: Fraction) -> Decimal:
 
 
 def cosine(turns: Fraction) -> Decimal:
-    """Return the cosine of an angle from -1 to 3/4 turns to fifty digits."""
+    """Return the cosine of an angle from -1 to 3/4 turns to fifty digits, computed as a sine."""
     return sine(turns + Fraction(1, 4))
 
 
 def is_positive(kernel: Kernel, counts: Sequence[Ints], constants: Sequence[Decimal], strictly: bool) -> Bools:
-    """Return, for each candidate, whether the sum of the terms of a kernel is positive (if `strictly`), or
-    non-negative.
+    """Return, for each candidate, whether the sum of the terms of a kernel is positive if `strictly` is True, or
+    non-negative if it is False.
 
-    counts     integers, arrays that broadcast to one shape, (candidates,)
+    counts     arrays of integers that broadcast to the shape (candidates,)
     constants  numbers that are the same for all candidates
 
-    The sum is evaluated in floats, and with fifty digits where the result in floats is near 0. Terms may include roots
-    of differences of products.
+    The sum is evaluated in floating point, and again with fifty digits where the floating-point result is near 0. Terms
+    may include roots of differences of products.
     """
     spread = np.broadcast_arrays(*counts)
     terms = kernel(_root, *(column.astype(float) for column in spread), *map(float, constants))

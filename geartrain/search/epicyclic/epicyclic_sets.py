@@ -1,9 +1,9 @@
-"""Types of epicyclic gear sets, results of their search, and their declarations.
+"""Types of epicyclic gear sets, results of a search, and declarations of the sets found.
 
-Relative to the carrier, every central wheel turns `f = sign P / z` times as fast as the reference wheel of the planets,
-where z is its own tooth count and P is the tooth count of the planet wheel with which it meshes (Willis 1841, with a
-fixed carrier). The signs and meshes define a type: ratios of all modes, positions of equal planets and the coaxial
-equations follow from them.
+Relative to the carrier, every central wheel turns `f = s P / z` times as fast as the reference wheel of the planets,
+where s is the sign 1 or -1, z is the tooth count of the central wheel, and P is the tooth count of the planet wheel
+with which it meshes (Willis 1841, with a fixed carrier). The signs and meshes define a type. They determine the ratio
+for every fixed member, the possible positions of equal planets, and the conditions for coaxial wheels.
 """
 
 from __future__ import annotations
@@ -26,42 +26,42 @@ CARRIER = "carrier"
 
 @dataclass(frozen=True, slots=True)
 class CentralWheel:
-    """Sun or ring of an epicyclic set, with the planet wheel with which it meshes and its signed factor in the
+    """Sun or ring of an epicyclic set, with the planet wheel with which it meshes and its signed factor in the speed
     ratios.
     """
 
     link: str
-    """Name of the link that the wheel belongs to."""
+    """Name of the link to which the wheel belongs."""
     wheel: str
     """Name of the wheel."""
     mesh: str
-    """Name of the planet wheel with which the central wheel meshes."""
+    """Name of the planet wheel that meshes with the central wheel."""
     sign: int
-    """Sign of the speed of the central wheel relative to the reference wheel of the planets, with a fixed carrier: 1 or
-    -1.
+    """Sign of the speed of the central wheel divided by the speed of the reference planet wheel, both relative to the
+    carrier: 1 or -1.
     """
     step: str = ""
-    """Name of the planet wheel whose count is P in the speed f = sign P / z of the central wheel; "" if P is the same
-    for all central wheels and cancels.
+    """Name of the planet wheel whose tooth count is P in the speed f = sign P / z of the central wheel; empty if P is
+    the same for all central wheels, so that it cancels in the ratios.
     """
     internal: bool = False
-    """True for a ring."""
+    """True if the central wheel is a ring; False if it is a sun."""
 
 
 @dataclass(frozen=True, slots=True)
 class EpicyclicMode:
-    """Operating mode of an epicyclic set: its driving, driven and fixed member."""
+    """Operating mode of an epicyclic set: its driving, driven and fixed members."""
 
     input: str
-    """Driving member."""
+    """Name of the driving member."""
     output: str
-    """Driven member."""
+    """Name of the driven member."""
     held: str
-    """Fixed member."""
+    """Name of the fixed member."""
 
     @property
     def key(self) -> str:
-        """Mode as the string input:output:held, such as `sun:carrier:ring`."""
+        """Operating mode in the format `input:output:held`, such as `sun:carrier:ring`."""
         return f"{self.input}:{self.output}:{self.held}"
 
     def __str__(self) -> str:
@@ -69,13 +69,15 @@ class EpicyclicMode:
 
 
 def mode_key(mode: EpicyclicMode) -> str:
-    """Return an operating mode as the string `input:output:held`."""
+    """Format an operating mode as `input:output:held`."""
     return mode.key
 
 
 @dataclass(frozen=True, slots=True)
 class EpicyclicKind(Result):
-    """Type of epicyclic gear set, such as sun, planet and ring: its wheels, their meshes, and its operating modes."""
+    """Type of epicyclic gear set, such as the set of sun, planet and ring. It defines the wheels, their meshes and the
+    operating modes.
+    """
 
     KEYS = ("title", "wheels", Key("modes", to=mode_key))
 
@@ -84,38 +86,42 @@ class EpicyclicKind(Result):
     title: str
     """Description of the type."""
     members: tuple[CentralWheel, ...]
-    """Central wheels of the type."""
+    """Central wheels of this type of set."""
     planets: tuple[tuple[str, ...], ...]
     """Names of the wheels on each planet link."""
     free: tuple[str, ...]
-    """Wheels with independent tooth counts; the coaxial equations give the counts of the other central wheels."""
+    """Names of the wheels with independent tooth counts. The coaxial equations give the tooth counts of the other
+    central wheels.
+    """
     between: tuple[tuple[str, str], ...] = ()
-    """Pairs of planet wheels that mesh with each other."""
+    """Names of the planet wheels that mesh with each other, in pairs."""
     idle: tuple[str, ...] = ()
-    """Planet wheels whose counts affect no ratio and no coaxial equation; the search gives them the minimum count that
-    fits.
+    """Names of planet wheels whose tooth counts affect neither a ratio nor a coaxial equation. The search assigns each
+    of them the minimum tooth count with which the planets fit.
     """
     with_carrier: bool = True
     """True if the carrier may be the input, the output or the fixed member of a mode."""
     mirrored: tuple[tuple[str, str], ...] = ()
-    """Pairs of links whose exchange gives the same set, so that half of the modes suffice."""
+    """Pairs of links that can be exchanged without changing the set, so that half of the operating modes are
+    sufficient.
+    """
     bevel: bool = False
     """True if the axes of the planets intersect the central axis."""
 
     @property
     def wheels(self) -> tuple[str, ...]:
-        """Names of all central and planet wheels, in the usual order."""
+        """Names of all central wheels and planet wheels, in a fixed order that is common to all types."""
         planets = [wheel for link in self.planets for wheel in link]
         return tuple(sorted([*(member.wheel for member in self.members), *planets], key=_ORDER.index))
 
     @property
     def links(self) -> tuple[str, ...]:
-        """Names of the links of the central wheels, then of the carrier."""
+        """Names of the links of the central wheels, followed by the name of the carrier."""
         return (*(member.link for member in self.members), CARRIER)
 
     @property
     def modes(self) -> tuple[EpicyclicMode, ...]:
-        """All operating modes except mirror images of other modes."""
+        """All operating modes of this type. Only one of two modes that are mirror images is included."""
         links = self.links if self.with_carrier else self.links[:-1]
         # exchange of mirrored links in both directions
         swap = {a: b for pair in self.mirrored for a, b in (pair, pair[::-1])}
@@ -130,8 +136,8 @@ class EpicyclicKind(Result):
         return next((member for member in self.members if member.link == link), None)
 
     def chosen(self, modes: str | Iterable[str | EpicyclicMode]) -> tuple[EpicyclicMode, ...]:
-        """Return the modes given by "all" or by strings `input:output:held`. Raise `QuestionError` if a string is not
-        a mode of this type.
+        """Return the operating modes selected by "all" or by strings in the format `input:output:held`. `QuestionError`
+        is raised if a string is not a mode of this type.
         """
         if isinstance(modes, str):
             if modes == "all":
@@ -250,13 +256,13 @@ _KINDS = (
 
 @cache
 def kinds() -> Mapping[str, EpicyclicKind]:
-    """Return all types of epicyclic sets by name."""
+    """Return all types of epicyclic sets, keyed by name."""
     # read-only, because the mapping is cached
     return MappingProxyType({kind.name: kind for kind in _KINDS})
 
 
 def epicyclic_kind(name: str) -> EpicyclicKind:
-    """Return a type of epicyclic set by name. Raise `QuestionError` if it does not exist."""
+    """Return the type of epicyclic set with a given name. `QuestionError` is raised if there is no such type."""
     if name in kinds():
         return kinds()[name]
     raise QuestionError(
@@ -306,13 +312,17 @@ class EpicyclicSet(CountSizes, Result):
     teeth: Mapping[str, int]
     """Tooth count of each wheel."""
     ratio: Fraction
-    """Input speed divided by output speed, exact; negative if they have opposite senses."""
+    """Exact input speed divided by output speed; negative if the output turns in the opposite sense to the input."""
     error: Fraction
-    """Exact relative error |r| / q - 1, where r is the ratio as defined by `ratio_is` and q is the requested ratio."""
+    """Exact relative error |r| / q - 1, where r is the ratio of the set as defined by `ratio_is` and q is the requested
+    ratio.
+    """
     planets: int
     """Requested number of planets."""
     places: int
-    """Number of equally spaced positions at which identical planets can be assembled; 0 if any position is possible."""
+    """Number of equally spaced positions at which identical planets can be assembled; 0 if every position is
+    possible.
+    """
     room: float
     """Clearance between the tips of equally spaced neighbouring planets [modules]; negative if the planets overlap."""
 
@@ -327,23 +337,24 @@ class EpicyclicSet(CountSizes, Result):
 
     @property
     def inverse(self) -> Fraction:
-        """Output speed divided by input speed, exact."""
+        """Exact output speed divided by input speed."""
         return 1 / self.ratio
 
     @property
     def equally_spaced(self) -> bool:
-        """True if the planets can be assembled with equal spacing."""
+        """True if the requested number of planets can be assembled with equal spacing."""
         return self.places % self.planets == 0
 
     def to_train(self, copies: int = 1) -> dict[str, Any]:
         """Return a declaration of the epicyclic set as plain data.
 
-        The input speed is 1, and the exact output speed is the expected value.
+        In the declaration, the input speed is 1, and the exact output speed is the expected value.
 
         Parameters
         ----------
         copies : int
-            Number of equal planets. `equally_spaced` reports whether the requested number, `planets`, can be assembled.
+            Number of equal planets. `equally_spaced` reports whether `planets`, the number requested in the search, can
+            be assembled.
         """
         kind, mode = epicyclic_kind(self.kind), self.mode
         return {
@@ -366,7 +377,7 @@ class EpicyclicSet(CountSizes, Result):
 
 @dataclass(frozen=True, slots=True)
 class SetFindings(Tabular, Result):
-    """Best epicyclic sets of one type for a ratio, in the order of the search criterion."""
+    """Best epicyclic sets of one type for a requested ratio, in the order of the search criterion."""
 
     ROWS = "search.tooth_numbers_report:set_rows"
     MEANINGS: ClassVar = {
@@ -393,23 +404,25 @@ class SetFindings(Tabular, Result):
     )
 
     kind: str
-    """Name of the type of set."""
+    """Name of the type of epicyclic set."""
     wanted: Fraction
     """Magnitude of the requested ratio."""
     ratio_is: RatioIs
-    """Definition of the ratio `wanted`: input/output or output/input."""
+    """Definition of the ratio `wanted`: input speed divided by output speed, or output speed divided by input speed."""
     modes: tuple[EpicyclicMode, ...]
     """Operating modes that the search covered."""
     tolerance: Fraction | None
-    """Maximum absolute relative error; None for no limit."""
+    """Maximum absolute relative error; None if the error is not limited."""
     complete: bool
     """Always True, because the search examines all sets within the bounds."""
     count: int
-    """Number of combinations of a set and a mode that satisfy all constraints, and the tolerance if there is one."""
+    """Number of combinations of a set and an operating mode that satisfy all constraints, including the tolerance if it
+    is given.
+    """
     solutions: tuple[EpicyclicSet, ...]
     """Best sets, in the order of the search criterion."""
     shortfall: Shortfall
-    """Numbers of rejected sets by reason. Each combination of a set and a mode is one candidate."""
+    """Number of rejected candidates for each reason. A candidate is a combination of a set and an operating mode."""
 
     def _summary(self) -> str:
         best = f", best {self.solutions[0]._summary()}" if self.solutions else ""
@@ -420,7 +433,9 @@ class SetFindings(Tabular, Result):
 
 
 def set_rank(found: EpicyclicSet, by: SetOrder, mode: int) -> tuple[Any, ...]:
-    """Return the exact sort key of a set: primary criterion `by`, error, sum of counts, largest count, mode, counts."""
+    """Return the exact sort key of a set: criterion `by`, then error, sum of tooth counts, largest tooth count, index
+    of the mode, and tooth counts.
+    """
     counts = tuple(found.teeth.values())
     measures: dict[SetOrder, Any] = {"error": abs(found.error), "total": sum(counts), "largest": max(counts)}
     return (measures[by], *measures.values(), mode, counts)

@@ -1,14 +1,18 @@
-"""Search for epicyclic sets of a requested ratio: every set of tooth counts of a type within bounds, in every mode.
+"""Search for epicyclic sets with a requested ratio, by enumeration of all tooth counts within bounds, in every
+operating mode.
 
-The coaxial equations leave at most three independent counts, so all sets are enumerated and the result is complete. The
-ratio is determined in integers; floats only select the few candidates that are compared as Fractions.
+The coaxial equations leave at most three independent tooth counts, so all sets are enumerated and the result is
+complete. The ratio is computed in integers. Floats are used only to select the few candidates that are compared as
+Fractions.
 
 The exact join of `search.join` could solve the same problem, but for one mode and 12 to 120 teeth it takes 2 to 30
-times as long (Wolfrom sets 22 to 110 times). Only from about 200 teeth on is it as fast for types with two central
-wheels. One enumeration covers all modes, and counts every rejected set under one reason in a fixed order.
+times as long as the enumeration (22 to 110 times for Wolfrom sets). It is as fast only for types with two central
+wheels and about 200 teeth or more. One enumeration covers all modes, and counts every rejected set under the first
+applicable reason of a fixed list.
 
-The ratio of a set is input / output speed, the convention of gear manufacturers: a reduction is above 1, and it is
-negative if the output turns in the opposite sense. `ratio_is` selects the reciprocal.
+The ratio of a set is input speed / output speed, the convention of gear manufacturers. The ratio of a reduction is
+above 1 in magnitude. It is negative if the output turns in the opposite sense to the input. `ratio_is` selects the
+reciprocal.
 """
 
 from __future__ import annotations
@@ -49,21 +53,27 @@ if TYPE_CHECKING:
 
 MOST_SETS = 4 * 10**8  # maximum number of sets that are enumerated
 MOST_TEETH = 100_000
-"""Maximum tooth count of a wheel. The numerators of ratios, of third degree in the counts, then stay below 2^53."""
+"""Maximum tooth count of a wheel. The numerators of ratios are cubic in the tooth counts, so this limit keeps them
+below 2^53.
+"""
 
 SetBounds = Mapping[str, tuple[int, ...]]
-"""Admissible tooth counts of each wheel, ascending."""
+"""Admissible tooth counts of each wheel, in ascending order."""
 
 TIPS = 2.0
-"""Tip diameter minus pitch diameter of every wheel, twice the addendum [modules]."""
+"""Tip diameter minus pitch diameter of every wheel, which is twice the addendum [modules]."""
 _BEVEL = 1e-9  # [modules] float error of a clearance that equals the required one
 _NEAR = 1e-6  # [modules] bound of the float error of a clearance
 _MARGIN = 1e-12
-"""Relative difference below which values are compared exactly instead of as floats. Rounding errors are below 1e-15."""
+"""Relative difference below which values are compared exactly instead of in floating point. Rounding errors are below
+1e-15.
+"""
 
 _FARTHEST = Fraction(10**18)  # far beyond the ratios of all sets
 _FINEST = 10**6
-"""Maximum denominator of a clearance in modules, so that multiples of 1/denominator of a module fit in int64."""
+"""Maximum denominator of the required clearance [modules], so that clearances in units of 1/denominator of a module fit
+in int64.
+"""
 
 NO_PLACE = "count out of bounds, planet that does not fit, or equal steps"
 NO_SPACING = "planets that cannot be equally spaced"
@@ -89,10 +99,11 @@ def find_sets(
     clearance: Fraction | float = 0.0,
     slack: int = 0,
 ) -> SetFindings:
-    """Find the best tooth counts of one type of epicyclic set for a ratio, by enumeration of all sets in all modes.
+    """Find the best tooth counts of one type of epicyclic set for a ratio, by enumeration of all sets in all operating
+    modes.
 
-    The coaxial equations leave at most three independent counts (Willis 1841; Mueller, Epicyclic Drive Trains, 1982).
-    All modules are equal.
+    The coaxial equations leave at most three independent tooth counts (Willis 1841; Mueller, Epicyclic Drive Trains,
+    1982). All modules are equal.
 
     Parameters
     ----------
@@ -102,7 +113,7 @@ def find_sets(
         "planetary", "stepped-suns", "stepped-sun-ring", "stepped-rings", "meshed-planets", "ravigneaux", "bevel",
         "wolfrom" or "3k-two-suns".
     modes : str or iterable of str or EpicyclicMode
-        "all", or modes as `input:output:held`, such as "sun:carrier:ring".
+        "all", or modes in the format `input:output:held`, such as "sun:carrier:ring".
     counts : sequence of int, or mapping of str to sequence of int
         Admissible tooth counts from 1 to 10^5, for all wheels including rings, or for each wheel.
     planets : int
@@ -116,9 +127,9 @@ def find_sets(
     ratio_is : {"input/output", "output/input"}
         Definition of the ratio `wanted`: input speed divided by output speed, or the inverse.
     by : {"error", "total", "largest"}
-        Primary criterion: minimum error, minimum sum of counts, or minimum largest count.
+        Primary criterion: minimum error, minimum sum of tooth counts, or minimum value of the largest tooth count.
     spaced : bool
-        True to require that the planets can be equally spaced and do not overlap. With False these properties are only
+        True to require that the planets can be equally spaced and do not overlap. If False, these properties are only
         reported.
     clearance : Fraction or float
         Minimum clearance between the tips of neighbouring planets [modules] if `spaced`.
@@ -220,8 +231,8 @@ def _length(columns: Columns) -> int:
 
 
 class _Search:
-    """State of the enumeration: solutions and rejected sets. A rejected set is counted under the first reason that
-    applies.
+    """State of the enumeration: the sets found, and the numbers of rejected sets. A rejected set is counted under the
+    first reason that applies.
     """
 
     def __init__(
@@ -252,7 +263,9 @@ class _Search:
         return _select(columns, clear)
 
     def judge(self, columns: Columns, at: int, mode: EpicyclicMode) -> None:
-        """Compare the ratios of all sets of a block in one mode with the requested ratio, and keep the best."""
+        """Compare the ratios of all sets of a block in one operating mode with the requested ratio, and keep the best
+        sets.
+        """
         top, beneath = ratio_terms(self.kind, mode, columns)
         runs = (top != 0) & (beneath != 0)
         right = runs if self.sense == 0 else runs & (np.sign(top) * np.sign(beneath) == self.sense)
@@ -290,8 +303,8 @@ class _Search:
         self.found = sorted(self.found, key=lambda item: item[0])[: self.best]
 
     def _inside(self, columns: Columns, mode: EpicyclicMode, errors: Floats) -> NDArray[np.bool_]:
-        """Return whether the ratio error of each set is within the tolerance. Floats are compared, except near the
-        bound, where Fractions are compared.
+        """Return whether the ratio error of each set is within the tolerance. Errors near the tolerance are compared as
+        Fractions, all others as floats.
         """
         if self.tolerance is None:
             return np.ones(len(errors), dtype=bool)
@@ -302,7 +315,7 @@ class _Search:
         return inside
 
     def _set(self, columns: Columns, row: int, mode: EpicyclicMode) -> EpicyclicSet:
-        """Build the result for one set with its exact ratio and error."""
+        """Return the result for one set, with its exact ratio and its exact error."""
         one = {wheel: columns[wheel][row : row + 1] for wheel in self.kind.wheels}
         top, beneath = (int(term[0]) for term in ratio_terms(self.kind, mode, one))
         ratio = Fraction(top, beneath)
@@ -326,7 +339,9 @@ class _Search:
         )
 
     def _miss(self) -> tuple[str, str]:
-        """Return two strings: the nearest miss and the suggested changes; "" for either if there is none."""
+        """Return a description of the nearest miss and a description of suggested changes. Each of them is empty if
+        there is none.
+        """
         if self.count:
             return "", ""
         if self.nearest is None and NO_SENSE in self.removed:
@@ -347,9 +362,10 @@ class _Search:
 
 
 def read_bounds(kind: EpicyclicKind, counts: Counts | Mapping[str, Counts]) -> SetBounds:
-    """Return the admissible counts of every wheel, from counts that are common to all wheels, or are given by wheel.
+    """Return the admissible tooth counts of every wheel. `counts` contains tooth counts common to all wheels, or the
+    tooth counts of each wheel.
 
-    Raise `QuestionError` if the counts are invalid.
+    `QuestionError` is raised if `counts` is invalid.
     """
     if isinstance(counts, Mapping):
         unknown = [wheel for wheel in counts if wheel not in kind.wheels]
@@ -366,12 +382,14 @@ def _check_counts(whose: str, counts: Counts) -> tuple[int, ...]:
     found = tuple(sorted(set(counts))) if len(counts) <= MOST_TEETH else ()
     if found and found[0] >= 1 and found[-1] <= MOST_TEETH:
         return found
-    why = f"at least one count is needed, and all counts must be from 1 to {MOST_TEETH}"
-    raise QuestionError(Problem(f"the counts {whose}cannot be used", why, "give counts such as 15:120"))
+    why = f"at least one tooth count is needed, and all must be from 1 to {MOST_TEETH}"
+    raise QuestionError(Problem(f"the tooth counts {whose}are not valid", why, "give a range such as 15:120"))
 
 
 def size(kind: EpicyclicKind, bounds: SetBounds, slack: int = 0) -> int:
-    """Return the number of combinations of tooth counts of a type within bounds, before any constraint is applied."""
+    """Return the number of tooth-count combinations within the bounds for one kind of epicyclic set, before any
+    constraint is applied.
+    """
     chosen = prod(len(bounds[wheel]) for wheel in kind.free)
     return int(chosen * (2 * slack + 1) ** len(_followers(kind)))
 
@@ -379,14 +397,14 @@ def size(kind: EpicyclicKind, bounds: SetBounds, slack: int = 0) -> int:
 def blocks(
     kind: EpicyclicKind, bounds: SetBounds, planets: int, clearance: Fraction | None, slack: int = 0
 ) -> Iterator[tuple[int, Columns]]:
-    """Yield blocks of combinations of tooth counts: the number of combinations in the block, and the combinations that
-    satisfy the coaxial equations, are admissible, and fit.
+    """Yield, for each block, the number of examined combinations of tooth counts, and the admissible combinations that
+    satisfy the coaxial equations and for which the planets fit between the central wheels.
 
     planets    number of equal planets between which an idle wheel must have clearance
     clearance  minimum clearance between these planets [modules]; None if it is not required
     slack      maximum difference of centre distances [half modules], to be compensated by profile shift
 
-    Raise `RangeError` for more than `MOST_SETS` sets.
+    `RangeError` is raised if there are more than `MOST_SETS` sets.
     """
     total = size(kind, bounds, slack)
     if total > MOST_SETS:
@@ -412,8 +430,8 @@ def blocks(
 
 
 def _followers(kind: EpicyclicKind) -> list[tuple[CentralWheel, CentralWheel]]:
-    """Return pairs of central wheels on the same planet link, where a coaxial equation gives the second count from the
-    first.
+    """Return pairs of central wheels that mesh with the same planet link. A coaxial equation gives the tooth count of
+    the second wheel from that of the first.
     """
     if kind.bevel:
         return []
@@ -432,7 +450,7 @@ def _add_dependent_counts(
     planets: int,
     clearance: Fraction | None,
 ) -> Columns:
-    """Add the counts of the dependent wheels, and remove the sets that are impossible."""
+    """Return the sets with the tooth counts of the dependent wheels added. Sets that are impossible are removed."""
     columns = dict(chosen)
     for (first, other), more in zip(_followers(kind), extra, strict=True):
         distance = columns[first.wheel] + (-1 if first.internal else 1) * columns[first.mesh] + more
@@ -445,10 +463,11 @@ def _add_dependent_counts(
 
 
 def _is_stepped(kind: EpicyclicKind, columns: Columns) -> NDArray[np.bool_]:
-    """Return False for each set with a stepped planet that is equivalent to a planet with one wheel, else True.
+    """Return, for each set, False if it has a stepped planet that is equivalent to a planet with one wheel, and True if
+    it has not.
 
-    Equal steps differ from one wheel only if they mesh with two suns, or two rings, of different counts, which `slack`
-    permits.
+    Two steps with equal tooth counts differ from one wheel only if they mesh with two suns, or with two rings, of
+    different tooth counts. This is possible only if `slack` permits it.
     """
     stepped = np.ones(len(columns[kind.free[0]]), dtype=bool)
     for one, other in ((one, other) for link in kind.planets for one, other in combinations(link, 2)):
@@ -463,7 +482,9 @@ def _is_stepped(kind: EpicyclicKind, columns: Columns) -> NDArray[np.bool_]:
 def _with_idle(
     kind: EpicyclicKind, bounds: SetBounds, columns: Columns, planets: int, clearance: Fraction | None
 ) -> dict[str, Ints]:
-    """Add the minimum counts of the idle wheels that fit, and remove the sets for which no count fits."""
+    """Return the sets with the minimum tooth counts of the idle wheels that fit. Sets for which no tooth count fits are
+    removed.
+    """
     # an idle wheel changes no ratio: the smallest count that fits represents all
     common = set[int].intersection(*(set(bounds[wheel]) for wheel in kind.idle))
     found: Ints = np.zeros_like(columns[kind.free[0]])
@@ -490,11 +511,12 @@ def _select(columns: Columns, good: NDArray[np.bool_] | Ints) -> dict[str, Ints]
 
 
 def ratio_terms(kind: EpicyclicKind, mode: EpicyclicMode, columns: Columns) -> tuple[Ints, Ints]:
-    """Return the numerator and denominator of the ratio of input to output speed, exact and not reduced.
+    """Return the exact numerator and denominator of the ratio of input speed to output speed, not reduced to lowest
+    terms.
 
     The ratio is (f_in - f_held) / (f_out - f_held) by the Willis equation, where f is 0 for the carrier and sign P / z
-    for a central wheel of z teeth that meshes with a planet wheel of P teeth. If one of the terms is 0 the mode does
-    not transmit motion: the output is at rest, or the input is locked.
+    for a central wheel of z teeth that meshes with a planet wheel of P teeth. If the numerator or the denominator is 0,
+    the mode does not transmit motion: the input is locked, or the output is at rest.
     """
     (n1, d1), (n2, d2), (n0, d0) = (
         _relative(kind.member(link), columns) for link in (mode.input, mode.output, mode.held)
@@ -512,11 +534,11 @@ def _relative(member: CentralWheel | None, columns: Columns) -> tuple[Ints | int
 
 
 def places(kind: EpicyclicKind, columns: Columns) -> Ints:
-    """Return the number of equally spaced positions at which identical planets can be assembled, for each set.
+    """Return, for each set, the number of equally spaced positions at which identical planets can be assembled.
 
-    n equal planets can be equally spaced if and only if n divides this number; if it is 0, every position is possible.
-    Here z is the tooth count of a central wheel, P is the tooth count of the planet step with which it meshes, and f is
-    its speed relative to the carrier.
+    A number n of equal planets can be equally spaced if and only if n divides this number. If this number is 0, every
+    position is possible. Here z is the tooth count of a central wheel, P is the tooth count of the planet step with
+    which it meshes, and f is its speed relative to the carrier.
 
     Rotate the carrier by 1/n revolution with central wheel x fixed. Wheel y turns by (1 - f_y/f_x)/n, after which its
     teeth must align where the next planet is inserted. If both mesh with the same step of the planet, (z_y -+ z_x)/n
@@ -535,11 +557,11 @@ def places(kind: EpicyclicKind, columns: Columns) -> Ints:
 
 
 def fits(kind: EpicyclicKind, columns: Columns) -> NDArray[np.bool_]:
-    """Return whether one planet (or pair of planets) fits between the central wheels, for each set.
+    """Return, for each set, whether one planet (or one pair of planets) fits between the central wheels.
 
-    Planets are smaller than their ring. Planets in mesh extend from wheel to wheel and clear all wheels with which they
-    do not mesh. Cones of bevel wheels open outwards. The addendum is one module. Interference of flanks is not tested
-    here.
+    Planets must be smaller than their ring. Planets that mesh with each other must extend from one central wheel to the
+    other and have clearance from all wheels with which they do not mesh. Pitch cones of bevel wheels must open
+    outwards. The addendum is one module. Interference of flanks is not tested here.
     """
     good = np.ones(columns[kind.members[0].wheel].shape, dtype=bool)
     for member in kind.members:
@@ -559,10 +581,11 @@ def fits(kind: EpicyclicKind, columns: Columns) -> NDArray[np.bool_]:
 
 
 def room(kind: EpicyclicKind, columns: Columns, planets: int) -> Floats:
-    """Return the clearance between the tips of equally spaced neighbouring planets [modules], for each set.
+    """Return, for each set, the clearance between the tips of equally spaced neighbouring planets [modules].
 
-    It is negative if planets overlap, and infinite for one planet. For n planets with p teeth on a sun with s teeth it
-    is (s + p) sin(pi/n) - p - 2. Planets in mesh with each other are placed by the law of cosines.
+    The clearance is negative if planets overlap, and infinite for one planet. For n planets with p teeth on a sun with
+    s teeth, it is (s + p) sin(pi/n) - p - 2. The positions of planets that mesh with each other follow from the law of
+    cosines.
     """
     if planets == 1:
         return np.full(columns[kind.members[0].wheel].shape, np.inf)
@@ -586,10 +609,10 @@ def room(kind: EpicyclicKind, columns: Columns, planets: int) -> Floats:
 
 
 def clears(kind: EpicyclicKind, columns: Columns, planets: int, clearance: Fraction) -> NDArray[np.bool_]:
-    """Return whether the tips of neighbouring planets have at least the given clearance [modules], for each set.
+    """Return, for each set, whether the tips of neighbouring planets have at least the given clearance [modules].
 
-    Values near the bound are compared exactly, as for the clearance of a declared train. Clearances of bevel wheels,
-    which are angles, are compared as floats.
+    Clearances near the bound are compared exactly, in the same way as clearances of a declared train. Clearances of
+    bevel wheels are computed from angles and compared as floats.
     """
     found, minimum = room(kind, columns, planets), float(clearance)
     # bevel sets are not decided exactly below, so a tie counts as sufficient clearance
@@ -617,14 +640,15 @@ def _clears_exactly(kind: EpicyclicKind, columns: Columns, planets: int, clearan
 
 
 def _distance(kind: EpicyclicKind, columns: Columns, link: tuple[str, ...]) -> Ints:
-    """Return the distance between the central axis and the axis of a planet [half modules]."""
+    """Return, for each set, the distance between the central axis and the axis of a planet [half modules]."""
     member = next(member for member in kind.members if member.mesh in link)
     planet = columns[member.mesh]
     return columns[member.wheel] + (-planet if member.internal else planet)
 
 
 def _side_cosine(columns: Columns, own: str, other: str) -> Floats:
-    """Return the cosine of the pitch cone angle of a side wheel, if both side wheels mesh with one bevel planet.
+    """Return the cosine of the pitch-cone angle of the side wheel `own`, if it and the side wheel `other` mesh with the
+    same bevel planet.
 
     The cone angles g of planet p and side wheels a, b have equal sin g / z and satisfy g_a + g_b + 2 g_p = pi. They are
     the angles of a triangle with the sides a, b and 2 p cos g_p, so that cos^2 g_p = (a + b)^2 / 4(p^2 + ab).
@@ -639,8 +663,8 @@ def _planet_cosine(columns: Columns) -> Floats:
 
 
 def _bevel_clearance(columns: Columns, planets: int) -> Floats:
-    """Return the clearance of bevel planets [modules]: the angle between neighbouring axes minus the pitch cone angles,
-    multiplied by the radius; from this the addenda are subtracted.
+    """Return the clearance of neighbouring bevel planets [modules]: the angle between their axes minus their pitch-cone
+    angles, multiplied by the cone radius, minus their addenda.
     """
     cone = np.arccos(_planet_cosine(columns))
     # a cone angle of 0 gives an infinite radius, which is replaced below

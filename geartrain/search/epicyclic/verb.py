@@ -1,4 +1,4 @@
-"""Command `geartrain teeth set RATIO --kind ...`: search for epicyclic sets."""
+"""Command `geartrain teeth set RATIO --kind ...`: search for epicyclic sets with a given ratio."""
 
 from __future__ import annotations
 
@@ -97,7 +97,7 @@ def run(
 
 
 def _list(answer: SearchAnswer) -> None:
-    """Print the kinds of epicyclic sets that can be searched."""
+    """Print the kinds of epicyclic sets for which a search is available."""
     from geartrain.search.epicyclic.epicyclic_sets import kinds
     from geartrain.search.tooth_numbers_report import describe_set_kinds
 

@@ -1,12 +1,14 @@
-"""Exact join: tooth counts of some wheels that satisfy polynomial constraints, and the number of these assignments.
+"""Exact join: assignments of tooth counts to wheels that satisfy polynomial constraints, and the number of these
+assignments.
 
 Lists of products are joined on their common wheels, in ascending order of the expected size of the result. All numbers
 are integers and Fractions.
 
-product_lists           distinct products with the number of assignments of each, and partial assignments as columns
+product_lists           distinct products of tooth counts with the number of assignments of each, and arrays of partial
+                        assignments
 wheel_monomials         constraints on functions of tooth counts, and the monomials by which functions depend on wheels
 polynomial_constraints  constraints as signs of polynomials, and windows of the last free variable
 join_plan               order in which variables are assigned, by expected cost
 exact_join              the join: bucket elimination (Dechter 1999)
-inside_outside          sums over all assignments of a recorded join, and its best assignments (A* search)
+inside_outside          sums over all assignments of a recorded join, and the best assignments (A* search)
 """

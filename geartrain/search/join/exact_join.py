@@ -1,4 +1,4 @@
-"""Exact join by bucket elimination: all assignments of a problem are counted, or enumerated block by block."""
+"""Exact join by bucket elimination, which counts all assignments of a problem or yields them block by block."""
 
 from __future__ import annotations
 
@@ -22,25 +22,27 @@ from geartrain.search.join.wheel_monomials import extent
 
 
 Slices = Mapping[int, tuple[int, int]]
-"""Half-open index range of the values of each variable that one task covers; variables that are not listed are
-unrestricted.
+"""Half-open range of indices into the values of a variable, keyed by variable. One task of a join covers only these
+values. Variables without an entry are unrestricted.
 """
 AssignmentColumns = dict[str, Ints]
 
 
 class BudgetSpentError(Exception):
-    """Signal that a join has exceeded its maximum number of steps."""
+    """Exception raised if a join exceeds its maximum number of steps."""
 
 
 RefusalCounts = dict[int, Tallies]
-"""Number of assignments that each constraint rejects, for each row (partial assignment)."""
+"""Number of rejected assignments of each row (partial assignment), keyed by the index of the constraint that rejects
+them.
+"""
 
 
 class ExactJoin:
     """Exact join of a problem by bucket elimination (Dechter 1999).
 
     slices   ranges of the values of some variables, to which the join is restricted
-    budget   maximum number of steps, beyond which `BudgetSpentError` is raised
+    budget   maximum number of steps; `BudgetSpentError` is raised if it is exceeded
     """
 
     def __init__(self, question: JoinProblem, slices: Slices | None = None, budget: float = np.inf) -> None:
@@ -57,16 +59,16 @@ class ExactJoin:
         self.cut(slices or {}, budget)
 
     def cut(self, slices: Slices, budget: float = np.inf) -> None:
-        """Restrict the join to other ranges of values, and reset the number of steps to 0."""
+        """Set the ranges of values and the maximum number of steps of the join, and reset the step counter to 0."""
         self.slices, self.budget, self.steps = slices, budget, 0
         self._full: dict[int, int] = {}
 
     def start(self) -> PartialAssignments:
-        """Return one row without assigned variables, from which a join starts."""
+        """Return a single partial assignment in which no variable is assigned, from which a join starts."""
         return PartialAssignments(self.items, {}, 1)
 
     def full(self, node: PlanNode) -> int:
-        """Return the number of assignments of the variables of a node and its subtree, regardless of constraints."""
+        """Return the number of assignments of the variables of a node and its subtree without regard to constraints."""
         if id(node) not in self._full:
             first, last = self._run(node.item)
             total = int(self.items[node.item].sums[last] - self.items[node.item].sums[first])
@@ -76,8 +78,8 @@ class ExactJoin:
         return self._full[id(node)]
 
     def count(self, node: PlanNode, rows: PartialAssignments) -> tuple[Tallies, RefusalCounts]:
-        """Return the number of accepted assignments that extend each row, and the numbers that each constraint
-        rejects.
+        """Return the number of accepted assignments that extend each row, and the number of assignments of each row
+        that each constraint rejects.
         """
         total = np.zeros(rows.size, dtype=self.dtype)
         removed: RefusalCounts = defaultdict(lambda: np.zeros(rows.size, dtype=self.dtype))
@@ -92,8 +94,8 @@ class ExactJoin:
         return total, removed
 
     def stream(self, nodes: Sequence[PlanNode], rows: PartialAssignments) -> Iterator[PartialAssignments]:
-        """Yield all assignments that extend the rows by the variables of some nodes and their subtrees, block
-        by block.
+        """Yield, block by block, all assignments that extend the rows by the variables of the given nodes and their
+        subtrees.
         """
         if not nodes:
             yield rows
@@ -107,7 +109,9 @@ class ExactJoin:
             yield from self.stream((*node.children, *nodes[1:]), grown)
 
     def wheels(self, rows: PartialAssignments) -> Iterator[AssignmentColumns]:
-        """Yield every assignment of tooth counts that the rows of values represent, block by block."""
+        """Yield, block by block, every assignment of tooth counts that is represented by the given rows of values of
+        variables.
+        """
         sizes = np.ones(rows.size, dtype=self.dtype)
         for item, column in rows.columns.items():
             sizes = sizes * self.items[item].times[column]
@@ -129,7 +133,9 @@ class ExactJoin:
             yield {wheel: columns[wheel] for wheel in self.question.wheels}
 
     def spend(self, steps: int) -> None:
-        """Add steps to the number of steps of the join. Raise `BudgetSpentError` beyond the budget."""
+        """Add a number of steps to the step counter of the join. `BudgetSpentError` is raised if the total exceeds the
+        budget.
+        """
         self.steps += steps
         if self.steps > self.budget:
             raise BudgetSpentError
@@ -140,9 +146,10 @@ class ExactJoin:
     def pruned(
         self, node: PlanNode, rows: PartialAssignments, removed: RefusalCounts | None
     ) -> tuple[Ints, PartialAssignments]:
-        """Return the rows that can still satisfy all constraints, with their indices in `rows`.
+        """Return the rows that can still satisfy all constraints, preceded by their indices in `rows`.
 
-        A row is removed, and counted in `removed`, if a constraint rejects it for all values of the free variables.
+        A row is removed, and counted in `removed`, if a constraint rejects the row for all values of the free
+        variables.
         """
         at = np.arange(rows.size)
         for number in node.prunes:
@@ -158,8 +165,8 @@ class ExactJoin:
         return at, rows
 
     def _count_windows(self, node: PlanNode, at: Ints, rows: PartialAssignments, removed: RefusalCounts) -> Tallies:
-        """Count the admissible values of the last variable from the index ranges that its only constraint admits,
-        without listing a row for each value.
+        """Count the admissible values of the last variable for each row, from the index ranges that its only constraint
+        admits. No row is created for a single value.
         """
         constraint, item = self.constraints[node.guide], self.items[node.item]
         assert isinstance(constraint, PolynomialConstraint)
@@ -175,8 +182,8 @@ class ExactJoin:
     def grown(
         self, node: PlanNode, rows: PartialAssignments, at: Ints, removed: RefusalCounts | None
     ) -> Iterator[tuple[Ints, PartialAssignments]]:
-        """Yield the rows extended by each value of a node's variable that satisfies the constraints of the node, block
-        by block, with the indices of the original rows.
+        """Yield, block by block, the extended rows and the indices of their original rows. Each row is extended by
+        every value of the variable of the node that satisfies the constraints of the node.
         """
         times, total = self.items[node.item].times, self._total(node.item)
         below = self.full(node) // total  # assignments of the subtree for each value of the variable
@@ -198,7 +205,9 @@ class ExactJoin:
                 yield at[parents], grown
 
     def _candidates(self, node: PlanNode, rows: PartialAssignments) -> Iterator[tuple[Ints, Ints]]:
-        """Yield pairs (row, value) that the guide constraint of a node accepts, block by block."""
+        """Yield, block by block, the index of a row and the index of a value for each pair that the guide constraint of
+        a node accepts.
+        """
         first, last = self._run(node.item)
         if node.guide < 0:
             whole = np.zeros(rows.size, dtype=np.int64)
@@ -216,8 +225,8 @@ class ExactJoin:
     def _solved(
         self, equation: CountEquation, item: int, rows: PartialAssignments, first: int, last: int
     ) -> tuple[Ints, Ints]:
-        """Return the rows for which an equation has an admissible solution for a variable, and the index of the
-        solution in the values of the variable.
+        """Return the indices of the rows for which an equation has an admissible solution for a variable, and the index
+        of the solution among the values of this variable.
         """
         counts, whole = equation.solve_for(self.question.recipes[item][0][0], self._counts(equation, rows))
         values = self.items[item].values
@@ -227,7 +236,7 @@ class ExactJoin:
         return found, indices[found]
 
     def _counts(self, rule: CountConstraint, rows: PartialAssignments) -> AssignmentColumns:
-        """Return the tooth counts of those wheels of a constraint that are assigned."""
+        """Return the tooth counts of those wheels in a constraint to which a tooth count is assigned."""
         items = {wheel: self.wheel_of[wheel] for wheel in rule.wheels}
         return {wheel: rows.value(item) for wheel, item in items.items() if item in rows.columns}
 
@@ -238,8 +247,8 @@ class ExactJoin:
         return constraint.holds(self._counts(constraint, rows))
 
     def _count_below(self, node: PlanNode, parents: Ints, grown: PartialAssignments, removed: RefusalCounts) -> Tallies:
-        """Count the assignments that extend each new row. Assignments rejected in the subtree are counted for the rows
-        `parents`.
+        """Count the assignments that extend each row of `grown`. The assignments that are rejected in the subtree are
+        counted in `removed` for the corresponding rows `parents`.
         """
         counts = self.items[node.item].times[grown.columns[node.item]]
         alive = np.arange(grown.size)
@@ -258,7 +267,7 @@ class ExactJoin:
         return counts
 
     def _with_solutions(self, node: PlanNode, grown: PartialAssignments) -> PartialAssignments:
-        """Return the rows that have at least one assignment in the subtree of every child."""
+        """Return the rows that have at least one accepted assignment in the subtree of every child."""
         for child in node.children:
             distinct, which = grown.distinct(child.interface)
             found, _ = self.count(child, distinct)

@@ -1,10 +1,11 @@
 """Sums over all assignments of a recorded join: total weight, and weight for each tooth count of each wheel.
 
-They are inside and outside sums over tables of `search.weighted_alternatives`, and exact for integer weights. All sums
-are linear in the weights of each wheel, which may be negative: with weights w(z) (z - mean) instead of w(z) for one
-wheel, the sum for a count of another wheel gives its covariance with this wheel.
+The sums are inside and outside sums over tables of `search.weighted_alternatives`. They are exact for integer weights.
+All sums are linear in the weights of each wheel, and weights may be negative. If the weights w(z) of the tooth counts z
+of one wheel are replaced by w(z) (z - mean), the sums for another wheel give the covariance of the two tooth counts.
 
-The best assignments are found in order by an A* search along the tree, with exact minimum remaining misfits.
+The best assignments are found in ascending order of misfit by an A* search in the tree. The minimum remaining misfit of
+each state is exact.
 """
 
 from __future__ import annotations
@@ -29,15 +30,17 @@ from geartrain.search.weighted_alternatives import AlternativeRows, WeightedAlte
 
 
 Misfits = Mapping[int, Callable[[Floats], Floats]]
-"""Functions that convert values of a constrained function to misfits, by the index of the constraint in
+"""Functions that convert values of a constrained function to misfits, keyed by the index of the constraint in
 `JoinProblem.requested`.
 """
 CountWeights = Mapping[str, Tallies]
-"""Weights of the tooth counts of each wheel, arrays of one dtype."""
+"""Weights of the tooth counts of each wheel. All arrays have the same dtype."""
 
 
 def _ways(last: ProductStep | None, row: int) -> Iterator[dict[str, int]]:
-    """Yield each assignment of tooth counts that produces a product, as a dict from wheel to the index of its count."""
+    """Yield each assignment of tooth counts that produces the product with index `row`, as a dict that maps each wheel
+    to the index of its tooth count.
+    """
     if last is None:
         yield {}
         return
@@ -48,26 +51,31 @@ def _ways(last: ProductStep | None, row: int) -> Iterator[dict[str, int]]:
 
 @dataclass(frozen=True, eq=False)
 class RecordedNode:
-    """Node of the plan of a join, with all transitions that lead to complete assignments."""
+    """Node of a recorded join plan, with all transitions that lead to complete assignments. A transition assigns a
+    value to the variable of the node.
+    """
 
     size: int
-    """Number of rows, which are the distinct states before the node."""
+    """Number of rows, that is, of distinct states before the variable of the node is assigned."""
     parents: Ints
-    """Row from which each transition starts, ascending."""
+    """Index of the row from which each transition starts, in ascending order."""
     places: Ints
-    """Index in `values` of the value that each transition assigns."""
+    """Index in `values` of the value that is assigned by each transition."""
     values: ProductStep
-    """Values that the variable takes, stored as the last step of the multiplication that produces them."""
+    """Values of the variable of the node, represented by the last step of the multiplication that produces them."""
     misfit: Floats
-    """Misfit that each transition adds, from graded constraints whose last variable is assigned at this node."""
+    """Misfit added by each transition, from the graded constraints whose last variable is assigned at this node."""
     children: tuple[tuple[RecordedNode, Ints], ...]
-    """Child nodes, each with the index of the row to which each transition leads."""
+    """Child nodes, each with an array that contains the index of the row of the child to which each transition
+    leads.
+    """
 
 
 def record_join(question: JoinProblem, limit: float, misfits: Misfits) -> tuple[RecordedNode, int]:
-    """Record the tree of a join problem that has no constraints evaluated last, and return it with its number of steps.
+    """Record the tree of a join problem, and return the root and the number of steps. The problem must not have
+    constraints that are evaluated last.
 
-    Raise `BudgetSpentError` beyond `limit` partial assignments.
+    `BudgetSpentError` is raised if the number of steps exceeds `limit`.
     """
     join = ExactJoin(question, budget=limit)
     return _Recorder(join, misfits).record(question.plan, join.start()), join.steps
@@ -105,7 +113,7 @@ class _Recorder:
         return RecordedNode(rows.size, parents, places, values, misfit, tuple(children))
 
     def _misfit(self, node: PlanNode, rows: PartialAssignments) -> Floats:
-        """Return the misfit of the graded constraints whose last variable is assigned at a node."""
+        """Return the misfit of each row from the graded constraints whose last variable is assigned at a node."""
         found = np.zeros(rows.size)
         for number in (node.guide, *node.checks):
             demand = number - len(self.join.question.rules)
@@ -128,7 +136,7 @@ _Table = RecordedNode | ProductStep
 class AssignmentSums:
     """Calculator of weighted sums over all assignments of a recorded join, for different weights of tooth counts.
 
-    graded   True if the weight of an assignment, the product of the weights of its counts, is multiplied by
+    graded   True to multiply the weight of an assignment, which is the product of the weights of its tooth counts, by
              exp(-misfit / 2)
     """
 
@@ -136,21 +144,21 @@ class AssignmentSums:
         self.root, self.graded = root, graded
 
     def total(self, weights: CountWeights) -> Any:
-        """Return the total weight of all assignments."""
+        """Return the total weight of all assignments of tooth counts."""
         return self._sums(weights).total.sum()
 
     def marginals(self, weights: CountWeights) -> dict[str, Tallies]:
-        """Return for each wheel the total weight of the assignments with each of its tooth counts."""
+        """Return the total weight of the assignments with each tooth count of each wheel, keyed by wheel."""
         return {str(wheel): sums for wheel, sums in self._sums(weights).marginals.items()}
 
     def _sums(self, weights: CountWeights) -> WeightedAlternatives[_Table]:
         return WeightedAlternatives(self.root, lambda table: self._alternatives(table, weights))
 
     def _alternatives(self, table: _Table, weights: CountWeights) -> AlternativeRows[_Table]:
-        """Return the rows of a table as weighted alternatives.
+        """Return the weighted alternatives of the rows of a table. A table is a recorded node or a product step.
 
         An alternative of a node refers to a value of its variable and to a row of each child node. An alternative of a
-        value chooses one tooth count, and refers to the product of the other factors.
+        product selects one tooth count and refers to the product of the other factors.
         """
         if isinstance(table, RecordedNode):
             grade = np.exp(-table.misfit / 2) if self.graded else 1
@@ -161,9 +169,9 @@ class AssignmentSums:
         return AlternativeRows(own[table.choices], table.size, table.children, before, facts)
 
     def covariances(self, weights: CountWeights, counts: Mapping[str, Sequence[int]]) -> dict[tuple[str, str], float]:
-        """Return the covariance, as a float, of the tooth counts of each pair of wheels in the order of `counts`.
+        """Return the covariance of the tooth counts of each pair of wheels, keyed by pair in the order of `counts`.
 
-        weights   arrays of float64, not negative
+        weights   arrays of non-negative float64 values
         """
         total, marginals = float(self.total(weights)), self.marginals(weights)
         wheels = [wheel for wheel in counts if wheel in marginals]
@@ -182,7 +190,7 @@ class AssignmentSums:
 
 @dataclass(frozen=True, slots=True)
 class GradedAssignment:
-    """Assignment of tooth counts with its misfit, which is accurate up to rounding."""
+    """Assignment of tooth counts with its misfit, which is accurate up to rounding errors."""
 
     misfit: float
     teeth: Mapping[str, int]
@@ -202,7 +210,9 @@ class BestFirst:
         self._add(root)
 
     def _add(self, node: RecordedNode) -> int:
-        """Assign numbers to a node and its subtree, and compute the minimum remaining misfit of each row."""
+        """Assign a number to a node and to each node of its subtree, compute the minimum remaining misfit of each row,
+        and return the number of the node.
+        """
         at = len(self._nodes)
         self._nodes.append(node)
         self._ahead.append(np.full(node.size, np.inf))
@@ -216,8 +226,8 @@ class BestFirst:
         return at
 
     def __iter__(self) -> Iterator[GradedAssignment]:
-        """Yield the assignments in ascending order of misfit. The heap stores open rows as (node, row) and assigned
-        values as (node, index of the value).
+        """Yield the assignments in ascending order of misfit. A heap entry contains pairs (node, row) for open rows and
+        pairs (node, index of the value) for assigned values.
         """
         heap: list[tuple[float, int, float, tuple[tuple[int, int], ...], tuple[tuple[int, int], ...]]] = []
         if np.isfinite(self._ahead[0][0]):
@@ -240,7 +250,7 @@ class BestFirst:
                 heappush(heap, (max(ahead, bound), depth - 1, so_far, then, (*taken, (number, int(node.places[at])))))
 
     def _teeth(self, taken: Sequence[tuple[int, int]]) -> Iterator[dict[str, int]]:
-        """Yield all assignments of tooth counts that produce the given values of variables."""
+        """Yield all assignments of tooth counts that produce the given values of the variables."""
         if not taken:
             yield {}
             return

@@ -1,8 +1,9 @@
-"""Order in which a join assigns its variables: a tree, because assigned variables separate the remaining
+"""Order in which a join assigns its variables. It is a tree, because assigned variables separate the remaining
 variables into independent parts.
 
-Two outputs with common wheels are independent once the common wheels are assigned. Their other wheels are
-then counted separately for each distinct assignment of the common wheels, and the counts are multiplied.
+Two outputs with common wheels are independent once the common wheels are assigned. The assignments of their other
+wheels are then counted separately for each distinct assignment of the common wheels, and the two numbers are
+multiplied.
 """
 
 from __future__ import annotations
@@ -36,28 +37,34 @@ Items = frozenset[int]
 
 @dataclass(frozen=True, slots=True)
 class PlanNode:
-    """Node of a join plan: a variable that is assigned after all variables above it in the tree."""
+    """Node of a join plan. The node assigns one variable. The variables of its ancestors in the tree are assigned
+    before.
+    """
 
     item: int
     """Index of the variable that the node assigns."""
     interface: tuple[int, ...]
-    """Variables above the node on which a constraint of the node or of its subtree depends."""
+    """Indices of the variables that are assigned by ancestors of this node and on which a constraint of this node or of
+    its subtree depends.
+    """
     guide: int
-    """Index of the constraint that selects the values to try; -1 if all values are tried."""
+    """Index of the constraint that selects the values of the variable to be examined; -1 if all values are examined."""
     checks: tuple[int, ...]
-    """Indices of the constraints, other than the guide, whose last variable is assigned at this node, in the order of
+    """Indices of the constraints, other than the guide, whose last variable is assigned at this node; in the order of
     evaluation.
     """
     prunes: tuple[int, ...]
-    """Indices of the polynomial constraints with at least two free variables by which rows are pruned at this node."""
+    """Indices of the polynomial constraints by which rows are pruned at this node. Each of them has at least two free
+    variables.
+    """
     children: tuple[PlanNode, ...]
-    """Child nodes, no two of which have a common constraint."""
+    """Child nodes. No two of them have a common constraint."""
     reach: tuple[int, ...]
-    """Indices of all constraints of this node and its subtree."""
+    """Indices of all constraints of this node and of its subtree."""
 
     def decided(self) -> Iterator[int]:
-        """Yield the indices of the constraints whose last variable is assigned at this node, then of the constraints
-        whose last variable is assigned in its subtree.
+        """Yield the indices of the constraints whose last variable is assigned at this node, and then of those whose
+        last variable is assigned in its subtree.
         """
         if self.guide >= 0:
             yield self.guide
@@ -68,49 +75,53 @@ class PlanNode:
 
 @dataclass(frozen=True)
 class JoinProblem:
-    """Complete description of a join as data that can be pickled for worker processes."""
+    """Complete description of a join. It can be pickled and sent to worker processes."""
 
     domains: Domains
-    """Admissible tooth counts of each wheel, ascending."""
+    """Admissible tooth counts of each wheel, in ascending order."""
     requested: tuple[IntervalConstraint, ...]
-    """Constraints on the values of functions of tooth counts."""
+    """Constraints on the values of rational functions of the tooth counts."""
     rules: tuple[CountConstraint, ...]
-    """Constraints on tooth counts. Constraint indices refer to `rules` followed by `requested`."""
+    """Constraints on tooth counts. A constraint index refers to the sequence of `rules` followed by `requested`."""
     late: tuple[CountConstraint, ...]
-    """Constraints on tooth counts that are evaluated last, on assignments of all wheels."""
+    """Constraints on tooth counts that are evaluated last, when all wheels have a tooth count."""
     recipes: tuple[Factors, ...]
     """Definitions of the variables as products of tooth counts."""
     plan: PlanNode
-    """Root of the plan, which assigns the first variable."""
+    """Root of the plan. It assigns the first variable."""
     steps: float
-    """Expected number of partial assignments to examine."""
+    """Expected number of partial assignments that the join examines."""
     weights: Weights = field(default_factory=dict)
-    """Integer weight of each tooth count by wheel, if assignments are weighted instead of counted."""
+    """Integer weight of each tooth count, keyed by wheel; empty if assignments are counted instead of weighted."""
 
     @cached_property
     def polynomial_constraints(self) -> tuple[PolynomialConstraint, ...]:
-        """Constraints of `requested`, converted to polynomial constraints in the variables."""
+        """Constraints of `requested` in terms of the variables, as polynomial constraints."""
         return tuple(find_polynomial_constraints(self.requested, self.recipes, self.domains))
 
     @property
     def wheels(self) -> tuple[str, ...]:
-        """Wheels in the order of declaration."""
+        """Names of the wheels in the order of declaration."""
         return tuple(self.domains)
 
     @property
     def total(self) -> int:
-        """Total weight of all assignments, which is their number if no weights are given."""
+        """Total weight of all assignments before constraints are applied. It is their number if no weights are
+        given.
+        """
         return prod(sum(self.weights.get(wheel, (1,) * len(counts))) for wheel, counts in self.domains.items())
 
     @property
     def order(self) -> tuple[int, ...]:
-        """Indices of the constraints in the order of evaluation, with `late` at the end."""
+        """Indices of the constraints in the order of evaluation. The constraints of `late` are at the end."""
         found = list(self.plan.decided())
         return (*found, *(at for at in range(len(self.reasons)) if at not in found))
 
     @property
     def reasons(self) -> tuple[str, ...]:
-        """Names of the constraints, with `late` at the end."""
+        """Names of the constraints in the order of their indices. The names of the constraints of `late` are at the
+        end.
+        """
         return tuple(one.name for one in (*self.rules, *self.polynomial_constraints, *self.late))
 
 
@@ -123,9 +134,10 @@ def find_join_problem(
 ) -> JoinProblem:
     """Return the join problem whose plan has the minimum expected cost.
 
-    Plans with different choices of the constraints that are evaluated last are compared.
+    The plans that are compared differ in the constraints that are evaluated last.
 
-    probabilities   approximate fraction of the assignments that satisfy each constraint, by its name
+    probabilities   approximate fraction of the assignments that satisfy a constraint, keyed by the name of the
+                    constraint
     weights         integer weights of tooth counts, as in `JoinProblem`
     """
     found = [_planned(domains, requested, early, late, probabilities) for early, late in _rule_partitions(rules)]
@@ -135,8 +147,8 @@ def find_join_problem(
 def _rule_partitions(
     rules: Sequence[CountConstraint],
 ) -> Iterator[tuple[tuple[CountConstraint, ...], tuple[CountConstraint, ...]]]:
-    """Yield partitions of the constraints on counts into constraints evaluated as soon as possible and constraints
-    evaluated last.
+    """Yield partitions of the constraints on tooth counts into two groups: constraints evaluated as soon as possible,
+    and constraints evaluated last.
     """
     equations = tuple(rule for rule in rules if isinstance(rule, CountEquation))
     conditions = tuple(rule for rule in rules if isinstance(rule, Condition))
@@ -170,7 +182,7 @@ def _planned(
 
 @dataclass
 class _Planner:
-    """Generator of a plan and its expected cost, which is the number of partial assignments."""
+    """Generator of a join plan and its expected cost, which is the expected number of partial assignments."""
 
     domains: Domains
     recipes: Sequence[Factors]
@@ -189,7 +201,7 @@ class _Planner:
         self.likely = [self.probabilities.get(one.name, 1.0) for one in (*self.rules, *self.polynomial_constraints)]
 
     def plan(self) -> tuple[PlanNode, float]:
-        """Return the root of the plan, and its expected cost."""
+        """Return the root of the plan and its expected cost."""
         node, cost = self._grow(frozenset(range(len(self.recipes))), frozenset(), 1.0)
         # constraints without variables are evaluated at the root
         constant = tuple(at for at, scope in enumerate(self.scopes) if not scope)
@@ -222,12 +234,13 @@ class _Planner:
         return node, cost
 
     def _share(self, item: int, guide: int) -> float:
-        """Return the expected fraction of the values of a variable that its guide constraint selects."""
+        """Return the expected fraction of the values of variable `item` that constraint `guide` selects."""
         return 1 / self.sizes[item] if guide < len(self.rules) else self.likely[guide]
 
     def _next(self, open_: Items, active: Sequence[int]) -> int:
-        """Select the next variable: a variable that an equation determines; otherwise, among the variables of the
-        constraint with the lowest cost, the variable that occurs in most constraints.
+        """Return the next variable to be assigned. This is a variable that an equation determines, if there is one. If
+        there is none, it is the variable that occurs in most constraints, among the variables of the constraint with
+        the lowest cost.
         """
         for at in active:
             left = self.scopes[at] & open_
@@ -248,10 +261,10 @@ class _Planner:
         return min(self.scopes[focus] & open_, key=rank)
 
     def _guide(self, item: int, complete: Sequence[int]) -> int:
-        """Select the equation that determines the variable, otherwise the most selective constraint whose admissible
-        values of the variable are index ranges.
+        """Return the index of the equation that determines variable `item`. If there is none, return the index of the
+        most selective constraint for which the admissible values of the variable form index ranges.
 
-        Return -1 if there is neither.
+        Return -1 if there is no such equation or constraint.
         """
         for at in complete:
             if at < len(self.rules) and isinstance(self.rules[at], CountEquation):
@@ -274,37 +287,39 @@ _EXACT = 1e-7  # width of an exact value in logarithms
 
 @dataclass(frozen=True, slots=True)
 class SelectivitySample:
-    """Random sample of assignments with a fixed seed, for estimates of selectivity."""
+    """Random sample of assignments, drawn with a fixed seed, from which the selectivity of constraints is estimated."""
 
     domains: Domains
     columns: Mapping[str, Ints]
-    """Sampled tooth counts of each wheel, shape (drawn,)."""
+    """Sampled tooth counts of each wheel, shape (drawn,), where `drawn` is the sample size."""
 
     @classmethod
     def of(cls, domains: Domains) -> SelectivitySample:
-        """Draw the sample, uniformly from the admissible counts."""
+        """Draw a sample of assignments uniformly from the admissible tooth counts."""
         # fixed seed, so that a plan and its tasks are reproducible
         draw = np.random.default_rng(0)
         return cls(domains, {wheel: draw.choice(np.array(counts), _DRAWN) for wheel, counts in domains.items()})
 
     def of_rule(self, rule: CountConstraint) -> float:
-        """Estimate the fraction of assignments that satisfy a constraint on tooth counts."""
+        """Return an estimate of the fraction of assignments that satisfy a constraint on tooth counts."""
         if isinstance(rule, CountEquation):
             # an equation fixes one count; a sample would contain too few solutions
             return 1 / max(len(self.domains[wheel]) for wheel in rule.wheels)
         return max(float(rule.holds(self.columns).mean()), 1 / _DRAWN)
 
     def of_demand(self, requested: IntervalConstraint) -> float:
-        """Estimate the fraction of assignments that satisfy an interval constraint.
+        """Return an estimate of the fraction of assignments that satisfy an interval constraint.
 
-        If few sampled assignments satisfy it, the estimate is based on the density of nearby values.
+        If few sampled assignments satisfy the constraint, the estimate is based on the density of nearby values.
         """
         speeds = self.speeds(requested.function)
         minimum = 1 / prod(len(self.domains[wheel]) for wheel in requested.function.wheels)
         return min(1.0, max(minimum, sum(_interval_share(speeds, interval) for interval in requested.intervals)))
 
     def speeds(self, function: Function) -> Floats:
-        """Return the finite values of a function of tooth counts over the sample."""
+        """Return the values of a function of tooth counts for the sampled assignments. Values that are not finite are
+        omitted.
+        """
         product = products_of([self.columns[wheel].astype(np.float64) for wheel in function.wheels])
         values, _ = bounded_quotient(function.numerator, function.denominator, [1] * len(function.wheels), product)
         values = np.broadcast_to(values, _DRAWN)
@@ -312,7 +327,7 @@ class SelectivitySample:
 
 
 def _as_float64(value: Fraction) -> float:
-    """Convert a fraction to float64; the result is infinite if it is out of range."""
+    """Convert a fraction to float64. The result is infinite if the fraction is out of range."""
     number = as_float(value)
     if number is None:
         number = 0.0 if abs(value) < 1 else inf if value > 0 else -inf

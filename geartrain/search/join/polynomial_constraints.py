@@ -1,13 +1,13 @@
-"""Constraints on outputs as signs of polynomials, and tests whether they can be satisfied while some variables are
-free.
+"""Constraints on output speeds, expressed by signs of polynomials, and tests whether they can be satisfied while some
+variables are free.
 
 A speed N/D, a quotient of polynomials, is within the relative tolerance t of the requested speed w if |N/D - w| <= t w.
-This is satisfied in one of a few cases, such as D > 0, N - (1-t) w D >= 0, N - (1+t) w D <= 0. Each case is a set of
-inequalities sense * polynomial >= 0. With one free variable each case leaves one index range of its values, whose ends
-are determined by exact signs.
+The condition is a disjunction of a few cases, such as D > 0, N - (1-t) w D >= 0, N - (1+t) w D <= 0. Each case is a set
+of inequalities sense * polynomial >= 0, where sense is 1 or -1. If only one variable is free, each case admits one
+index range of the values of this variable. The ends of the range are determined by exact signs.
 
-With several free variables, their values are between bounds. Rows are dropped if no values satisfy the constraint.
-Each term has its own extremes, whose sum bounds the polynomial.
+If several variables are free, only the bounds of their values are used. A row (partial assignment) is removed if no
+values within the bounds satisfy the constraint. The sum of the extreme values of all terms bounds the polynomial.
 """
 
 from __future__ import annotations
@@ -38,13 +38,15 @@ ROUNDING = 2 * UNIT_ROUNDOFF  # doubled, so that second-order terms are covered
 
 @dataclass(frozen=True)
 class SignPolynomial:
-    """Polynomial with integer coefficients in the variables, whose sign is computed exactly. Powers are 1 or more."""
+    """Polynomial in the variables with integer coefficients, whose sign is computed exactly. All powers are at least
+    1.
+    """
 
     terms: tuple[tuple[int, Monomial], ...]
 
     @classmethod
     def of(cls, terms: Iterable[tuple[int, Monomial]]) -> SignPolynomial:
-        """Build a polynomial from terms, with equal monomials combined."""
+        """Build a polynomial from terms (coefficient, monomial). Terms with equal monomials are combined."""
         total: dict[Monomial, int] = {}
         for coefficient, monomial in terms:
             total[monomial] = total.get(monomial, 0) + coefficient
@@ -52,7 +54,7 @@ class SignPolynomial:
 
     @cached_property
     def items(self) -> tuple[int, ...]:
-        """Variables that the polynomial depends on, ascending."""
+        """Indices of the variables on which the polynomial depends, in ascending order."""
         return tuple(sorted({item for _, monomial in self.terms for item, _ in monomial}))
 
     @cached_property
@@ -62,30 +64,30 @@ class SignPolynomial:
 
     @cached_property
     def rounding(self) -> float:
-        """Upper bound of the rounding error of `values`, relative to the sum of the magnitudes of their terms."""
+        """Upper bound of the rounding error of `values`, divided by the sum of the magnitudes of the terms."""
         degree = max((sum(power for _, power in monomial) for _, monomial in self.terms), default=0)
         # each variable and each product has one rounding; the remaining terms cover squares and the bound itself
         return (4 * degree + len(self.terms) + 8) * ROUNDING
 
     def powers(self, item: int) -> tuple[int, ...]:
-        """Return the powers of a variable that occur in the polynomial, ascending."""
+        """Return the powers of a variable that occur in the polynomial, in ascending order."""
         return tuple(sorted({dict(monomial).get(item, 0) for _, monomial in self.terms}))
 
     @property
     def definite(self) -> int:
-        """Common sign of all terms, 1 or -1; 0 if the terms have different signs."""
+        """Common sign of all terms, which is 1 or -1; 0 if the terms have different signs."""
         signs = {coefficient > 0 for coefficient, _ in self.terms}
         return (1 if signs.pop() else -1) if len(signs) == 1 else 0
 
     def plus(self, other: SignPolynomial, factor: Fraction) -> SignPolynomial:
-        """Return a positive multiple of `self` + `factor` * `other` with integer coefficients."""
+        """Return a positive multiple of the polynomial `self` + `factor` * `other` that has integer coefficients."""
         mine = ((factor.denominator * coefficient, monomial) for coefficient, monomial in self.terms)
         theirs = ((factor.numerator * coefficient, monomial) for coefficient, monomial in other.terms)
         return SignPolynomial.of((*mine, *theirs))
 
     def values(self, rows: PartialAssignments, scale: int | None = None) -> tuple[Floats, Floats]:
         """Return, for each row, the value of the polynomial divided by `scale`, and the sum of the magnitudes of its
-        terms.
+        terms divided by `scale`.
         """
         # scaled, so that large coefficients do not overflow float64
         over = scale or self.scale
@@ -95,7 +97,7 @@ class SignPolynomial:
         )
 
     def signs(self, rows: PartialAssignments) -> Signs:
-        """Return the exact sign of the polynomial at each row, shape (rows,)."""
+        """Return the exact sign of the polynomial for each row, shape (rows,)."""
         value, size = self.values(rows)
         found: Signs = np.sign(value).astype(np.int8)
         doubtful = np.flatnonzero(np.abs(value) <= self.rounding * size)
@@ -104,7 +106,7 @@ class SignPolynomial:
         return found
 
     def _whole(self, rows: PartialAssignments) -> NDArray[Any]:
-        """Return the values of the polynomial as Python integers."""
+        """Return the exact value of the polynomial for each row, as Python integers."""
         total = np.zeros(rows.size, dtype=object)
         for coefficient, monomial in self.terms:
             term = np.full(rows.size, coefficient, dtype=object)
@@ -128,25 +130,25 @@ def _term(coefficient: float, monomial: Monomial, rows: PartialAssignments) -> F
 
 
 Extents = Sequence[tuple[float, float]]
-"""Minimum and maximum value of each variable."""
+"""Minimum and maximum value of each variable, in the order of their indices."""
 
 
 @dataclass(frozen=True)
 class PolynomialInequality:
-    """Inequality sense * polynomial >= 0, or > 0 if it is strict."""
+    """Inequality sense * polynomial >= 0, or sense * polynomial > 0 if it is strict; `sense` is 1 or -1."""
 
     polynomial: SignPolynomial
     sense: int
     strict: bool = False
 
     def met(self, signs: Signs) -> Bools:
-        """Return whether each exact sign of the polynomial satisfies the inequality."""
+        """Return whether the inequality is satisfied for each exact sign of the polynomial."""
         found: Bools = (signs * self.sense > 0) if self.strict else (signs * self.sense >= 0)
         return found
 
     def possible(self, rows: PartialAssignments, extents: Extents) -> Bools:
-        """Return whether each row can satisfy the inequality for some values of its free variables within their
-        extents, which are bounded independently for each term.
+        """Return whether each row can satisfy the inequality for some values of its free variables within `extents`.
+        Each term is bounded independently, so True may be returned for a row that cannot satisfy it.
         """
         polynomial = self.polynomial
         # a common positive factor keeps the sign, but would widen the bounds
@@ -163,9 +165,10 @@ class PolynomialInequality:
 
 
 def find_window(case: Sequence[PolynomialInequality], rows: PartialAssignments, item: int) -> tuple[Ints, Ints]:
-    """Return, for each row, the exact half-open index range of the values of variable `item` that satisfy a case.
+    """Return, for each row, the exact half-open index range of the values of variable `item` that satisfy all
+    inequalities of a case.
 
-    Both arrays have the shape (rows,) and contain indices into `rows.items[item]`.
+    The two arrays contain the starts and the ends of the ranges, indices into `rows.items[item]`, shape (rows,).
     """
     start, end = np.zeros(rows.size, dtype=np.int64), np.full(rows.size, len(rows.items[item]))
     for inequality in case:
@@ -177,7 +180,8 @@ def find_window(case: Sequence[PolynomialInequality], rows: PartialAssignments, 
 def _ray(inequality: PolynomialInequality, rows: PartialAssignments, item: int) -> tuple[Ints, Ints]:
     """Return, for each row, the half-open index range of the values of variable `item` that satisfy one inequality.
 
-    The arrays contain indices into `rows.items[item]`. A range that is not empty includes the first or the last index.
+    The two arrays contain the starts and the ends of the ranges, indices into `rows.items[item]`. A range that is not
+    empty includes the first or the last index.
     """
     polynomial, most = inequality.polynomial, len(rows.items[item])
 
@@ -197,17 +201,19 @@ def _ray(inequality: PolynomialInequality, rows: PartialAssignments, item: int) 
 
 @dataclass(frozen=True)
 class PolynomialConstraint:
-    """Constraint as a disjunction of mutually exclusive cases, each a conjunction of polynomial inequalities."""
+    """Constraint that is a disjunction of mutually exclusive cases. Each case is a conjunction of polynomial
+    inequalities.
+    """
 
     name: str
-    """Description of the constraint."""
+    """Name of the constraint in reports."""
     cases: tuple[tuple[PolynomialInequality, ...], ...]
     function: tuple[SignPolynomial, SignPolynomial] | None = None
-    """Numerator and denominator of the constrained function; None unless the constraint also returns its value."""
+    """Numerator and denominator of the constrained function; None if the value of the function is not needed."""
 
     @cached_property
     def items(self) -> tuple[int, ...]:
-        """Variables that the constraint depends on, ascending."""
+        """Indices of the variables on which the constraint depends, in ascending order."""
         polynomials = [*(inequality.polynomial for inequality in self._inequalities), *(self.function or ())]
         return tuple(sorted({item for polynomial in polynomials for item in polynomial.items}))
 
@@ -216,20 +222,22 @@ class PolynomialConstraint:
         return (inequality for case in self.cases for inequality in case)
 
     def opens(self, item: int) -> bool:
-        """Return whether the admissible values of a variable can be computed as index ranges, which requires that each
-        polynomial contains at most two powers of the variable.
+        """Return whether the admissible values of variable `item` can be computed as index ranges. This is possible if
+        each polynomial contains at most two powers of the variable.
         """
         return all(len(inequality.polynomial.powers(item)) <= 2 for inequality in self._inequalities)
 
     def holds(self, rows: PartialAssignments) -> Bools:
-        """Return whether each row satisfies the constraint, by exact arithmetic. All its variables must be assigned."""
+        """Return whether each row satisfies the constraint, by exact arithmetic. All variables of the constraint must
+        be assigned.
+        """
         # several cases have the same polynomials
         signs = cache(lambda polynomial: polynomial.signs(rows))
         return self._in_any_case(rows, lambda inequality: inequality.met(signs(inequality.polynomial)))
 
     def possible(self, rows: PartialAssignments, extents: Extents) -> Bools:
-        """Return whether each row can satisfy the constraint; False only if it fails for all values of the free
-        variables.
+        """Return whether each row can satisfy the constraint. False is returned only if the row violates the constraint
+        for all values of the free variables.
         """
         return self._in_any_case(rows, lambda inequality: inequality.possible(rows, extents))
 
@@ -243,7 +251,7 @@ class PolynomialConstraint:
         return found
 
     def value(self, rows: PartialAssignments) -> Floats:
-        """Return the values of the constrained function, up to rounding."""
+        """Return the value of the constrained function for each row, accurate up to rounding errors."""
         assert self.function is not None, "the demand is graded"
         scale = max(side.scale for side in self.function)
         (above, _), (below, _) = (side.values(rows, scale) for side in self.function)
@@ -252,6 +260,7 @@ class PolynomialConstraint:
     def windows(self, rows: PartialAssignments, item: int) -> list[tuple[Ints, Ints]]:
         """Return, for each case, the half-open index range of the admissible values of variable `item` in each row.
 
-        Both arrays of a case have the shape (rows,) and contain indices into `rows.items[item]`.
+        The two arrays of a case contain the starts and the ends of the ranges, indices into `rows.items[item]`, shape
+        (rows,).
         """
         return [find_window(case, rows, item) for case in self.cases]

@@ -1,8 +1,9 @@
-"""Variables of a join: sorted distinct products of tooth counts of some wheels, and rows of values selected from them.
+"""Variables of a join, whose values are sorted distinct products of tooth counts, and partial assignments of these
+values.
 
 An output depends on most wheels only through one monomial, such as a c / (b d). The join therefore assigns variables
-instead of wheels. A variable (class `Item`) is a list of products of counts: here one variable for a c, and another one
-for b d. A wheel in a constraint on counts is a variable by itself.
+instead of wheels. A variable (class `Item`) is a list of products of tooth counts: here one variable for a c, and
+another one for b d. A wheel in a constraint on tooth counts is a separate variable.
 """
 
 from __future__ import annotations
@@ -20,24 +21,25 @@ from numpy.typing import NDArray
 from geartrain.numerics.arrays import Floats, Ints
 
 Tallies = NDArray[Any]
-"""Numbers or weights of assignments: int64 if all of them fit, otherwise Python integers."""
+"""Numbers or weights of assignments: int64 if all of them fit in int64, or Python integers if they do not."""
 Domains = Mapping[str, tuple[int, ...]]
 Factors = tuple[tuple[str, int], ...]
-"""Definition of a variable: its wheels, each with its positive power."""
+"""Definition of a variable: the wheels in its product, each with its positive power."""
 Weights = Mapping[str, tuple[int, ...]]
-"""Integer weight of each tooth count by wheel. The counts of a missing wheel have weight 1, so assignments are counted.
+"""Integer weight of each tooth count, keyed by wheel. The tooth counts of a wheel without an entry have weight 1, so
+that assignments are counted.
 """
 
 BLOCK = 1 << 18
-"""Number of rows in a block, which limits the memory of a join to about 50 MB in addition to its lists."""
+"""Number of rows in a block. It limits the memory of a join to about 50 MB in addition to the lists of products."""
 _LONGEST = 1 << 23  # maximum number of products in one table: 64 MB of int64
 _TRIED = 4_000_000  # maximum number of products formed for a forecast, which is extrapolated beyond it
 _REMEMBERED = 20_000_000  # maximum number of values of all cached variables
 
 
 def forecast(wheels: Sequence[tuple[str, int]], domains: Mapping[str, Sequence[int]]) -> tuple[int, int]:
-    """Return the number of distinct products of tooth counts, and the number of products formed to list them; both are
-    estimates if they are large.
+    """Return the number of distinct products of tooth counts, and the number of products that must be formed to list
+    them. Large numbers are estimates.
     """
     return _forecast(tuple(tuple(count**power for count in domains[wheel]) for wheel, power in wheels))
 
@@ -60,40 +62,41 @@ def _forecast(factors: tuple[tuple[int, ...], ...]) -> tuple[int, int]:
 
 
 def maximum(factors: Sequence[Sequence[int]]) -> int:
-    """Return the largest product of one number from each list."""
+    """Return the largest product of factors, with one factor from each list."""
     return prod(max(some) for some in factors)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ProductStep:
-    """Transitions from the products of some wheels to the products with one more wheel."""
+    """Transitions from the products of some wheels to the products of these wheels and one more wheel."""
 
     wheel: str
     choices: Ints
-    """Index of the tooth count of the wheel, for each transition."""
+    """Index of the tooth count of the additional wheel, for each transition."""
     children: Ints
-    """Index of the product after each transition."""
+    """Index of the product after the multiplication, for each transition."""
     parents: Ints
-    """Index of the product before each transition."""
+    """Index of the product before the multiplication, for each transition."""
     size: int
-    """Number of products after the step."""
+    """Number of distinct products after the step."""
     before: ProductStep | None
-    """Step of the previous wheel; None for the empty product."""
+    """Step of the previous wheel; None if there is no previous wheel."""
 
     def chain(self) -> Iterator[ProductStep]:
-        """Yield this step, then the previous steps."""
+        """Yield this step, followed by the previous steps in reverse order."""
         yield self
         if self.before is not None:
             yield from self.before.chain()
 
 
 class Item:
-    """Values of a variable: distinct products of one tooth count of each wheel, raised to its power, ascending.
+    """Values of a variable in ascending order: distinct products of one tooth count of each wheel, raised to the power
+    of the wheel.
 
-    values   products, shape (m,) int64
+    values   products, int64, shape (m,), where m is the number of products
     x        products as float64, shape (m,)
-    times    total weight of each product, shape (m,) of the given dtype
-    sums     cumulative weights, shape (m + 1,), from 0
+    times    total weight of the assignments that produce each product, shape (m,)
+    sums     cumulative weights, starting with 0, shape (m + 1,)
     """
 
     def __init__(self, wheels: Factors, domains: Domains, weights: Weights, dtype: Any) -> None:
@@ -115,9 +118,10 @@ class Item:
         return len(self.values)
 
     def ways(self, indices: Ints) -> tuple[Ints, dict[str, Ints]]:
-        """Return every assignment of tooth counts that produces one of some products.
+        """Return every assignment of tooth counts that produces one of the products at the given indices.
 
-        The result is (owner, counts by wheel), where owner is the index in `indices` of the product, ascending.
+        The result is (owner, tooth counts keyed by wheel). For each assignment, `owner` is the position of its product
+        in `indices`, in ascending order.
         """
         owner, rest = np.arange(len(indices)), self.values[indices]
         found: dict[str, Ints] = {}
@@ -129,7 +133,9 @@ class Item:
         return owner, found
 
     def last_step(self, indices: Ints) -> ProductStep:
-        """Return the last of the steps that lead from the empty product to the given distinct products."""
+        """Return the last step of the multiplication that leads from the empty product to the distinct products at the
+        given indices.
+        """
         step = self._step(len(self.wheels) - 1, self.values[indices])
         assert step is not None, "a variable has at least one wheel"
         return step
@@ -145,7 +151,9 @@ class Item:
 
 
 def _multiplied(values: Ints, times: Tallies, factors: Ints, weights: Tallies) -> tuple[Ints, Tallies]:
-    """Return the distinct products of two lists with their weights, computed block by block to save memory."""
+    """Return the distinct products of two lists and their weights. The products are computed block by block to save
+    memory.
+    """
     step = max(1, _LONGEST // len(values))
     found: list[tuple[Ints, Tallies]] = []
     for at in range(0, len(factors), step):
@@ -169,7 +177,9 @@ def _distinct(values: Ints, times: Tallies) -> tuple[Ints, Tallies]:
 
 
 def _divided(rest: Ints, factors: Ints, shorter: Ints) -> tuple[Ints, Ints, Ints]:
-    """Return all exact divisions of products by a factor, as (index in `rest`, index of the factor, quotient)."""
+    """Return all exact divisions of products by factors as three arrays: index in `rest`, index of the factor, and
+    quotient.
+    """
     found = []
     step = max(1, _LONGEST // len(factors))
     for at in range(0, max(len(rest), 1), step):
@@ -183,11 +193,11 @@ def _divided(rest: Ints, factors: Ints, shorter: Ints) -> tuple[Ints, Ints, Ints
 
 
 _ITEMS: OrderedDict[Hashable, Item] = OrderedDict()
-"""Least-recently-used cache of variables, limited by their total length."""
+"""Least-recently-used cache of variables, limited by the total length of their lists."""
 
 
 def find_item(recipe: Factors, domains: Domains, weights: Weights, dtype: Any) -> Item:
-    """Return the variable of a definition, from the cache if possible."""
+    """Return the variable with the definition `recipe`, from the cache if it is available."""
     key = recipe, tuple((domains[wheel], weights.get(wheel)) for wheel, _ in recipe), dtype is object
     if key not in _ITEMS:
         _ITEMS[key] = Item(recipe, domains, weights, dtype)
@@ -202,9 +212,9 @@ def find_item(recipe: Factors, domains: Domains, weights: Weights, dtype: Any) -
 
 
 class PartialAssignments:
-    """Partial assignments as rows, each with the index of the value of every assigned variable.
+    """Partial assignments. Each row contains the index of the value of every assigned variable.
 
-    columns   index of the value of each assigned variable, shape (size,)
+    columns   index of the value for each row, shape (size,), keyed by assigned variable
     """
 
     __slots__ = ("_x", "columns", "items", "size")
@@ -214,31 +224,31 @@ class PartialAssignments:
         self._x: dict[int, Floats] = {}
 
     def x(self, item: int) -> Floats:
-        """Return the values of a variable as float64, one for each row."""
+        """Return the value of a variable as float64 for each row."""
         if item not in self._x:
             self._x[item] = self.items[item].x[self.columns[item]]
         return self._x[item]
 
     def value(self, item: int) -> Ints:
-        """Return the values of a variable as int64, one for each row."""
+        """Return the value of a variable as int64 for each row."""
         return self.items[item].values[self.columns[item]]
 
     def pick(self, where: NDArray[Any]) -> PartialAssignments:
-        """Return the rows selected by a mask or by indices."""
+        """Return the partial assignments selected by a mask or by indices."""
         columns = {item: column[where] for item, column in self.columns.items()}
         size = int(where.sum()) if where.dtype == np.bool_ else len(where)
         return PartialAssignments(self.items, columns, size)
 
     def plus(self, parents: Ints, item: int, indices: Ints) -> PartialAssignments:
-        """Return rows extended by one variable: `parents` are the original rows, `indices` the values of the
-        variable.
+        """Return rows extended by variable `item`. `parents` contains the indices of the original rows, and `indices`
+        the indices of the values of the variable.
         """
         columns = {known: column[parents] for known, column in self.columns.items()}
         return PartialAssignments(self.items, {**columns, item: indices}, len(parents))
 
     def distinct(self, items: Sequence[int]) -> tuple[PartialAssignments, Ints | None]:
-        """Return the distinct rows on some variables, and the index of each row among them; None if the rows are
-        unchanged.
+        """Return the distinct rows with respect to the given variables, and for each original row the index of its
+        distinct row. The indices are None if the rows are unchanged.
         """
         if len(items) == len(self.columns):
             return self, None
@@ -254,7 +264,9 @@ class PartialAssignments:
         return PartialAssignments(self.items, {item: self.columns[item][first] for item in items}, len(first)), inverse
 
     def blocks(self, sizes: Tallies) -> Iterator[tuple[int, int]]:
-        """Yield ranges of rows whose `sizes` add up to about `BLOCK`. A larger row is a range by itself."""
+        """Yield half-open ranges of rows such that the sum of `sizes` in each range is at most about `BLOCK`. A row
+        with a larger size forms a range by itself.
+        """
         ends = np.cumsum(sizes)
         at = 0
         while at < self.size:

@@ -1,4 +1,4 @@
-"""Conversion of wheels to variables: wheels in common monomials of all outputs, and constraints in terms of
+"""Conversion of wheels to variables: wheels that occur in a common monomial in all outputs, and constraints in terms of
 variables.
 """
 
@@ -22,55 +22,58 @@ from geartrain.search.join.polynomial_constraints import (
 from geartrain.search.join.product_lists import Domains, Factors, PartialAssignments, forecast, maximum
 
 Interval = tuple[Fraction | None, Fraction | None]
-"""Closed interval (minimum, maximum), with None for an infinite end."""
+"""Closed interval (minimum, maximum). None denotes an infinite bound."""
 _MOST_VALUES = 10**7
-"""Maximum number of values of one variable. A variable of this size needs half a gigabyte with all its arrays."""
+"""Maximum number of values of one variable. All arrays of a variable of this size need half a gigabyte."""
 _MOST_WORK = 2 * 10**8  # maximum number of products formed to list one variable
 _LARGEST = 1 << 62  # products below this are exact in int64
 _NOTHING = Fraction(1), Fraction(0)
 
 
 class Function(Protocol):
-    """Rational function of tooth counts, such as a `Formula`, with non-negative powers in the order of `wheels`."""
+    """Rational function of tooth counts, such as a `Formula`. Powers are non-negative and listed in the order of
+    `wheels`.
+    """
 
     @property
     def wheels(self) -> tuple[str, ...]:
-        """Wheels that the function depends on."""
+        """Names of the wheels on which the function depends."""
 
     @property
     def numerator(self) -> Sequence[WholeTerm]:
-        """Terms of the numerator."""
+        """Terms of the numerator of the function."""
 
     @property
     def denominator(self) -> Sequence[WholeTerm]:
-        """Terms of the denominator."""
+        """Terms of the denominator of the function."""
 
     def value(self, counts: Mapping[str, int], /) -> Fraction | None:
-        """Return the exact value for some tooth counts; None if the train is locked or the speed is undetermined."""
+        """Return the exact value for given tooth counts; None if the train is locked or the speed is undetermined."""
 
 
 @dataclass(frozen=True, slots=True)
 class IntervalConstraint:
-    """Constraint that the value of a function is in one of several separate intervals."""
+    """Constraint that the value of a function is in one of several disjoint intervals."""
 
     name: str
-    """Description of the constraint."""
+    """Name of the constraint in reports."""
     function: Function
     intervals: tuple[Interval, ...]
     strict: bool = False
-    """True if the ends of the intervals are excluded."""
+    """True if the end points are excluded from the intervals."""
     graded: bool = False
-    """True if the value itself is required, so that all wheels of the function must be assigned."""
+    """True if the value of the function is also needed, so that all wheels of the function must be assigned."""
 
 
 WheelMonomial = Mapping[str, int]
-"""Monomial through which all functions depend on some wheels: nonzero power of each wheel."""
+"""Monomial through which all functions depend on some wheels, given as the non-zero power of each wheel."""
 
 
 def find_wheel_monomials(
     wheels: Sequence[str], requested: Sequence[IntervalConstraint], alone: frozenset[str]
 ) -> list[WheelMonomial]:
-    """Return the largest possible monomials. Each wheel in `alone` is a monomial by itself with power 1.
+    """Return the monomials that combine as many wheels as possible. Each wheel in `alone` forms a monomial by itself
+    with power 1.
 
     Wheels are combined if their powers, relative to the first term of each function and listed over all terms of all
     functions, are proportional.
@@ -91,7 +94,9 @@ def find_wheel_monomials(
 
 
 def find_recipes(monomials: Sequence[WheelMonomial], domains: Domains) -> tuple[Factors, ...]:
-    """Return definitions of variables for the monomials: numerators and denominators are separate variables."""
+    """Return the definitions of the variables for the monomials. The numerator and the denominator of a monomial are
+    separate variables.
+    """
     # a list of quotients would be longer, and `PartialAssignments.distinct` merges rows with equal quotients anyway
     return tuple(
         group
@@ -104,7 +109,9 @@ def find_recipes(monomials: Sequence[WheelMonomial], domains: Domains) -> tuple[
 
 
 def _listable_groups(wheels: Factors, domains: Domains) -> Iterator[Factors]:
-    """Split wheels into the smallest possible number of groups of similar size whose products can be listed."""
+    """Yield groups of wheels whose products can be listed. A group whose products cannot be listed is divided into two
+    halves.
+    """
     if not wheels:
         return
     short = maximum([[domains[wheel][-1] ** power] for wheel, power in wheels]) < _LARGEST
@@ -143,18 +150,18 @@ def find_polynomial_constraints(
 
 
 def is_within(value: Fraction, intervals: Iterable[Interval]) -> bool:
-    """Return whether a value is in one of some closed intervals."""
+    """Return True if a value lies in any of the given closed intervals."""
     return any((low is None or value >= low) and (high is None or value <= high) for low, high in intervals)
 
 
 def extent(recipe: Factors, domains: Domains) -> tuple[float, float]:
-    """Return the minimum and maximum value of a variable as floats, accurate to a few roundings."""
+    """Return the minimum and the maximum value of a variable as floats, accurate up to rounding errors."""
     low, high = (math.prod(domains[wheel][end] ** power for wheel, power in recipe) for end in (0, -1))
     return float(low), float(high)
 
 
 def _monomials(wheels: Sequence[str], terms: Sequence[WholeTerm], recipes: Sequence[Factors]) -> list[Monomial]:
-    """Return each term as a monomial in variables, divided by a common monomial."""
+    """Return each term as a monomial in the variables. A factor common to all terms is divided out."""
     rows: list[list[tuple[int, int]]] = [[] for _ in terms]
     for item, recipe in enumerate(recipes):
         wheel, power = recipe[0]
@@ -187,7 +194,7 @@ def _cases(
 def _feasible(
     cases: Sequence[tuple[PolynomialInequality, ...]], extents: Extents
 ) -> tuple[tuple[PolynomialInequality, ...], ...]:
-    """Return the cases of a constraint that some tooth counts can satisfy; the first case if there are none.
+    """Return the cases of a constraint that some tooth counts can satisfy; the first case if there is no such case.
 
     One case is kept so that the constraint still depends on its variables.
     """

@@ -1,7 +1,8 @@
-"""Trees of arbors with requested periods: minimum number of wheels, and enumeration up to a size.
+"""Trees of arbors with requested periods: minimum number of wheels, and enumeration up to a given size.
 
 A table contains the distinct ratios of two wheels. The number of wheels of a tree is minimised by branch and bound over
-the multiples of its ratios. Trees are enumerated up to a number of intermediate arbors, which have no requested period.
+the tooth counts, which are multiples of the terms of its ratios. Trees are enumerated up to a number of intermediate
+arbors, which have no requested period.
 """
 
 from __future__ import annotations
@@ -24,7 +25,9 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
 
 ROUNDING = 1e-12
-"""Upper bound of the rounding error of logarithms of periods and ratios whose magnitude is below 100."""
+"""Upper bound of the rounding error of the logarithms of periods and ratios, for logarithms with a magnitude below
+100.
+"""
 _MOST_PAIRS = 2 * 10**7  # maximum number of pairs of counts in the table
 _MOST_STEPS = 4000  # maximum for one tree; a first complete assignment is always found
 
@@ -36,9 +39,9 @@ class PeriodTargets:
     names: tuple[str, ...]
     """Names of the requested periods."""
     periods: tuple[Fraction, ...]
-    """Requested periods, exact and positive [revolutions of the first arbor]."""
+    """Exact positive periods that are requested [revolutions of the first arbor]."""
     tolerances: tuple[Fraction, ...]
-    """Maximum absolute relative error of each speed, exact, below 1."""
+    """Exact maximum absolute relative error of the speed of each requested period, below 1."""
 
     @cached_property
     def bounds(self) -> tuple[tuple[Fraction, Fraction], ...]:
@@ -49,22 +52,24 @@ class PeriodTargets:
 
     @cached_property
     def logs(self) -> tuple[tuple[float, float], ...]:
-        """Natural logarithms of `bounds`, widened by the rounding error."""
+        """Natural logarithms of `bounds`. Each interval is widened by the rounding error."""
         return tuple((math.log(low) - ROUNDING, math.log(high) + ROUNDING) for low, high in self.bounds)
 
     @property
     def everything(self) -> int:
-        """Bit mask in which the bits of all targets are set."""
+        """Bit mask in which the bits of all requested periods are set."""
         return (1 << len(self.periods)) - 1
 
     def meets(self, target: int, ratio: Fraction) -> bool:
-        """Return whether the period `ratio` is within the tolerance of target number `target`, compared exactly."""
+        """Return whether an arbor whose period is `ratio` meets the requested period with index `target` within its
+        tolerance, by exact comparison.
+        """
         low, high = self.bounds[target]
         return low <= ratio <= high
 
     def error(self, target: int, ratio: Fraction) -> Fraction:
-        """Return the relative speed error of an arbor whose period is `ratio`: speed / requested speed - 1; positive if
-        the arbor is too fast.
+        """Return the relative speed error of an arbor whose period is `ratio`: its speed divided by the requested
+        speed, minus 1. The error is positive if the arbor is too fast.
         """
         return self.periods[target] / ratio - 1
 
@@ -72,7 +77,9 @@ class PeriodTargets:
 def read_period_targets(
     periods: Mapping[str, Fraction], tolerance: Fraction | float | Mapping[str, Fraction | float]
 ) -> PeriodTargets:
-    """Build the targets from periods by name, and one relative tolerance for all or one for each."""
+    """Build the targets from periods keyed by name, and from one relative tolerance for all periods or one for each
+    period.
+    """
     if not periods:
         raise QuestionError(
             Problem("no periods are given", "an orrery has at least one pointer", "give a period, such as moon=29.53")
@@ -124,28 +131,30 @@ def members(bits: int) -> Iterator[int]:
 
 @dataclass(frozen=True)
 class PairRatios:
-    """Table of the distinct ratios (driven divided by driver) of two wheels, ascending."""
+    """Table of the distinct ratios of two wheels (driven tooth count divided by driver tooth count), in ascending
+    order.
+    """
 
     counts: tuple[int, ...]
-    """Admissible tooth counts, ascending."""
+    """Admissible tooth counts, in ascending order."""
     driven: Ints
-    """Numerators of the ratios in lowest terms, shape (n,)."""
+    """Numerators of the ratios in lowest terms, shape (n,), where n is the number of ratios."""
     driver: Ints
-    """Denominators of the ratios in lowest terms, shape (n,)."""
+    """Denominators of the ratios in lowest terms, shape (n,), where n is the number of ratios."""
     logs: Floats
-    """Natural logarithms of the ratios, shape (n,)."""
+    """Natural logarithms of the ratios, shape (n,), where n is the number of ratios."""
     _choices: dict[tuple[int, int], tuple[tuple[int, int], ...]] = field(default_factory=dict, repr=False)
 
     def __len__(self) -> int:
         return len(self.logs)
 
     def terms(self, at: int) -> tuple[int, int]:
-        """Return the driven and driver count of one ratio, in lowest terms."""
+        """Return the numerator (driven) and the denominator (driver) of the ratio with index `at`, in lowest terms."""
         return int(self.driven[at]), int(self.driver[at])
 
     def choices(self, driven: int, driver: int) -> tuple[tuple[int, int], ...]:
-        """Return all admissible pairs of counts (driven, driver) with a ratio given in lowest terms, fewest teeth
-        first.
+        """Return all admissible pairs of tooth counts (driven, driver) whose ratio is driven / driver, given in lowest
+        terms. Pairs with the fewest teeth come first.
         """
         found = self._choices.get((driven, driver))
         if found is None:
@@ -158,14 +167,14 @@ class PairRatios:
         return found
 
     def between(self, low: Fraction, high: Fraction) -> list[int]:
-        """Return the indices of the ratios from `low` to `high`, compared exactly."""
+        """Return the indices of the ratios between `low` and `high`, both inclusive, by exact comparison."""
         first = int(np.searchsorted(self.logs, math.log(low) - ROUNDING))
         last = int(np.searchsorted(self.logs, math.log(high) + ROUNDING))
         return [at for at in range(first, last) if low <= Fraction(*self.terms(at)) <= high]
 
 
 def pair_ratios(counts: Sequence[int]) -> PairRatios:
-    """Build the table of ratios of two wheels. Time and memory grow with the square of the number of counts."""
+    """Return the table of ratios of two wheels. Time and memory grow with the square of the number of tooth counts."""
     admissible = tuple(sorted(set(counts)))
     if not admissible or admissible[0] < 1:
         raise QuestionError(
@@ -207,24 +216,26 @@ def pair_ratios(counts: Sequence[int]) -> PairRatios:
 
 @dataclass(frozen=True)
 class ReachablePeriods:
-    """Targets that two gear pairs in series can drive from one arbor, for each of m possible intermediate arbors."""
+    """Requested periods that two gear pairs in series can drive from one arbor, for each of m possible intermediate
+    arbors.
+    """
 
     first: Ints
-    """Index of the ratio of the pair to the intermediate arbor, shape (m,)."""
+    """Index of the ratio of the pair that drives the intermediate arbor, shape (m,)."""
     next: Ints
-    """Index of the ratio of the pair from the intermediate arbor to each target, shape (m, targets); -1 if no pair
-    reaches the target.
+    """Index of the ratio of the pair that drives each target from the intermediate arbor, shape (m, targets); -1 if no
+    pair can drive the target.
     """
     sets: Ints
-    """Bit mask of the targets that can be driven from the intermediate arbor, shape (m,)."""
+    """Bit mask of the targets that can be driven from each intermediate arbor, shape (m,)."""
 
 
 def reach(table: PairRatios, targets: PeriodTargets, log_period: float, requested: int) -> ReachablePeriods:
-    """Find all intermediate arbors from which one pair can drive at least one requested target.
+    """Return all intermediate arbors from which one gear pair can drive at least one requested target.
 
-    If several ratios lead to a target, one of them is returned. Ratios are selected as floats with a margin, and are
-    compared exactly where they are used. The table and the queries are sorted, so one target costs one pass over the
-    table.
+    If several ratios lead to a target, one of them is returned. Ratios are selected in floating point with a margin,
+    and are compared exactly where they are used. The table and the queries are sorted, so each target requires one pass
+    over the table.
     """
     logs, size = table.logs, len(table)
     found = np.full((len(targets.periods), size), -1, dtype=np.int32)
@@ -244,8 +255,8 @@ def reach(table: PairRatios, targets: PeriodTargets, log_period: float, requeste
 
 
 def reached_sets(table: PairRatios, targets: PeriodTargets, log_period: float, requested: int) -> Ints:
-    """Return, for each ratio of the table, a bit mask of the targets that one more pair can drive from an arbor reached
-    by this ratio, shape (n,).
+    """Return, for each ratio of the table, the bit mask of the targets that one more pair can drive from an arbor
+    driven with this ratio, shape (n,), where n is the number of ratios.
     """
     sets = np.zeros(len(table), dtype=np.int64)
     found = reach(table, targets, log_period, requested)
@@ -257,18 +268,20 @@ def reached_sets(table: PairRatios, targets: PeriodTargets, log_period: float, r
 
 
 Edge = tuple[int, int, int, int]
-"""Gear pair: index of the driving arbor, index of the driven arbor, ratio driven divided by driver in lowest terms."""
+"""Gear pair: index of the driving arbor, index of the driven arbor, and the numerator (driven) and denominator (driver)
+of the ratio in lowest terms.
+"""
 Meshes = tuple[tuple[int, int], ...]
-"""Tooth counts (driver, driven) of each gear pair."""
+"""Pairs of tooth counts (driving wheel, driven wheel), one for each gear pair."""
 
 
 def fewest_wheels(table: PairRatios, edges: Sequence[Edge]) -> tuple[int, Meshes, bool]:
-    """Return the number of wheels of a tree, the tooth counts of each pair, and whether the number is proved to be
-    minimal.
+    """Return the minimum number of wheels of a tree, the tooth counts of each pair, and whether the number is proved to
+    be minimal.
 
-    Pairs on one arbor with equal counts share one wheel, and a wheel may mesh with any number of wheels. The search is
-    branch and bound over the multiples that can coincide. If it reaches its limit of steps, the number is only an upper
-    bound and is not proved.
+    Pairs with equal tooth counts on one arbor share one wheel, and a wheel may mesh with any number of wheels. The
+    search is branch and bound over the tooth counts that can coincide. If the search reaches its maximum number of
+    steps, the returned number is only an upper bound.
     """
     choices = [[(driver, driven) for driven, driver in table.choices(*edge[2:])] for edge in edges]
     users: dict[tuple[int, int], int] = {}
@@ -290,7 +303,9 @@ def fewest_wheels(table: PairRatios, edges: Sequence[Edge]) -> tuple[int, Meshes
     steps = 0
 
     def descend(at: int, wheels: int, taken: Meshes) -> None:
-        """Assign counts to the pairs from index `at` on, with `wheels` wheels in use."""
+        """Assign tooth counts to the pairs with index `at` and above. `wheels` is the number of wheels already in
+        use.
+        """
         nonlocal best, steps
         if at == len(edges):
             best = min(best, (wheels, taken), key=lambda found: found[0])
@@ -321,7 +336,7 @@ def fewest_wheels(table: PairRatios, edges: Sequence[Edge]) -> tuple[int, Meshes
 
 @dataclass(frozen=True, slots=True)
 class TreeArbor:
-    """Arbor of a tree, with the gear pair that drives it."""
+    """Arbor of a tree, with the ratio of the gear pair that drives it."""
 
     target: int
     """Index of the requested period of the arbor; -1 for the first arbor and for an intermediate arbor."""
@@ -338,12 +353,12 @@ class TreeArbor:
 
     @property
     def period(self) -> Fraction:
-        """Period [revolutions of the first arbor]."""
+        """Period of the arbor [revolutions of the first arbor]."""
         return Fraction(self.n, self.d)
 
     @property
     def log(self) -> float:
-        """Natural logarithm of the period."""
+        """Natural logarithm of the period of the arbor."""
         return math.log(self.n) - math.log(self.d)
 
 
@@ -353,7 +368,7 @@ FIRST = TreeArbor(-1, -1, 1, 1, 1, 1)
 
 
 def grown(tree: ArborTree, target: int, parent: int, driven: int, driver: int) -> TreeArbor:
-    """Return the new arbor that is driven from arbor `parent` of the tree by a pair with this ratio."""
+    """Return a new arbor that is driven from arbor `parent` of the tree by a pair with the ratio driven / driver."""
     n, d = times(tree[parent].n, tree[parent].d, driven, driver)
     return TreeArbor(target, parent, driven, driver, n, d)
 
@@ -366,10 +381,10 @@ def edges(tree: ArborTree) -> list[Edge]:
 class TreeEnumeration:
     """Enumeration of every tree with exactly `extra` intermediate arbors.
 
-    A tree grows from the first arbor. Whenever one pair can drive targets from an arbor, each of them is either driven
-    from there or left for later arbors, and all combinations are visited. The tree then receives one more
-    intermediate arbor. Intermediate arbors that cannot drive a target are visited as long as another one can follow.
-    Each tree is visited once for each order in which its intermediate arbors can be added.
+    Trees are extended from the first arbor. Each target that one pair can drive from an arbor is either driven from
+    this arbor or left for later arbors, and all combinations are visited. One more intermediate arbor is then added to
+    the tree. Intermediate arbors that cannot drive a target are visited as long as another intermediate arbor can be
+    added. Each tree is visited once for each order in which its intermediate arbors can be added.
     """
 
     def __init__(
@@ -387,7 +402,7 @@ class TreeEnumeration:
         """Yield the trees in which arbors with index `requested` and above drive targets; earlier arbors are not
         changed.
 
-        Unless `blank`, the arbor with this index drives at least one target.
+        If `blank` is False, the arbor with index `requested` must drive at least one target.
         """
         if requested == len(tree):
             if left:
@@ -411,7 +426,7 @@ class TreeEnumeration:
             yield from self._with_targets(tree + arbors, rest, extra, requested + 1)
 
     def _with_extra_arbor(self, tree: ArborTree, left: int, extra: int) -> Iterator[ArborTree]:
-        """Yield the trees with one more intermediate arbor, driven from any arbor of the tree."""
+        """Yield the trees with one more intermediate arbor. It may be driven from any arbor of the tree."""
         if not extra:
             return
         for parent, arbor in enumerate(tree):
@@ -430,9 +445,10 @@ class TreeEnumeration:
                 yield from self._with_extra_chain(tree, left, parent)
 
     def _with_extra_chain(self, tree: ArborTree, left: int, parent: int) -> Iterator[ArborTree]:
-        """Yield the trees whose last two intermediate arbors form a chain, in which the first drives only the second.
+        """Yield the trees with two more intermediate arbors in a chain: arbor `parent` drives the first of them, which
+        drives only the second.
 
-        The period of the second arbor is determined from the targets, of which it drives at least one.
+        The second arbor drives at least one target, so its period is determined from the targets.
         """
         logs, start = self.table.logs, tree[parent].log
         seen: set[tuple[int, int]] = set()
@@ -450,6 +466,6 @@ class TreeEnumeration:
 
 
 def _useful(tree: ArborTree) -> bool:
-    """Return whether every arbor has a requested period or drives another arbor."""
+    """Return whether every arbor of the tree has a requested period or drives another arbor."""
     driving = {arbor.parent for arbor in tree}
     return all(arbor.target >= 0 or at in driving for at, arbor in enumerate(tree))

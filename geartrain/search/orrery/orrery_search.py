@@ -45,20 +45,22 @@ Tell = Callable[[int, int], None]
 
 @dataclass(frozen=True, slots=True)
 class OrreryArbor(Result):
-    """Arbor of an orrery: period, sense of rotation, wheels, and whether it carries a pointer."""
+    """Arbor of an orrery, with its period, its sense of rotation and its wheels."""
 
     KEYS = ("name", "period", Key("value", "period", as_float), "sense", "wheels", "shows")
 
     name: str
-    """Name of the requested period of the arbor, or `arbor 1`, `arbor 2` and so on for intermediate arbors. The caller
-    names the first arbor.
+    """Name of the requested period of the arbor. Intermediate arbors are named `arbor 1`, `arbor 2` and so on, and the
+    caller gives the name of the first arbor.
     """
     period: Fraction
-    """Period [revolutions of the first arbor], exact and positive."""
+    """Exact period [revolutions of the first arbor], positive."""
     sense: int
-    """Sense of rotation relative to the first arbor, 1 or -1. Every pair is external and reverses the sense."""
+    """Sense of rotation relative to the first arbor: 1 for the same sense, -1 for the opposite sense. Every pair is
+    external and reverses the sense.
+    """
     wheels: tuple[int, ...]
-    """Distinct tooth counts of the wheels of the arbor, ascending."""
+    """Distinct tooth counts of the wheels on the arbor, in ascending order."""
     shows: bool
     """True if the arbor carries the pointer of a requested period."""
 
@@ -72,9 +74,9 @@ class OrreryPair(Result):
     driven: int
     """Tooth count of the driven wheel."""
     parent: str
-    """Arbor of the driving wheel."""
+    """Name of the arbor that carries the driving wheel."""
     child: str
-    """Arbor of the driven wheel."""
+    """Name of the arbor that carries the driven wheel."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,19 +105,19 @@ class Orrery(Tabular, Result):
     )
 
     periods: Mapping[str, Fraction]
-    """Requested periods by name [revolutions of the first arbor]."""
+    """Requested periods, keyed by name [revolutions of the first arbor]."""
     tolerances: Mapping[str, Fraction]
-    """Maximum absolute relative error of the speed of each pointer, by name of its period."""
+    """Maximum absolute relative error of the speed of each pointer, keyed by the name of its period."""
     arbors: tuple[OrreryArbor, ...]
-    """Arbors in topological order: the first arbor, then each arbor after the arbor that drives it."""
+    """Arbors in topological order: the first arbor first, and every other arbor after the arbor that drives it."""
     pairs: tuple[OrreryPair, ...]
     """Gear pairs in the order of their driven arbors."""
     errors: Mapping[str, Fraction]
-    """Exact relative error of each speed, by name of the period: speed divided by requested speed, minus 1; positive if
-    the arbor is too fast.
+    """Exact relative error of the speed of each pointer, keyed by the name of its period: speed divided by requested
+    speed, minus 1. It is positive if the arbor is too fast.
     """
     minimum_pairs: int
-    """Proved lower bound on the number of pairs; all smaller trees were enumerated."""
+    """Proved lower bound on the number of gear pairs. All trees with fewer pairs were enumerated."""
     minimum_wheels: int
     """Proved lower bound on the number of wheels."""
     ended: str
@@ -137,14 +139,15 @@ class Orrery(Tabular, Result):
 
     @property
     def worst(self) -> Fraction:
-        """Maximum absolute relative error of the speeds."""
+        """Maximum absolute relative error of the speeds of all pointers."""
         return max(map(abs, self.errors.values()))
 
     def to_train(self, name: str = "orrery", unit: str = "d") -> dict[str, Any]:
-        """Return a declaration of the orrery as plain data. The first arbor turns once per `unit`. The outputs expect
-        their exact speeds, and have the requested periods as targets.
+        """Return a declaration of the orrery as plain data. The first arbor turns once per `unit`. Each output has its
+        exact speed as expected value and its requested period as target.
 
-        A shared wheel is one wheel in several gear pairs. All arbors are mounted in one frame on separate axes.
+        A shared wheel is declared as one wheel in several gear pairs. All arbors are mounted in one frame on separate
+        axes.
 
         Parameters
         ----------
@@ -189,12 +192,16 @@ class Orrery(Tabular, Result):
 
 
 def _wheel(arbor: int, count: int) -> str:
-    """Return the name of a wheel. For example, `a3-120` has 120 teeth and is on arbor 3."""
+    """Return the name of a wheel from the index of its arbor and its tooth count. For example, `a3-120` has 120 teeth
+    and is on arbor 3.
+    """
     return f"a{arbor}-{count}"
 
 
 def _plain(value: Fraction) -> str:
-    """Return a fraction as an exact string: a decimal if it terminates within 18 digits, otherwise a fraction."""
+    """Format a fraction exactly: as a decimal number if the decimal terminates within 18 digits, and as a quotient of
+    integers if it does not.
+    """
     for digits in range(19):
         scaled = value * 10**digits
         if scaled.denominator == 1:
@@ -216,22 +223,23 @@ def find_orrery(
     """Find an orrery with few wheels, by branch and bound over small trees and beam search over larger trees.
 
     The orrery is a tree of arbors with external gear pairs, driven from the first arbor. The enumeration proves lower
-    bounds; wider beams can find better solutions, but prove nothing; see `Orrery.minimum_pairs`, `minimum_wheels` and
-    `complete`. The result is deterministic unless the user interrupts the search.
+    bounds. Wider beams can find better solutions, but do not prove bounds; see `Orrery.minimum_pairs`, `minimum_wheels`
+    and `complete`. The result is deterministic unless the user interrupts the search.
 
     Parameters
     ----------
     periods : mapping of str to Fraction
         Name -> period [revolutions of the first arbor], above 0; at most 30 periods.
     counts : sequence of int
-        Admissible tooth counts, the same for all wheels.
+        Admissible tooth counts of every wheel.
     tolerance : Fraction, float, or mapping of str to these
-        Maximum absolute relative error of a speed, from 0 to below 1, for all periods or by name.
+        Maximum absolute relative error of a speed, at least 0 and below 1; one value for all periods, or a value for
+        each name.
     first : str
         Name of the first arbor.
     effort : int
-        Maximum width of the beam. Each search has four times the width of the previous search, up to this value; the
-        time increases nearly in proportion.
+        Maximum width of the beam. The width is quadrupled from search to search, up to this value. The run time is
+        nearly proportional to the width.
     walk : int, optional
         Maximum number of intermediate arbors, which carry no pointer, in the trees that are enumerated. By default 1,
         or more if the enumeration is fast.
@@ -241,7 +249,7 @@ def find_orrery(
     Returns
     -------
     Orrery
-        Best orrery found; after a keyboard interrupt, the best so far.
+        Best orrery that was found; after a keyboard interrupt, the best one found until then.
 
     Raises
     ------
@@ -280,7 +288,7 @@ def find_orrery(
 
 
 class _OrrerySearch:
-    """State of a search: the best tree so far, and the lower bounds proved so far."""
+    """State of a search: the best tree found so far, and the lower bounds proved so far."""
 
     def __init__(self, table: PairRatios, targets: PeriodTargets, tell: Tell | None) -> None:
         self.table, self.targets, self.tell = table, targets, tell
@@ -305,7 +313,7 @@ class _OrrerySearch:
         return "proved" if self.proved else "effort"
 
     def _walks(self, walk: int | None) -> Iterator[int]:
-        """Yield the numbers of intermediate arbors for which trees are enumerated.
+        """Yield each number of intermediate arbors for which trees are to be enumerated.
 
         Each intermediate arbor multiplies the work by the number of ratios times the number of arbors.
         """
@@ -330,8 +338,8 @@ class _OrrerySearch:
             self._offer(part.tree)
 
     def _offer(self, tree: ArborTree) -> None:
-        """Keep a tree if it is better than the best so far: fewer wheels, then fewer pairs, then a smaller maximum
-        error.
+        """Keep a tree if it is better than the best tree found so far. Trees are compared by the number of wheels, then
+        by the number of pairs, then by the maximum error.
         """
         wheels, _, proved = fewest_wheels(self.table, edges(tree))
         # an unproved number of wheels is only an upper bound, so it proves nothing
@@ -345,18 +353,18 @@ class _OrrerySearch:
 
     @property
     def minimum_wheels(self) -> int:
-        """Proved lower bound of the number of wheels.
+        """Proved lower bound on the number of wheels.
 
-        Every arbor has a wheel. In a tree with the minimum number of wheels every intermediate arbor has two, because
-        with one wheel it is an idler, and its neighbours can mesh directly. Trees that were not enumerated have more
-        intermediate arbors than the enumerated trees.
+        Every arbor has at least one wheel. In a tree with the minimum number of wheels, every intermediate arbor has
+        two or more wheels, because an arbor with one wheel is an idler, whose neighbours can mesh directly. Trees that
+        were not enumerated have more intermediate arbors than the enumerated trees.
         """
         unseen = len(self.targets.periods) + 1 + 2 * (self.walked + 1)
         return unseen if self.best is None or not self.sure else min(unseen, self.best[0][0])
 
     @property
     def proved(self) -> bool:
-        """True if no orrery has fewer wheels than the best orrery found."""
+        """True if it is proved that no orrery has fewer wheels than the best orrery found."""
         return self.best is not None and self.best[0][0] <= self.minimum_wheels
 
 
@@ -411,7 +419,7 @@ def _not_found(search: _OrrerySearch, ended: str) -> QuestionError:
     return QuestionError(
         Problem(
             f"no orrery was found for {size} periods with wheels of {minimum} to {most} teeth",
-            f"{walked}{stopped}these tooth counts give one pair {len(table)} ratios, the largest {most / minimum:.3g}",
+            f"{walked}{stopped}with these tooth counts one pair has {len(table)} ratios, at most {most / minimum:.3g}",
             "increase the tolerance, the number of intermediate arbors or the beam width, or allow more tooth counts",
         )
     )
@@ -422,35 +430,37 @@ def _not_found(search: _OrrerySearch, ended: str) -> QuestionError:
 
 @dataclass(frozen=True, slots=True)
 class PartialTree:
-    """Partial tree of a beam search, with its remaining targets and its cost."""
+    """Partial tree of a beam search, its cost, and the targets that it does not yet drive."""
 
     tree: ArborTree
     left: int
     wheels: int
-    """Minimum number of wheels of the gear pairs of the tree."""
+    """Minimum number of wheels in the gear pairs of the tree."""
     bulk: float
-    """Sum of the logarithms of the terms of all ratios in the tree.
+    """Sum of the natural logarithms of the numerators and denominators of all ratios in the tree.
 
-    Small terms have many multiples, so their wheels can be shared more often.
+    Small numerators and denominators have many admissible multiples, so wheels can be shared more often.
     """
 
     @property
     def rank(self) -> tuple[int, float]:
-        """Sort key: number of wheels, then `bulk`."""
+        """Sort key of the tree: its number of wheels, then `bulk`. Lower is better."""
         return self.wheels, self.bulk
 
     @property
     def key(self) -> _Key:
-        """Key to detect duplicates, equal for trees whose arbors have the same targets and periods."""
+        """Key that detects duplicates. It is equal for trees whose arbors have the same targets and periods."""
         return frozenset((arbor.target, arbor.n, arbor.d) for arbor in self.tree)
 
 
 class BeamSearch:
-    """Beam search that adds targets to trees and keeps the `width` best trees with the same number of targets.
+    """Beam search that adds targets to trees. Among trees with the same number of targets, it keeps the `width` best
+    trees.
 
-    A move drives a target directly, or adds an arbor together with all targets that one pair can drive from it. Wheels
-    that a new pair can share with pairs on the same arbor are counted when moves are ranked: approximately for all
-    moves, by common multiples in numpy, and exactly for selected moves. The search is deterministic.
+    A move drives a target directly from an arbor, or adds an intermediate arbor with all targets that one pair can
+    drive from it. The rank of a move takes into account the wheels that a new pair can share with pairs on the same
+    arbor. They are counted approximately for all moves, by common multiples, and exactly for selected moves. The search
+    is deterministic.
     """
 
     def __init__(
@@ -463,7 +473,7 @@ class BeamSearch:
         self._plainest = np.argsort(self._bulk, kind="stable")
 
     def run(self, width: int, seeds: int) -> Iterator[PartialTree]:
-        """Yield complete trees as they are found.
+        """Yield complete trees in the order in which they are found.
 
         seeds   number of further initial trees, each with one intermediate arbor driven from the first arbor
         """
@@ -485,8 +495,8 @@ class BeamSearch:
                 chosen = _best(levels[shown + 1], width)
 
     def _seed_trees(self, part: PartialTree, most: int) -> Iterator[PartialTree]:
-        """Yield trees with an intermediate arbor whose period is much nearer to the requested periods, simplest ratios
-        first.
+        """Yield trees with one more intermediate arbor, whose period is much nearer to the requested periods. Trees
+        with the simplest ratios come first.
         """
         # periods are mostly longer, or mostly shorter, than a turn of the first arbor
         side = math.copysign(1.0, sum(low for low, _ in self.targets.logs))
@@ -501,8 +511,8 @@ class BeamSearch:
         return PartialTree(tree, left, wheels, bulk)
 
     def _children(self, part: PartialTree) -> Iterator[PartialTree]:
-        """Yield the best extensions of a partial tree by one arbor with its targets, and by further targets of the new
-        arbors.
+        """Yield the best extensions of a partial tree. An extension adds one arbor with its targets, and possibly
+        further targets of the new arbors.
         """
         reaches = [reach(self.table, self.targets, arbor.log, part.left) for arbor in part.tree]
         rows = np.concatenate([self._moves(part, at, known) for at, known in enumerate(reaches)])
@@ -532,8 +542,8 @@ class BeamSearch:
                         yield from self._direct(child, parent)
 
     def _moves(self, part: PartialTree, parent: int, known: ReachablePeriods) -> Floats:
-        """Return a table of moves, shape (moves, 5): targets gained, wheels needed, `bulk`, driving arbor, row in
-        `known`.
+        """Return a table of the moves from arbor `parent`, shape (moves, 5). Its columns are: number of targets gained,
+        number of wheels added, `bulk`, driving arbor, and row in `known`.
         """
         gained, first = np.bitwise_count(known.sets).astype(np.int64), known.first
         # two wheels per pair, minus those that can be shared
@@ -550,7 +560,9 @@ class BeamSearch:
         return np.column_stack([gained, wheels, bulk, np.full(len(rows), parent), rows])
 
     def _sharing(self, tree: ArborTree, parent: int, ways: Ints) -> Ints:
-        """Return 1 for each ratio whose pair can use a wheel that is already on the driving arbor, otherwise 0."""
+        """Return, for each ratio with an index in `ways`, 1 if its pair can use a wheel that is already on the driving
+        arbor, and 0 if it cannot.
+        """
         able = np.zeros(len(ways), dtype=bool)
         for at, arbor in enumerate(tree):
             if at and parent in (at, arbor.parent):
@@ -560,10 +572,10 @@ class BeamSearch:
         return able.astype(np.int64)
 
     def _joint(self, mine: Ints, mate: Ints, other: Ints, its_mate: Ints) -> Ints:
-        """Return 1 if two ratios can share a wheel, otherwise 0.
+        """Return 1 if the pairs of two ratios can share a wheel, and 0 if they cannot.
 
-        Sharing requires that their terms `mine` and `other` have a common multiple such that all four counts are
-        admissible.
+        A wheel can be shared if the terms `mine` and `other` of the two ratios have a common multiple for which all
+        four tooth counts are admissible.
         """
         common = np.lcm(mine, other)
         largest = np.maximum(common, np.maximum(common // mine * mate, common // other * its_mate))
@@ -574,7 +586,7 @@ class BeamSearch:
         return good
 
     def _built(self, part: PartialTree, parent: int, known: ReachablePeriods, at: int) -> PartialTree | None:
-        """Return the tree after a move; None if exact arithmetic rejects all its targets."""
+        """Return the tree after a move; None if exact arithmetic rejects all targets of the move."""
         tree = (*part.tree, grown(part.tree, -1, parent, *self.table.terms(int(known.first[at]))))
         extra, left = len(tree) - 1, part.left
         for target, further in enumerate(known.next[at]):
@@ -587,9 +599,9 @@ class BeamSearch:
 
 
 def _best(level: dict[_Key, PartialTree], width: int) -> list[PartialTree]:
-    """Return the `width` best partial trees.
+    """Return the `width` best partial trees of a level.
 
-    Only a few trees with the same targets and periods are selected before other trees.
+    Only a few trees with the same targets and periods are selected before trees with other targets or periods.
     """
     kept: list[PartialTree] = []
     spare: list[PartialTree] = []

@@ -1,4 +1,6 @@
-"""Command `geartrain teeth orrery moon=29.53 venus=224.7 ...`: search for a train with pointers of several periods."""
+"""Command `geartrain teeth orrery moon=29.53 venus=224.7 ...`: search for a train that drives pointers of several
+periods.
+"""
 
 from __future__ import annotations
 
@@ -60,7 +62,7 @@ def run(
 
 
 def _periods(texts: list[str]) -> dict[str, Fraction]:
-    """Parse a mapping from name to period [revolutions of the first arbor]."""
+    """Parse texts such as `moon=29.53` to a mapping from name to period [revolutions of the first arbor]."""
     from geartrain.search.target_ratio import read_ratio
     from geartrain.train import period_table
 

@@ -1,4 +1,6 @@
-"""Corner plot of the posterior of tooth counts: marginals of each wheel, and joint probabilities of each pair."""
+"""Corner plot of the posterior of tooth counts: marginal probabilities of each wheel and joint probabilities of each
+pair of wheels.
+"""
 
 from __future__ import annotations
 
@@ -49,21 +51,21 @@ class CountProbabilities:
     """Probabilities of tooth counts, for a corner plot."""
 
     single: Mapping[str, Chances]
-    """Posterior probability of each tooth count, by wheel."""
+    """Posterior probability of each tooth count, keyed by wheel."""
     pairs: Mapping[Pair, Mapping[tuple[int, int], float]]
-    """Joint probability of each pair of tooth counts, by pair of wheels in the order of `single`."""
+    """Joint probability of each pair of tooth counts, keyed by pair of wheels in the order of `single`."""
     before: Mapping[str, Chances] = field(default_factory=dict)
-    """Prior probability of each tooth count, by wheel; empty if unknown."""
+    """Prior probability of each tooth count, keyed by wheel; empty if the priors are unknown."""
     declared: Mapping[str, int] = field(default_factory=dict)
-    """Declared tooth count of each wheel that has one."""
+    """Declared tooth count of each wheel for which a tooth count is declared."""
 
 
 def corner_figure(likely: CountProbabilities, title: str = "") -> Figure:
-    """Draw a corner plot of tooth counts: marginal probabilities on the diagonal, joint probabilities of each pair
-    below.
+    """Draw a corner plot of tooth counts: marginal probabilities on the diagonal, joint probabilities of each pair of
+    wheels below the diagonal.
 
-    Darker squares are more probable. Outlines show priors; dashed lines show declared counts. Raise `QuestionError` if
-    there is no wheel, or if there are more than 9.
+    Darker squares are more probable. Outlines show priors; dashed lines show declared tooth counts. `QuestionError` is
+    raised if there is no wheel, or if there are more than 9 wheels.
     """
     wheels = list(likely.single)
     if not 0 < len(wheels) <= MOST:
@@ -106,7 +108,9 @@ def _legend(figure: Figure, likely: CountProbabilities) -> None:
 
 
 def _marginal_panel(axes: Axes, likely: CountProbabilities, wheel: str, span: tuple[int, int]) -> None:
-    """Draw the posterior probabilities of one wheel as bars, and its prior as outlines."""
+    """Draw the posterior probabilities of the tooth counts of one wheel as bars, and their prior probabilities as
+    outlines of bars.
+    """
     probabilities = likely.single[wheel]
     wide = 0.86 if span[1] - span[0] < _FEW else 1.0  # a narrow gap would be less than a pixel
     axes.bar(list(probabilities), list(probabilities.values()), width=wide, color=BLUE, linewidth=0, gid=f"{wheel}")
@@ -123,8 +127,8 @@ def _marginal_panel(axes: Axes, likely: CountProbabilities, wheel: str, span: tu
 
 
 def _outline(axes: Axes, probabilities: Chances) -> None:
-    """Draw the outlines of bars. If there are many counts, draw only the line along their tops, because the sides would
-    merge.
+    """Draw the outlines of bars. If there are many bars, draw only the line along their tops, because the vertical
+    lines would merge.
     """
     if len(probabilities) <= _FEW:
         axes.bar(
@@ -137,7 +141,7 @@ def _outline(axes: Axes, probabilities: Chances) -> None:
 
 
 def _joint_panel(axes: Axes, likely: CountProbabilities, pair: Pair, spans: Mapping[str, tuple[int, int]]) -> None:
-    """Draw a square for each pair of counts, darker for higher probability."""
+    """Draw a square for each pair of tooth counts. A darker square has a higher probability."""
     (a, first), (b, second) = ((wheel, spans[wheel]) for wheel in pair)
     table = np.zeros((second[1] - second[0] + 1, first[1] - first[0] + 1))
     for (one, other), probability in likely.pairs[pair].items():
@@ -169,8 +173,8 @@ def _ticks(axis: Any, span: tuple[int, int]) -> None:
 
 
 def _modes(probabilities: Chances) -> str:
-    """Return the most probable count with its probability, such as `64: 80 %`; if several are equally probable,
-    `49-52: 10 % each`.
+    """Format the most probable tooth count with its probability, such as `64: 80 %`. If several tooth counts are
+    equally probable, format their range, such as `49-52: 10 % each`.
     """
     largest = max(probabilities.values())
     modes = sorted(count for count, probability in probabilities.items() if isclose(probability, largest))
@@ -199,7 +203,8 @@ def counts_figure(found: ToothCountPosterior, pairs: Pairs) -> Figure:
     found : ToothCountPosterior
         Posterior of the tooth counts.
     pairs : mapping
-        Joint probability of each pair of counts, by pair of wheels in the order of declaration; see `joint_posterior`.
+        Joint probability of each pair of tooth counts, keyed by pair of wheels in the order of declaration; see
+        `joint_posterior`.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""Posterior of uncertain tooth counts, by the exact join of all combinations or by sampling."""
+"""Posterior of uncertain tooth counts, by an exact join of all combinations or by sampling."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ from geartrain.search.posterior.sampled_posterior import (
 from geartrain.train import Train
 
 LIMIT = 2_000_000
-"""Default maximum number of steps of the exact join; this number takes a few seconds."""
+"""Default maximum number of steps of the exact join. This number of steps takes a few seconds."""
 SAMPLES = 1_000_000
 _SINGLE_OUTPUT_STEPS = 200_000  # maximum steps for a single output: a fraction of a second
 _DRAWN = 1 << 16  # combinations if a single output takes longer, or if the exact join is interrupted
@@ -79,28 +79,28 @@ def infer_counts(
 ) -> ToothCountPosterior:
     """Compute the posterior of uncertain tooth counts, given the observed speeds of outputs.
 
-    After an interruption (Ctrl-C), `cut` is True, and the result covers the combinations sampled so far. An interrupted
-    exact join is replaced by a short sample, as a remark reports.
+    After an interruption (Ctrl-C), `cut` is True, and the result is based on the combinations sampled until then. An
+    interrupted exact join is replaced by a short sample, which is reported in a remark.
 
     Parameters
     ----------
     train : Train
-        Declared train with uncertain counts: `teeth: {value: 64, range: [63, 66]}`, `choices` or `search`.
+        Declared train with uncertain tooth counts: `teeth: {value: 64, range: [63, 66]}`, `choices` or `search`.
     state : str, optional
         Name of a state; by default the observations of all states are used together.
     free : mapping of str to sequence of int, optional
-        Wheel -> possible counts, which replace the declared counts.
+        Mapping from wheel to possible tooth counts, which replace the declared tooth counts.
     outputs : sequence of str
-        Outputs used as evidence; by default all outputs.
+        Names of the outputs used as evidence; by default all outputs.
     tolerance : Fraction, optional
         Relative tolerance of targets without a declared tolerance, at least 0.
     against : {"all", "targets", "figures"}
         Kinds of observations to use; "figures" are the values under `expect` and `published`.
     scale : Fraction
-        Factor of every tolerance, at least 0.
+        Factor by which every tolerance is multiplied, at least 0.
     soft : bool
-        False for the likelihood 1 within all tolerances and 0 otherwise. True for a Gaussian likelihood with the
-        tolerances as standard deviations.
+        If False, the likelihood is 1 within all tolerances and 0 outside. If True, it is Gaussian with the tolerances
+        as standard deviations.
     method : {"exact", "sample"}, optional
         Method of computation. By default "exact" if there are at most `limit` combinations, or if the exact join needs
         at most `limit` steps.
@@ -113,8 +113,8 @@ def infer_counts(
     seed : int
         Random seed of the sample, at least 0.
     executor : Executor, optional
-        Executor of the tasks, by default this process; see `geartrain.numerics.work.open_executor`. It does not change
-        the result.
+        Executor of the tasks; by default they run in this process. See `geartrain.numerics.work.open_executor`. The
+        executor does not change the result.
     journal : Journal, optional
         Journal of completed work, for a run that may be interrupted.
     tell : callable, optional
@@ -123,14 +123,15 @@ def infer_counts(
     Returns
     -------
     ToothCountPosterior
-        Evidence, posteriors of wheels, correlations, and the best combinations.
+        Evidence, posteriors of tooth counts, correlations, and the best combinations.
 
     Raises
     ------
     QuestionError
-        If no count is uncertain, no output has an observed speed, or weights are not probabilities.
+        If no tooth count is uncertain, if no output has an observed speed, or if weights are not probabilities.
     RangeError
-        If the exact method is requested and exceeds the limit, or a count has too many possible values to list.
+        If the exact method is requested and exceeds the limit, or if a tooth count has too many possible values to
+        list.
 
     Notes
     -----
@@ -215,8 +216,8 @@ def _summarise(
     seed: int,
     means: Execution,
 ) -> PosteriorSummary:
-    """Compute the posterior by the requested method; by default by the exact join, or by sampling if the join exceeds
-    the limit.
+    """Return the posterior computed by the requested method. If `method` is None, the exact join is used, or sampling
+    if the join exceeds the limit.
     """
     if method != "sample":
         few = prod(len(uncertainty.counts) for uncertainty in question.moved.values()) <= limit
@@ -253,8 +254,8 @@ def _sampled(question: InferenceProblem, most: int, samples: int, seed: int, mea
 
 
 def _single_output_evidence(question: InferenceProblem, seed: int) -> dict[str, CountProbability]:
-    """Return the evidence of each output without the other outputs, from a sample if the exact join would take too
-    long.
+    """Return the evidence of each output, computed from the observations of this output only. The evidence is estimated
+    from a sample if the exact join would take too long.
     """
     found = {}
     for witness in question.witnesses:
@@ -272,9 +273,10 @@ def _single_output_evidence(question: InferenceProblem, seed: int) -> dict[str, 
 
 
 def find_exact_posterior(question: InferenceProblem, most: int, limit: float) -> PosteriorSummary:
-    """Compute the exact posterior of the tooth counts by a join. Raise `BudgetSpentError` beyond `limit` steps.
+    """Return the exact posterior of the tooth counts, computed by a join. `BudgetSpentError` is raised if the number of
+    steps exceeds `limit`.
 
-    most   number of combinations to list
+    most   maximum number of combinations to list
     """
     # other wheels keep their prior
     uncertainties = question.moved
@@ -304,8 +306,8 @@ def find_exact_posterior(question: InferenceProblem, most: int, limit: float) ->
 
 
 def evidence_of(question: InferenceProblem, limit: float) -> CountProbability:
-    """Return the evidence of the observations: the prior mean of the likelihood. Raise `BudgetSpentError` beyond
-    `limit` steps.
+    """Return the evidence of the observations, which is the prior mean of the likelihood. `BudgetSpentError` is raised
+    if the number of steps exceeds `limit`.
     """
     if question.soft:
         root, _ = _recorded(question, limit)
@@ -316,16 +318,19 @@ def evidence_of(question: InferenceProblem, limit: float) -> CountProbability:
 
 
 def turning_of(question: InferenceProblem, limit: float) -> CountProbability:
-    """Return the prior probability that the train turns, regardless of the speeds of its outputs."""
+    """Return the prior probability that the train can turn, regardless of the speeds of its outputs. `BudgetSpentError`
+    is raised if the number of steps exceeds `limit`.
+    """
     if not question.conditions:
         return CountProbability(Fraction(1))
     return evidence_of(replace(question, witnesses=(), soft=False), limit)
 
 
 def _join_problem(question: InferenceProblem, graded: bool) -> JoinProblem:
-    """Return the join problem with the constraints of the observed outputs, then the conditions for the train to turn.
+    """Return the join problem with the constraints of the observed outputs, followed by the conditions for the train to
+    turn.
 
-    graded   True if the misfits of the outputs are also required
+    graded   True if the join must also compute the misfits of the outputs
     """
     uncertainties = question.moved
     domains = {wheel: uncertainty.counts for wheel, uncertainty in uncertainties.items()}
@@ -344,7 +349,9 @@ def _recorded(question: InferenceProblem, limit: float) -> tuple[RecordedNode, i
 
 
 def _weights(uncertainties: Mapping[str, ToothCountPrior], soft: bool) -> CountWeights:
-    """Return the prior weights as integers of a type that holds all their sums; with `soft`, the priors as floats."""
+    """Return the prior weights of the tooth counts: floats if `soft` is True, or integers of a type that holds all
+    their sums.
+    """
     if soft:
         return {
             wheel: np.array([float(prior) for prior in uncertainty.priors])
@@ -355,8 +362,8 @@ def _weights(uncertainties: Mapping[str, ToothCountPrior], soft: bool) -> CountW
 
 
 def _fits(question: InferenceProblem, sums: AssignmentSums) -> int:
-    """Return the number of combinations that satisfy all observations, including the choices for wheels on which no
-    observation depends.
+    """Return the number of combinations that satisfy all observations. The combinations include all possible tooth
+    counts of wheels on which no observation depends.
     """
     # with equal weights the total weight is a number of combinations
     alike = {
@@ -381,9 +388,10 @@ Pairs = dict[tuple[str, str], dict[tuple[int, int], float]]
 
 
 def most_informative_wheels(found: ToothCountPosterior, most: int = 6) -> list[str]:
-    """Return the wheels about which the outputs give the most information [bit], in the order of declaration.
+    """Return the names of the wheels about whose tooth counts the outputs give the most information, in the order of
+    declaration.
 
-    Wheels with one possible count, and wheels on which no output depends, are omitted.
+    Wheels with one possible tooth count, and wheels on which no output depends, are omitted.
 
     Parameters
     ----------
@@ -410,22 +418,22 @@ def most_informative_wheels(found: ToothCountPosterior, most: int = 6) -> list[s
 def joint_posterior(found: ToothCountPosterior, wheels: Sequence[str], again: Again) -> Pairs:
     """Compute the joint posterior of each pair of wheels, by the chain rule p(a, b) = p(a) p(b | a).
 
-    One further posterior is computed for each count of nonzero probability of every wheel except the last.
+    For every wheel except the last, one further posterior is computed for each tooth count with a non-zero probability.
 
     Parameters
     ----------
     found : ToothCountPosterior
         Posterior of the tooth counts.
     wheels : sequence of str
-        Wheels in the order of declaration.
+        Names of the wheels in the order of declaration.
     again : callable
-        Function that takes fixed counts (wheel -> counts) and returns the posterior of the same train for the same
-        evidence.
+        Function of a mapping from wheel to fixed tooth counts, which returns the posterior of the same train for the
+        same evidence.
 
     Returns
     -------
     dict
-        Pair of wheels -> pair of counts -> probability, for `counts_figure`.
+        Probability of each pair of tooth counts, for each pair of wheels, as required by `counts_figure`.
 
     Examples
     --------

@@ -1,4 +1,6 @@
-"""Inference problem of uncertain tooth counts: priors of wheels, observations of outputs, conditions for turning."""
+"""Inference problem of uncertain tooth counts: priors of tooth counts, observations of outputs, and conditions for the
+train to turn.
+"""
 
 from __future__ import annotations
 
@@ -25,46 +27,46 @@ from geartrain.train.fields import MOST_TEETH
 LikelihoodKind = Literal["all", "targets", "figures"]
 LIKELIHOOD_KINDS: tuple[LikelihoodKind, ...] = ("all", "targets", "figures")
 FAR = Fraction(5)
-"""Error, in units of the tolerance, beyond which a Gaussian likelihood is set to 0; there it would be less than
-exp(-12.5).
+"""Error, in units of the tolerance, beyond which a Gaussian likelihood is set to 0. Beyond this error it would be less
+than exp(-12.5).
 """
 MOST_COUNTS = 10**5
-"""Maximum number of possible counts of one wheel."""
+"""Maximum number of possible tooth counts of one wheel."""
 
 
 @dataclass(frozen=True, slots=True)
 class InferenceProblem:
-    """Priors of uncertain tooth counts, and observations of outputs."""
+    """Priors of uncertain tooth counts, and observations of outputs, from which the posteriors are inferred."""
 
     name: str
     """Name of the train."""
     uncertainties: Mapping[str, ToothCountPrior]
-    """Prior of the tooth count of each wheel, in the order of declaration."""
+    """Prior of the tooth count of each wheel, keyed by wheel in the order of declaration."""
     witnesses: tuple[OutputRequirement, ...]
-    """Observed outputs that depend on an uncertain count."""
+    """Observed outputs whose speed depends on an uncertain tooth count."""
     outputs: Mapping[str, Formula]
-    """Speed of each output that depends on an uncertain count, as a function of the counts."""
+    """Speed of each output that depends on an uncertain tooth count, as a function of the tooth counts."""
     conditions: tuple[IntervalConstraint, ...]
     """Conditions for the train to turn: loops must close, inputs must be consistent, and the train must be neither
     locked nor free.
     """
     remarks: tuple[str, ...] = ()
-    """Remarks on observations that are not used or are violated by every combination, and on outputs with
+    """Remarks on observations that are not used, on observations that every combination violates, and on outputs with
     undetermined speeds.
     """
     soft: bool = False
-    """True for the Gaussian likelihood exp(-misfit / 2), up to `FAR` tolerances; False for the likelihood 1 within all
-    tolerances and 0 otherwise.
+    """True for the Gaussian likelihood exp(-misfit / 2), which is cut off at `FAR` tolerances; False for a likelihood
+    that is 1 within all tolerances and 0 outside.
     """
 
     @property
     def domains(self) -> Domains:
-        """Possible tooth counts of each wheel, ascending."""
+        """Possible tooth counts of each wheel, in ascending order."""
         return {wheel: uncertainty.counts for wheel, uncertainty in self.uncertainties.items()}
 
     @property
     def moved(self) -> dict[str, ToothCountPrior]:
-        """Priors of the wheels that an observed output or a condition depends on, in the order of declaration."""
+        """Priors of the wheels on which an observed output or a condition depends, in the order of declaration."""
         functions = [witness.function for witness in self.witnesses] + [one.function for one in self.conditions]
         wheels = {wheel for function in functions for wheel in function.wheels}
         return {wheel: uncertainty for wheel, uncertainty in self.uncertainties.items() if wheel in wheels}
@@ -75,7 +77,9 @@ class InferenceProblem:
         return prod(len(uncertainty.counts) for uncertainty in self.uncertainties.values())
 
     def weight(self, teeth: Mapping[str, int]) -> int:
-        """Return the integer prior weight of a combination, which is proportional to its prior probability."""
+        """Return the integer prior weight of a combination of tooth counts, which is proportional to its prior
+        probability.
+        """
         return prod(self.uncertainties[wheel].weight(count) for wheel, count in teeth.items())
 
 
@@ -90,15 +94,15 @@ def build_inference_problem(
     scale: Fraction = Fraction(1),
     soft: bool = False,
 ) -> InferenceProblem:
-    """Build the inference problem of a train in one state, or in all its states at once.
+    """Build the inference problem of a train in one state, or in all its states together if `state` is None.
 
-    outputs     outputs used as evidence and reported; by default all
+    outputs     names of the outputs that are used as evidence and reported; by default all outputs
     tolerance   relative tolerance of targets that do not declare a tolerance
     against     kinds of observations that are used: "targets", "figures" (`expect` and `published`), or "all"
-    scale       factor of every tolerance
+    scale       factor by which every tolerance is multiplied
 
-    Raise `QuestionError` for unknown states and outputs, for requested outputs without a known speed, if no output that
-    depends on uncertain counts has a known speed, and for trains that never turn.
+    `QuestionError` is raised if a state or an output is unknown, if a requested output has no known speed, if no output
+    that depends on an uncertain tooth count has a known speed, or if the train cannot turn with any tooth counts.
     """
     _check(train, state, against, tolerance, scale)
     states: Sequence[str | None] = tuple(train.states) or (None,) if state is None else (state,)
@@ -141,8 +145,8 @@ def build_inference_problem(
 
 
 def _remarks(witness: OutputRequirement) -> Iterator[str]:
-    """Yield a remark on an output without a tolerance, or with a speed that depends on no uncertain count and
-    violates its observations.
+    """Yield a remark if an output has no tolerance, or if its speed depends on no uncertain tooth count and violates
+    its observations.
     """
     if not witness.demands:
         yield f"'{witness.name}' is not used: none of its observations has a tolerance"
@@ -189,9 +193,9 @@ def _check_outputs(train: Train, states: Sequence[str | None], outputs: Sequence
 
 
 def _check_known(moved: Collection[str], known: Collection[str], outputs: Sequence[str]) -> None:
-    """Raise `QuestionError` for requested outputs that give no information on the counts.
+    """Raise `QuestionError` if a requested output gives no information on the tooth counts.
 
-    moved   outputs that depend on an uncertain count
+    moved   outputs whose speed depends on an uncertain tooth count
     known   outputs among `moved` with a known speed
     """
     for name in outputs:
@@ -224,39 +228,42 @@ class ToothCountPrior(Result):
     wheel: str
     """Name of the wheel."""
     counts: tuple[int, ...]
-    """Distinct possible counts, ascending."""
+    """Distinct possible tooth counts, in ascending order."""
     weights: tuple[int, ...]
-    """Positive integer weights of the counts without a common divisor. The prior probability is weight / `total`."""
+    """Positive integer weight of each tooth count. The weights have no common divisor; the prior probability is weight
+    / `total`.
+    """
     declared: int | None
-    """Declared count of the wheel; None if no count is declared."""
+    """Declared tooth count of the wheel; None if no tooth count is declared."""
     assumed: str
-    """Source of the counts: "requested", "search", "range" or "choices", with the source of the declaration if it
-    has one. It ends with "weighted" if weights are declared; otherwise the prior is uniform.
+    """Source of the possible tooth counts: "requested", "search", "range" or "choices", followed by the source that the
+    declaration states, if any. It ends with "weighted" if weights are declared; if they are not, the prior is uniform.
     """
 
     @property
     def total(self) -> int:
-        """Sum of the weights of all counts."""
+        """Sum of the weights of all tooth counts."""
         return sum(self.weights)
 
     def weight(self, count: int) -> int:
-        """Return the integer weight of one possible count."""
+        """Return the integer weight of a possible tooth count."""
         return self.weights[self.counts.index(count)]
 
     @property
     def priors(self) -> tuple[Fraction, ...]:
-        """Prior probability of each count, with sum 1."""
+        """Prior probability of each tooth count. The sum is 1."""
         return tuple(Fraction(weight, self.total) for weight in self.weights)
 
 
 def find_priors(train: Train, free: Mapping[str, Sequence[int]] | None = None) -> tuple[ToothCountPrior, ...]:
     """Return the priors of the uncertain tooth counts, in the order of declaration.
 
-    free   wheel -> possible counts, which replace the declared counts; a single count makes the wheel certain
+    free   possible tooth counts of wheels, which replace the declared ones; a single tooth count makes a wheel certain
 
-    A wheel with `range` or `choices` has the prior of its `weights` (uniform if none are declared); a wheel with
-    `search` has a uniform prior. Raise `QuestionError` for unknown wheels, invalid tooth counts, weights that are not
-    probabilities, and if no count is uncertain; `RangeError` for a wheel with too many counts to list.
+    The prior of a wheel with `range` or `choices` is given by its `weights`, and is uniform if no weights are declared;
+    a wheel with `search` has a uniform prior. `QuestionError` is raised if a wheel is unknown, if tooth counts are
+    invalid, if weights are not probabilities, or if no tooth count is uncertain. `RangeError` is raised if a wheel has
+    too many tooth counts to list.
     """
     given = dict(free or {})
     for name in given:
@@ -311,7 +318,7 @@ def _check_width(name: str, count: int, place: str = "") -> None:
 
 
 def _declared(name: str, teeth: Teeth, place: str) -> ToothCountPrior:
-    """Return the declared prior of a wheel. Counts of weight 0 are omitted."""
+    """Return the declared prior of a wheel. Tooth counts with weight 0 are omitted."""
     # checked first, because `probabilities` lists every count of the range
     if teeth.range is not None and teeth.choices is None:
         _check_width(name, teeth.range[1] - teeth.range[0] + 1, place)
@@ -331,11 +338,11 @@ def _declared(name: str, teeth: Teeth, place: str) -> ToothCountPrior:
 
 
 def observation_constraint(witness: OutputRequirement, soft: bool, graded: bool) -> IntervalConstraint:
-    """Return the interval constraint of the observations of an output for a join.
+    """Return the interval constraint for a join that represents the observations of an output.
 
-    It is unbounded if no observation has bounds, because even then the join must reject counts without a defined speed.
-    With `soft` the intervals extend to `FAR` times the tolerances. With `graded` the join also returns the misfit of
-    the output.
+    If no observation has bounds, the interval is unbounded; the constraint is still needed, because the join must
+    reject tooth counts for which the speed is undefined. If `soft` is True, the intervals extend to `FAR` times the
+    tolerances. If `graded` is True, the join also computes the misfit of the output.
     """
     common = (witness.scaled(FAR) if soft else witness).requested(None)
     return replace(common or IntervalConstraint(witness.name, witness.function, ((None, None),)), graded=graded)

@@ -1,4 +1,4 @@
-"""Report of uncertain tooth counts as documents and tables: best combinations, posteriors, variance shares."""
+"""Report on uncertain tooth counts as documents and tables: best combinations, posteriors, and Sobol indices."""
 
 from __future__ import annotations
 
@@ -27,7 +27,9 @@ _DECIDED = ("output", "mean speed", "standard deviation", "total Sobol indices")
 
 
 def posterior_rows(found: ToothCountPosterior) -> list[dict[str, Any]]:
-    """Return the listed combinations as rows of a table: tooth counts, speed and error of every output, and misfit."""
+    """Return the listed combinations as rows of a table with tooth counts, speed and error of every output, and
+    misfit.
+    """
     return [
         {
             **one.teeth,
@@ -41,7 +43,9 @@ def posterior_rows(found: ToothCountPosterior) -> list[dict[str, Any]]:
 
 
 def describe_posterior(found: ToothCountPosterior) -> Document:
-    """Return a document on uncertain tooth counts: evidence, posterior of each wheel, Sobol indices of the outputs."""
+    """Return a document on uncertain tooth counts, with the evidence, the posterior of each wheel, and the Sobol
+    indices of the outputs.
+    """
     return Document(f"Uncertain tooth counts of {found.name}", list(_summary(found)), list(_sections(found)))
 
 
@@ -120,8 +124,8 @@ def _span(counts: Sequence[int]) -> str:
 
 
 def _most_probable(posterior: WheelPosterior) -> str:
-    """Return a list of the most probable counts with their probabilities as a string, without counts of
-    probability 0.
+    """Format a list of the most probable tooth counts with their probabilities. Tooth counts with probability 0 are
+    omitted.
     """
     pairs = zip(posterior.uncertainty.counts, posterior.probabilities, strict=True)
     some = sorted((pair for pair in pairs if pair[1].value), key=lambda pair: (-float(pair[1]), pair[0]))

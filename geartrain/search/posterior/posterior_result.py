@@ -1,4 +1,4 @@
-"""Posterior of tooth counts: of single wheels, of pairs, and of whole combinations."""
+"""Posterior of tooth counts: of single wheels, of pairs of wheels, and of combinations of all wheels."""
 
 from __future__ import annotations
 
@@ -19,20 +19,26 @@ Method = Literal["exact", "sample"]
 
 @dataclass(frozen=True, slots=True)
 class CountProbability(Result):
-    """Probability that is exact, correct up to rounding errors, or estimated from a sample."""
+    """Probability. It is exact, correct up to rounding errors, or estimated from a sample."""
 
     KEYS = (Key("value", to=float), "exact", "low", "high")
 
     value: Fraction | float
-    """Probability, 0 to 1. A Fraction is exact; a float is correct up to rounding errors, or estimated."""
+    """Probability, 0 to 1. A Fraction is exact. A float is estimated from a sample, or correct up to rounding
+    errors.
+    """
     low: float | None = None
-    """Lower end of the 95 % confidence interval of an estimate; otherwise None."""
+    """Lower end of the 95 % confidence interval of an estimated probability; None if the probability is not an
+    estimate.
+    """
     high: float | None = None
-    """Upper end of the 95 % confidence interval of an estimate; otherwise None."""
+    """Upper end of the 95 % confidence interval of an estimated probability; None if the probability is not an
+    estimate.
+    """
 
     @property
     def exact(self) -> Fraction | None:
-        """Value of an exact probability; otherwise None."""
+        """Exact probability; None if the probability is a float."""
         return self.value if isinstance(self.value, Fraction) else None
 
     @property
@@ -57,14 +63,14 @@ class WheelPosterior(Result):
     uncertainty: ToothCountPrior
     """Possible tooth counts of the wheel with their prior probabilities."""
     probabilities: tuple[CountProbability, ...]
-    """Posterior probability of each count, with sum 1; empty if no combination satisfies the observations."""
+    """Posterior probability of each tooth count. The sum is 1; empty if no combination satisfies the observations."""
     idle: bool
-    """True if no observed output depends on the wheel, so that its posterior is its prior."""
+    """True if no observed output depends on the wheel, so that its posterior equals its prior."""
 
     @property
     def likeliest(self) -> int | None:
-        """Most probable count (the smallest, if several are equally probable); None if no combination satisfies the
-        observations.
+        """Most probable tooth count; None if no combination satisfies the observations. If several tooth counts are
+        equally probable, the smallest is returned.
         """
         if not self.probabilities:
             return None
@@ -74,11 +80,13 @@ class WheelPosterior(Result):
 
     @property
     def bits(self) -> float:
-        """Information gained from the outputs: relative entropy of the posterior with respect to the prior [bit]."""
+        """Information about the tooth count that is gained from the outputs: relative entropy of the posterior with
+        respect to the prior [bit].
+        """
         return relative_entropy(map(float, self.probabilities), self.uncertainty.priors)
 
     def probability(self, count: int) -> CountProbability:
-        """Return the posterior probability of a count.
+        """Return the posterior probability of a tooth count.
 
         count   tooth count. The probability of an impossible count is 0.
         """
@@ -94,67 +102,73 @@ class CombinedOutput:
     KEYS = (Key("exact", "speed"), Key("value", "speed", as_float), Key("error", to=float))
 
     speed: Fraction
-    """Exact speed of the output in the unit of the train."""
+    """Exact speed of the output [unit of the train]."""
     error: Fraction
     """Relative error of the speed with respect to the observed speed."""
 
 
 @dataclass(frozen=True, slots=True)
 class CountCombination(Result):
-    """Combination of tooth counts of all wheels on which observed outputs depend."""
+    """Combination of tooth counts of all wheels on which an observed output depends."""
 
     KEYS = ("teeth", "outputs", Key("misfit", to=float), "probability", "changed")
 
     teeth: Mapping[str, int]
-    """Tooth count of each wheel, in the order of declaration."""
+    """Tooth count of each wheel, keyed by wheel in the order of declaration."""
     speeds: Mapping[str, Fraction]
-    """Exact speed of each output, in the unit of the train."""
+    """Exact speed of each output [unit of the train]."""
     errors: Mapping[str, Fraction]
-    """Relative error of each output with respect to the observation with the largest misfit; the speed itself if the
-    observed speed is 0.
+    """Relative error of the speed of each output with respect to the observation that has the largest misfit. If this
+    observed speed is 0, the value is the speed itself.
     """
     misfit: Fraction
-    """Sum of (error / tolerance)^2 of all observations; exact observations add 0."""
+    """Sum of (error / tolerance)^2 over all observations. Observations without tolerance (exact observations)
+    contribute 0.
+    """
     probability: CountProbability | None
-    """Posterior probability; None if it is unknown, such as in a sample."""
+    """Posterior probability; None if it is unknown, for example if it is not estimated from a sample."""
     changed: tuple[str, ...]
-    """Wheels whose count differs from the declared count."""
+    """Names of the wheels whose tooth count differs from the declared tooth count."""
 
     @property
     def outputs(self) -> Mapping[str, CombinedOutput]:
-        """Speed and relative error of each output."""
+        """Speed and relative error of each output, keyed by output."""
         return {name: CombinedOutput(speed, self.errors[name]) for name, speed in self.speeds.items()}
 
 
 @dataclass(frozen=True, slots=True)
 class VarianceShares(Result):
-    """Sobol indices of the speed of an output, for tooth counts that are distributed according to their priors."""
+    """Sobol indices of the speed of an output, for tooth counts distributed according to their priors."""
 
     KEYS = ("output", Key("mean", to=as_float), "spread", Key("own", to=float), Key("whole", to=float))
 
     output: str
     """Name of the output."""
     mean: Fraction | float
-    """Prior mean of the speed in the unit of the train."""
+    """Prior mean of the speed [unit of the train]."""
     spread: float | None
-    """Prior standard deviation of the speed in the unit of the train; None beyond the range of float64."""
+    """Prior standard deviation of the speed [unit of the train]; None if it is out of the range of float64."""
     own: Mapping[str, Fraction | float]
-    """First-order Sobol index of each wheel, 0 to 1: fraction of the variance that vanishes if its count is known."""
+    """First-order Sobol index of each wheel, 0 to 1: fraction of the variance that is removed if the tooth count of
+    this wheel is known.
+    """
     whole: Mapping[str, Fraction | float]
-    """Total Sobol index of each wheel: fraction of the variance that remains if all other counts are known."""
+    """Total Sobol index of each wheel, 0 to 1: fraction of the variance that remains if the tooth counts of all other
+    wheels are known.
+    """
 
 
 class KnownOutput(TypedDict):
-    """Observed output as plain data: observations, formula, and evidence (marginal likelihood)."""
+    """Observed output as plain data, with its observations, its formula, and its evidence (marginal likelihood)."""
 
     output: str
     """Name of the output."""
     claims: list[str]
     """Descriptions of the observations of the speed of the output."""
     formula: str
-    """Speed as a function of the uncertain counts."""
+    """Formula of the speed as a function of the uncertain tooth counts."""
     alone: NotRequired[CountProbability]
-    """Evidence of this output without the other outputs: prior mean of the likelihood of its observations."""
+    """Evidence computed from the observations of this output only: prior mean of their likelihood."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -186,27 +200,27 @@ class ToothCountPosterior(Tabular, Result):
     method: Method
     """Method of computation: exact join of all combinations, or sampling."""
     soft: bool
-    """True for a Gaussian likelihood, False for the likelihood 1 within all tolerances and 0 otherwise."""
+    """True for a Gaussian likelihood; False for a likelihood that is 1 within all tolerances and 0 outside."""
     combinations: int
     """Number of combinations of possible tooth counts."""
     examined: int
     """Number of steps of the exact join, or number of sampled combinations."""
     evidence: CountProbability
-    """Evidence (marginal likelihood): prior probability that all observations are satisfied; with `soft`, prior mean of
-    exp(-misfit / 2).
+    """Evidence (marginal likelihood): prior probability that all observations are satisfied, or the prior mean of
+    exp(-misfit / 2) if `soft` is True.
     """
     turning: CountProbability
     """Prior probability that the train can turn."""
     fits: int | None
-    """Number of combinations that satisfy all observations; None if it is not known."""
+    """Number of combinations that satisfy all observations; None if the number is not known."""
     witnesses: tuple[OutputRequirement, ...]
-    """Outputs with observed speeds, which are the evidence."""
+    """Outputs with observed speeds, which provide the evidence."""
     alone: Mapping[str, CountProbability]
     """Evidence of each output, computed from the observations of this output only."""
     posteriors: Mapping[str, WheelPosterior]
     """Posterior of the tooth count of each wheel."""
     correlations: Mapping[tuple[str, str], float]
-    """Posterior correlation of the counts of each pair of wheels, -1 to 1, in descending order of magnitude."""
+    """Posterior correlation of the tooth counts of each pair of wheels, -1 to 1, in descending order of magnitude."""
     best: tuple[CountCombination, ...]
     """Best combinations, in ascending order of misfit."""
     ranked: bool
@@ -218,7 +232,9 @@ class ToothCountPosterior(Tabular, Result):
     seed: int | None
     """Random seed of the sample; None for the exact method."""
     cut: bool
-    """True after an interruption; the results then include only the combinations sampled so far."""
+    """True if the computation was interrupted, so that the results are based only on the combinations sampled until
+    then.
+    """
 
     def _summary(self) -> str:
         likely = ", ".join(
@@ -233,9 +249,9 @@ class ToothCountPosterior(Tabular, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with one row for each count of each wheel: prior and posterior probability.
+        """Columns of a table with one row for each tooth count of each wheel: prior and posterior probability.
 
-        The posterior is None if no combination satisfies the observations.
+        The posterior probability is None if no combination satisfies the observations.
         """
         rows = [
             (wheel, found, at)
@@ -251,12 +267,12 @@ class ToothCountPosterior(Tabular, Result):
 
     @property
     def ended(self) -> Literal["whole", "interrupted"]:
-        """Outcome of the computation: "whole" if it was completed, otherwise "interrupted"."""
+        """Outcome of the computation: "whole" if it was completed, "interrupted" if it was not."""
         return "interrupted" if self.cut else "whole"
 
     @property
     def known(self) -> list[KnownOutput]:
-        """Observed outputs as plain data, each with its evidence if it was computed."""
+        """Observed outputs as plain data, with the evidence of each output if it was computed."""
         found = []
         for one in self.witnesses:
             known = KnownOutput(
@@ -269,7 +285,9 @@ class ToothCountPosterior(Tabular, Result):
 
     @property
     def correlated(self) -> list[tuple[str, str, float]]:
-        """Triples (wheel, wheel, correlation of their counts), in descending order of magnitude."""
+        """Pairs of wheels with the correlation of their tooth counts (wheel, wheel, correlation), in descending order
+        of magnitude.
+        """
         return [(*pair, value) for pair, value in self.correlations.items()]
 
     @property

@@ -1,6 +1,7 @@
-"""Results common to both methods of inference: evidence, correlations, best combinations, variance shares.
+"""Results common to both methods of inference (exact join and sampling): evidence, correlations, best combinations, and
+Sobol indices.
 
-The order of the best combinations does not depend on rounding or on the method.
+The order of the best combinations does not depend on rounding errors or on the method.
 """
 
 from __future__ import annotations
@@ -33,9 +34,11 @@ from geartrain.search.posterior.sampled_posterior import KEPT, TIE, PosteriorTal
 _LISTED = 2_000_000  # maximum number of combinations that are enumerated for a variance
 _ENOUGH = 100  # effective sample size, below which a 95 % interval is wider than a fifth of the value
 _CERTAIN = 1e-4
-"""Ratio of standard deviation to range below which a count is treated as certain and has no correlations.
+"""Ratio of the standard deviation of a tooth count to its range, below which the tooth count is treated as certain and
+has no correlations.
 
-All other counts then have a total probability below 1e-8, and covariances in float64 would be rounding errors.
+Below this ratio, values that differ from the mean by the whole range have a total probability below 1e-8, and
+covariances in float64 would be rounding errors.
 """
 
 _NONE = 1e-13
@@ -43,7 +46,9 @@ _NONE = 1e-13
 
 
 def first_with_ties(candidates: Iterator[GradedAssignment], most: int) -> tuple[list[GradedAssignment], bool]:
-    """Return the first `most` candidates and all ties of the last of them, and whether all ties are included."""
+    """Return the first `most` candidates with all candidates that may be tied with the last of them, and whether all
+    such ties are included.
+    """
     # misfits in floats: entries that may be tied with the last are later sorted exactly
     found: list[GradedAssignment] = []
     for candidate in candidates:
@@ -58,9 +63,10 @@ def first_with_ties(candidates: Iterator[GradedAssignment], most: int) -> tuple[
 def rank_combinations(
     question: InferenceProblem, candidates: Iterable[GradedAssignment], most: int, evidence: CountProbability | None
 ) -> tuple[CountCombination, ...]:
-    """Sort combinations of tooth counts exactly by misfit, then by prior weight, then by the number of changed counts.
+    """Return the `most` best combinations of tooth counts, sorted exactly by misfit, then by prior weight (highest
+    first), then by the number of changed tooth counts.
 
-    evidence   evidence of all observations; None if it is not known, and then no probabilities are computed
+    evidence   evidence of all observations; None if it is not known, in which case no probabilities are computed
     """
     made = [_combination(question, candidate.teeth, evidence) for candidate in candidates]
     # exact misfits, then integers: the order does not depend on the method of search
@@ -102,8 +108,8 @@ def _probability(
 
 @dataclass(frozen=True, slots=True)
 class PosteriorSummary:
-    """Evidence, posteriors, correlations and best combinations from either method, with the fields of
-    `ToothCountPosterior`.
+    """Evidence, posteriors, correlations and best combinations, computed by the exact join or from a sample. The fields
+    are those of `ToothCountPosterior`.
     """
 
     examined: int
@@ -115,15 +121,15 @@ class PosteriorSummary:
     candidates: Sequence[GradedAssignment]
     ranked: bool
     effective: float = float("inf")
-    """Effective sample size (Kish); infinite for the exact method."""
+    """Effective sample size by Kish's formula; infinite for the exact method."""
     cut: bool = False
-    """True if an interruption ended the computation early."""
+    """True if the computation was interrupted."""
     remarks: tuple[str, ...] = ()
     """Remarks on the method of computation."""
 
 
 def summary_of_sample(question: InferenceProblem, tally: PosteriorTally, cut: bool) -> PosteriorSummary:
-    """Compute the summary of a sample of combinations; `cut` is True if the sampling was interrupted."""
+    """Return the summary of a sample of combinations. `cut` is True if the sampling was interrupted."""
     wheels = tally.batch.wheels
     candidates = [
         GradedAssignment(misfit, {w: tally.batch.domains[w][index] for w, index in zip(wheels, at, strict=True)})
@@ -159,8 +165,8 @@ def summary_of_sample(question: InferenceProblem, tally: PosteriorTally, cut: bo
 def _share(question: InferenceProblem, tally: PosteriorTally) -> CountProbability:
     """Return the evidence estimated from a sample, with its 95 % confidence interval.
 
-    The interval is the Wilson score interval for likelihoods of 0 or 1, and a normal interval for a Gaussian
-    likelihood.
+    For likelihoods of 0 or 1, the interval is the Wilson score interval. For a Gaussian likelihood, it is a
+    normal-approximation interval.
     """
     if not tally.examined:
         return CountProbability(0.0, 0.0, 1.0)
@@ -182,11 +188,11 @@ def _turning(tally: PosteriorTally) -> CountProbability:
 def wheel_posterior(
     uncertainty: ToothCountPrior, weights: Sequence[Any] | None, total: Any, trials: float | None
 ) -> WheelPosterior:
-    """Return the posterior of one wheel.
+    """Return the posterior of the tooth count of one wheel.
 
-    weights   posterior weight of each count; None if no observed output depends on the wheel
+    weights   posterior weight of each tooth count; None if no observed output depends on the wheel
     total     sum of the weights
-    trials    effective number of sampled combinations, if the weights are from a sample
+    trials    effective number of sampled combinations; None if the weights are not from a sample
     """
     found: Iterable[CountProbability] = ()
     if total and weights is None:
@@ -200,7 +206,9 @@ def wheel_posterior(
 
 
 def _sample_correlations(question: InferenceProblem, tally: PosteriorTally) -> dict[tuple[str, str], float]:
-    """Return the posterior correlations from the weighted sums of products of counts in a sample."""
+    """Return the posterior correlation of each pair of wheels, from the weighted sums of products of their tooth counts
+    in a sample.
+    """
     if not tally.weight:
         return {}
     wheels = tally.batch.wheels
@@ -220,8 +228,8 @@ def correlations_of(
     total: Any,
     covariances: Mapping[tuple[str, str], float],
 ) -> dict[tuple[str, str], float]:
-    """Return the correlations of tooth counts from covariances, only for wheels that an output or a condition
-    connects.
+    """Return the correlations of the tooth counts of pairs of wheels, computed from covariances. Only pairs connected
+    by outputs or conditions are included.
     """
     scopes = [
         *(one.function.wheels for one in question.witnesses),
@@ -237,8 +245,8 @@ def correlations_of(
 def _moments(
     question: InferenceProblem, by: Mapping[str, Sequence[Any]], total: Any
 ) -> tuple[dict[str, float], dict[str, float]]:
-    """Return the posterior mean and standard deviation of each count; the deviation is 0 if the count is almost
-    certain.
+    """Return the posterior mean and the posterior standard deviation of each tooth count, keyed by wheel. The standard
+    deviation is 0 if the tooth count is almost certain.
     """
     means, spreads = {}, {}
     for wheel, weights in by.items():
@@ -274,14 +282,14 @@ def _correlated(
 
 
 Monomials = Sequence[tuple[Fraction, tuple[int, ...]]]
-"""Pairs of a coefficient and the (possibly negative) powers of the wheels, for each term of a formula."""
+"""Terms of a formula. Each term consists of a coefficient and the powers of the tooth counts, which may be negative."""
 
 
 def find_variance_shares(
     name: str, formula: Formula, uncertainties: Mapping[str, ToothCountPrior]
 ) -> VarianceShares | None:
-    """Return the Sobol indices of the speed of an output. Return None if the speed is constant or undefined for some
-    counts, or if it is not a sum of monomials and has more than two million combinations.
+    """Return the Sobol indices of the speed of an output. Return None if the speed is constant, or undefined for some
+    tooth counts, or if its formula is not a sum of monomials and there are more than two million combinations.
     """
     own = [uncertainties[wheel] for wheel in formula.wheels]
     if not any(len(uncertainty.counts) > 1 for uncertainty in own):
@@ -299,7 +307,7 @@ def _monomials(formula: Formula) -> Monomials:
 
 
 def _means(uncertainty: ToothCountPrior) -> Callable[[int], Fraction]:
-    """Return a cached function that maps an exponent to the prior mean of a tooth count raised to this exponent."""
+    """Return a cached function that maps an exponent to the prior mean of the tooth count raised to this exponent."""
     pairs = list(zip(uncertainty.counts, uncertainty.priors, strict=True))
     return cache(lambda power: sum((prior * Fraction(count) ** power for count, prior in pairs), Fraction(0)))
 
@@ -307,7 +315,9 @@ def _means(uncertainty: ToothCountPrior) -> Callable[[int], Fraction]:
 def _exact_indices(
     name: str, wheels: Sequence[str], terms: Monomials, uncertainties: Sequence[ToothCountPrior]
 ) -> VarianceShares | None:
-    """Compute the Sobol indices of a sum of monomials exactly, from the prior means of products of two terms."""
+    """Return the exact Sobol indices of a sum of monomials, computed from the prior means of the products of two
+    terms.
+    """
     means = [_means(uncertainty) for uncertainty in uncertainties]
     mean = sum((c * prod(m(e) for m, e in zip(means, powers, strict=True)) for c, powers in terms), Fraction(0))
     pairs = [(a * b, p, q) for a, p in terms for b, q in terms]
@@ -329,7 +339,7 @@ def _exact_indices(
 
 
 def _root(value: Fraction) -> float | None:
-    """Return the square root of a positive Fraction, to 53 bits; None beyond the range of float64."""
+    """Return the square root of a positive Fraction, accurate to 53 bits; None if it is out of the range of float64."""
     # scale by an even power of two to about 2^128, so that the integer square root has at least 63 bits
     shift = (128 - value.numerator.bit_length() + value.denominator.bit_length()) // 2
     power = Fraction(2) ** shift
@@ -337,7 +347,7 @@ def _root(value: Fraction) -> float | None:
 
 
 def _listed_indices(name: str, formula: Formula, uncertainties: Sequence[ToothCountPrior]) -> VarianceShares | None:
-    """Compute the Sobol indices from the speeds of all combinations, in an array with one axis per wheel."""
+    """Return the Sobol indices computed from the speeds of all combinations, in an array with one axis per wheel."""
     shape = tuple(len(uncertainty.counts) for uncertainty in uncertainties)
     columns = {
         uncertainty.wheel: np.array(uncertainty.counts).reshape([-1 if at == axis else 1 for at in range(len(shape))])
@@ -366,7 +376,7 @@ def _listed_indices(name: str, formula: Formula, uncertainties: Sequence[ToothCo
 
 
 def _has_pole(formula: Formula, uncertainties: Sequence[ToothCountPrior], places: NDArray[np.int64]) -> bool:
-    """Return whether the speed is undefined at one of the given combinations, by exact arithmetic."""
+    """Return whether the speed is undefined for one of the given combinations, by exact arithmetic."""
     shape = [len(uncertainty.counts) for uncertainty in uncertainties]
     for place in places:
         at = np.unravel_index(int(place), shape)
@@ -380,7 +390,9 @@ def _has_pole(formula: Formula, uncertainties: Sequence[ToothCountPrior], places
 
 
 def _averaged(values: Floats, priors: Sequence[Floats], axes: Sequence[int]) -> Floats:
-    """Return the prior mean of an array over some axes (wheels), which are kept with length 1."""
+    """Return the prior mean of an array over the given axes, each of which represents a wheel. These axes are kept with
+    length 1.
+    """
     found: Floats = values
     for axis in axes:
         shape = [-1 if at == axis else 1 for at in range(values.ndim)]

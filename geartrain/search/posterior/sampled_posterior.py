@@ -1,7 +1,7 @@
 """Random sample of combinations of tooth counts: speeds of outputs, likelihoods, and their sums.
 
-The speeds are formulas in the tooth counts, so that a combination costs a few multiplications per output. Sums over
-parts of the sample are plain data and can be added in any order.
+The speeds are computed by formulas in the tooth counts, so a combination requires only a few multiplications per
+output. Sums over parts of the sample are plain data and can be added in any order.
 """
 
 from __future__ import annotations
@@ -26,15 +26,17 @@ from geartrain.search.posterior.inference_problem import InferenceProblem, Tooth
 from geartrain.search.train.output_requirements import OutputRequirement, SpeedRequirement
 
 KEPT = 2000
-"""Maximum number of best combinations that a task returns; further ties are omitted."""
+"""Maximum number of best combinations that a task returns. Further combinations with the same misfit are omitted."""
 TIE = 1 + 1e-9
-"""Ratio of two misfits in floats below which they may be equal, so that they are later compared exactly."""
+"""Ratio of two misfits in floating point below which they may be equal, so that they are compared exactly at a later
+stage.
+"""
 
 
 class LikelihoodBatch:
     """Vectorised likelihood of an inference problem for arrays of tooth counts.
 
-    domains  possible counts of the wheels that an observed output or a condition depends on, in the order of
+    domains  possible tooth counts of the wheels on which an observed output or a condition depends, in the order of
              declaration
     """
 
@@ -47,7 +49,9 @@ class LikelihoodBatch:
         self._outputs = [(misfit_of(one), observation_constraint(one, question.soft, graded=False)) for one in ordered]
 
     def turns(self, counts: Mapping[str, Ints]) -> Bools:
-        """Return, for each combination, whether the train turns. `counts` contains arrays of equal length by wheel."""
+        """Return, for each combination, whether the train turns. `counts` contains the tooth counts of each wheel, in
+        arrays of equal length.
+        """
         found: Bools = np.ones(len(counts[self.wheels[0]]), dtype=np.bool_)
         for condition in self.question.conditions:
             found &= decide(condition, counts)[0]
@@ -55,9 +59,10 @@ class LikelihoodBatch:
 
     def judged(self, counts: Mapping[str, Ints]) -> tuple[Bools, Floats]:
         """Return whether each combination satisfies the observations, by exact arithmetic, and its misfit up to
-        rounding.
+        rounding errors.
 
-        The misfit of a rejected combination is infinite. Further outputs of a rejected combination are not evaluated.
+        The misfit of a rejected combination is infinite. Once a combination is rejected, its remaining outputs are not
+        evaluated.
         """
         met = self.turns(counts)
         total = np.zeros(len(met))
@@ -69,10 +74,11 @@ class LikelihoodBatch:
 
 
 def decide(one: IntervalConstraint, counts: Mapping[str, Ints]) -> tuple[Bools, Floats]:
-    """Return whether each combination satisfies a constraint, by exact comparison, and the value of its function up to
-    rounding.
+    """Return whether each combination satisfies a constraint, by exact comparison, and the value of the constrained
+    function up to rounding errors.
 
-    Floats are compared, and exact rational numbers if the value is within its error bound of an end of an interval.
+    The values are compared as floats. If the distance from a value to an end of an interval is less than its error
+    bound, exact rational numbers are compared.
     """
     function = one.function
     assert isinstance(function, Formula)
@@ -109,12 +115,12 @@ class PosteriorTally:
     """Sums of likelihoods over the combinations of a sample, from which the posterior is estimated.
 
     examined  number of combinations
-    turning   number of combinations with which the train turns
+    turning   number of combinations for which the train can turn
     weight    sum of the likelihoods
     square    sum of the squared likelihoods, for confidence intervals
-    by        sum of the likelihoods for each count of each wheel
-    sizes     weighted sums of products of two counts, each count minus the `origin_of` its wheel
-    best      pairs (misfit, indices of counts), ascending
+    by        sum of the likelihoods for each tooth count of each wheel
+    sizes     weighted sums of products of two tooth counts, each minus the value of `origin_of` for its wheel
+    best      pairs (misfit, indices of tooth counts) in ascending order
     ranked    False if ties were omitted
     """
 
@@ -142,8 +148,8 @@ class PosteriorTally:
 
 
 def _with_ties(misfits: Sequence[float] | Floats, most: int) -> int:
-    """Return the number of leading entries of a list of ascending misfits that includes the first `most` and all ties
-    of the last of these.
+    """Return the number of entries, from the start of a list of ascending misfits, that includes the first `most`
+    entries and all ties of the last of them.
     """
     if len(misfits) < most:
         return len(misfits)
@@ -151,12 +157,14 @@ def _with_ties(misfits: Sequence[float] | Floats, most: int) -> int:
 
 
 def plain_number(value: Any) -> int | float:
-    """Convert a sum to a Python float, or to a Python integer, which cannot overflow."""
+    """Convert a sum to a Python float, or to a Python integer if it is an integer. A Python integer cannot overflow."""
     return float(value) if isinstance(value, float | np.floating) else int(value)
 
 
 def origin_of(uncertainty: ToothCountPrior) -> int:
-    """Return the most probable count of a prior, relative to which sums of products lose no digits."""
+    """Return the most probable tooth count of a prior. It is subtracted from the tooth counts so that sums of products
+    lose no digits.
+    """
     return uncertainty.counts[uncertainty.weights.index(max(uncertainty.weights))]
 
 
@@ -167,7 +175,7 @@ def _unpacked(shared: bytes) -> tuple[LikelihoodBatch, int]:
 
 
 def sample_task(shared: bytes, task: Sequence[int]) -> dict[str, Any]:
-    """Draw combinations from their prior, and return the sums over them.
+    """Draw combinations from the prior, and return the sums of their likelihoods as plain data.
 
     shared  pickled inference problem, and number of combinations to list
     task   random seed, number of the block, number of combinations
@@ -207,7 +215,9 @@ def sample_task(shared: bytes, task: Sequence[int]) -> dict[str, Any]:
 
 @dataclass(frozen=True, slots=True)
 class _Scale:
-    """Observation of a speed in floats: observed speed, and reciprocal tolerances below and above it."""
+    """Observation of a speed in floating point: observed speed, and reciprocals of the tolerances below and above this
+    speed.
+    """
 
     wanted: float
     signed: bool
@@ -231,8 +241,8 @@ class _Scale:
 
 
 def misfit_of(witness: OutputRequirement) -> Callable[[Floats], Floats]:
-    """Return a function from speeds of an output to misfits, which are sums of (error / tolerance)^2, up to
-    rounding.
+    """Return a function that maps speeds of an output to misfits, which are sums of (error / tolerance)^2, up to
+    rounding errors.
     """
     scales = [_Scale.of(claim) for claim in witness.demands if not claim.exact]
 

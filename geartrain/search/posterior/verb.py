@@ -1,4 +1,4 @@
-"""Command `geartrain posterior`: probabilities of uncertain tooth counts, given the outputs."""
+"""Command `geartrain posterior`: probabilities of uncertain tooth counts, given the observed outputs."""
 
 from __future__ import annotations
 
@@ -97,7 +97,8 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Compute the probabilities of uncertain tooth counts, given the outputs; exit code 0 if any counts fit, else 1.
+    """Compute the probabilities of uncertain tooth counts, given the outputs; the exit code is 0 if some tooth counts
+    fit, and 1 if none do.
 
     Example: `geartrain posterior freeth-2008-doubt --best 8`.
     """
@@ -157,7 +158,9 @@ def _answer(found: ToothCountPosterior, json: bool, to: Sink) -> None:
 
 
 def _read_free(texts: Sequence[str]) -> dict[str, tuple[int, ...]]:
-    """Parse options such as `m3=15:80`, `a1=45,48` and `b1=223`."""
+    """Parse options such as `m3=15:80`, `a1=45,48` and `b1=223`, and return the possible tooth counts keyed by
+    wheel.
+    """
     from geartrain.search.tooth_count_ranges import read_counts
 
     found: dict[str, tuple[int, ...]] = {}
@@ -176,7 +179,7 @@ def _read_free(texts: Sequence[str]) -> dict[str, tuple[int, ...]]:
 
 
 def _write_parquet(rows: Sequence[Mapping[str, Any]], to: Sink, about: Mapping[str, str]) -> None:
-    """Write the rows as one Parquet row group; write no file if there are no rows."""
+    """Write the rows as one Parquet row group. No file is written if there are no rows."""
     from geartrain.numerics.files import ColumnTable
 
     assert to.path is not None
@@ -193,7 +196,7 @@ def _draw_counts(
 ) -> None:
     """Draw a corner plot of the most informative wheels to a file.
 
-    again   function that repeats the inference with the counts of some wheels fixed
+    again   function that repeats the inference with fixed tooth counts of some wheels
     """
     from geartrain.search.posterior.corner_plot import counts_figure
     from geartrain.search.posterior.inference import joint_posterior, most_informative_wheels

@@ -1,7 +1,9 @@
-"""Search for one ratio by one to five stages of gear pairs: all solutions, or the solutions that are proved to be best.
+"""Search for tooth counts of one to five gear stages with a given ratio. It finds all solutions, or solutions that are
+proved to be the best.
 
-product_windows    sorted products of tooth counts, generated in windows of value
-stage_problem      the search problem as plain data, feasible pairings of a multiset, total orders of solutions
-search_segments    meet in the middle on sorted products, segment by segment, and the tolerance that proves the list
+product_windows    sorted products of tooth counts, generated for intervals (windows) of their value
+stage_problem      the search problem as plain data, feasible pairings of tooth counts, total orders of solutions
+search_segments    meet in the middle on sorted products, segment by segment, and the tolerance within which the list is
+                   proved
 stage_search       `find_stages`, its result, and the explanation of an empty result
 """

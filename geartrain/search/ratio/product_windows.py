@@ -1,4 +1,6 @@
-"""Products of tooth counts over all multisets of a given size, generated in windows of value with bounded memory."""
+"""Products of tooth counts over all multisets of a given size, generated for intervals (windows) of their value with
+bounded memory.
+"""
 
 from __future__ import annotations
 
@@ -26,12 +28,12 @@ if TYPE_CHECKING:
 
 
 def cuts(products: Ints, factors: Ints, low: Fraction, high: Fraction) -> tuple[Places, Places]:
-    """Return, for each factor f, the half-open index range of the `products` with low f <= product <= high f, compared
-    exactly.
+    """Return, for each factor f, the half-open index range of the `products` with low f <= product <= high f, by exact
+    comparison.
 
-    products   ascending, at least one
-    factors    positive, below 2^52
-    low, high  0 <= low <= high
+    products   integers in ascending order, at least one
+    factors    positive integers below 2^52
+    low, high  bounds with 0 <= low <= high
     """
     # no ratio of these products has a denominator larger than the largest factor
     longest = int(factors.max()) if len(factors) else 1
@@ -45,10 +47,10 @@ def cuts(products: Ints, factors: Ints, low: Fraction, high: Fraction) -> tuple[
 
 
 def _floors(factors: Ints, edge: Fraction, cap: int) -> tuple[Ints, NDArray[np.bool_]]:
-    """Return floor(factor x edge), at most `cap`, and whether the product factor x edge is an integer.
+    """Return, for each factor, floor(factor x edge), limited to `cap`, and whether factor x edge is an integer.
 
-    The remainder factor n - floor d, with edge = n/d, is computed modulo 2^64. With d below 2^52, and a
-    float64 estimate of the floor that is within 3 of it, the remainder is less than 2^63 and therefore exact.
+    The remainder factor n - floor d, with edge = n/d, is computed modulo 2^64. Since d is below 2^52, and the float64
+    estimate of the floor differs from it by at most 3, the remainder is less than 2^63 and therefore exact.
     """
     n, d = edge.numerator, edge.denominator
     near = factors * float(edge)
@@ -60,13 +62,13 @@ def _floors(factors: Ints, edge: Fraction, cap: int) -> tuple[Ints, NDArray[np.b
 
 
 def _wrapped(number: int) -> np.int64:
-    """Return the integer modulo 2^64 as a signed int64."""
+    """Return an integer modulo 2^64, represented as a signed int64."""
     return np.int64((number + (1 << 63)) % (1 << 64) - (1 << 63))
 
 
 def error_places(tops: Ints, beneaths: Ints, value: Fraction) -> Places:
-    """Return for each ratio of two products the rank of its absolute error, compared exactly. Equal errors have equal
-    ranks.
+    """Return, for each ratio tops / beneaths, the rank of its absolute error with respect to `value`, by exact
+    comparison. Equal errors have equal ranks.
     """
     ratios, which = distinct_quotients(tops, beneaths)
     misses = [abs(ratio / value - 1) for ratio in ratios]
@@ -75,7 +77,7 @@ def error_places(tops: Ints, beneaths: Ints, value: Fraction) -> Places:
 
 
 def reach_of_errors(value: Fraction, low: Fraction, high: Fraction) -> tuple[Fraction, Fraction]:
-    """Return the minimum and maximum absolute relative error with respect to `value` of all ratios from `low` to
+    """Return the minimum and maximum absolute relative error with respect to `value` of all ratios between `low` and
     `high`.
     """
     first, last = low / value - 1, high / value - 1
@@ -94,47 +96,58 @@ def rounded_up(bound: float | Fraction) -> Fraction:
 
 MOST_STAGES = 5
 _LARGEST = 1 << 52
-"""Limit of products, which float64 represents exactly."""
+"""Upper limit of products. Integers below this limit are represented exactly in float64."""
 _MOST_ROWS = 12 * 10**6  # maximum number of rows of the tables in memory
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ProductWindows:
-    """Products c_1 c_2 ... c_k of admissible counts c_1 <= ... <= c_k, each stored as (low part) x (high part).
+    """Products c_1 c_2 ... c_k of admissible tooth counts c_1 <= ... <= c_k, each stored as a lower partial product
+    times an upper partial product.
 
-    The sorted counts are split at their middle element m. A row holds m and the counts below it, and is combined with
-    every high part whose counts are all at least m, so each multiset occurs once. Memory is O(n^3) for n counts, while
-    the C(n+k-1, k) products are generated window by window.
+    The sorted tooth counts are split at their middle element m. A lower partial product contains m and the tooth counts
+    before it. It is combined with every upper partial product whose tooth counts are all at least m, so each multiset
+    occurs once. Memory is O(n^3) for n admissible counts, while the C(n+k-1, k) products are generated window by
+    window.
     """
 
     counts: tuple[int, ...]
-    """Admissible tooth counts, ascending."""
+    """Admissible tooth counts, in ascending order."""
     size: int
-    """Number k of counts in a product."""
+    """Number k of tooth counts in a product."""
     rows: Ints
-    """Product of the counts of each low part, shape (rows,)."""
+    """Lower partial products, shape (rows,)."""
     lows: Ints
-    """Counts of each low part, ascending, shape (rows, a)."""
+    """Tooth counts of each lower partial product, in ascending order, shape (rows, a), where a is the number of tooth
+    counts in a lower partial product.
+    """
     highs: Ints
-    """Product of the counts of each high part, ascending within each table, shape (highs,)."""
+    """Partial products of the upper part of the tooth counts, in ascending order within each table, shape (highs,)."""
     uppers: Ints
-    """Counts of each high part, ascending, shape (highs, b)."""
+    """Tooth counts of each upper partial product, in ascending order, shape (highs, b), where b is the number of tooth
+    counts in an upper partial product.
+    """
     keys: Ints
-    """Sum of `highs` and the offset of the table, which is ascending over all tables, shape (highs,)."""
+    """Sum of each upper partial product and the offset of its table, shape (highs,). The sums are in ascending order
+    over all tables.
+    """
     offsets: Ints
-    """Offset of the table of high parts that each row is combined with, shape (rows,)."""
+    """Offset of the table of upper partial products with which each lower partial product is combined, shape
+    (rows,).
+    """
     starts: Places
-    """Index of the first high part that each row is combined with, shape (rows,)."""
+    """Index of the first upper partial product with which each lower partial product is combined, shape (rows,)."""
     step: int
-    """Distance between the offsets, larger than any high part."""
+    """Difference between consecutive offsets, larger than every upper partial product."""
 
     def below(self, bound: int) -> int:
-        """Return the exact number of multisets with a product less than `bound`."""
+        """Return the exact number of multisets of tooth counts with a product less than `bound`."""
         return int((_ends(self, bound) - self.starts).sum())
 
     def values(self, low: int, high: int) -> tuple[Ints, Places]:
-        """Return the distinct products in [low, high) in ascending order, shape (n,), and the number of multisets of
-        the window below each product and in total, shape (n + 1,).
+        """Return the n distinct products in [low, high) in ascending order, shape (n,), and cumulative numbers of
+        multisets, shape (n + 1,). Entry i is the number of multisets in this interval with a product below product i,
+        and the last entry is their total number.
         """
         row, column = spread(_ends(self, low), _ends(self, high))
         found = self.rows[row]
@@ -145,8 +158,9 @@ class ProductWindows:
         return found[starts], np.append(starts, len(found))
 
     def members(self, low: int, high: int, among: Ints) -> tuple[Ints, Ints]:
-        """Return the products in [low, high) that are in `among` (ascending, not empty), ascending, shape (n,), and
-        their counts, ascending in each row, shape (n, size).
+        """Return the products in [low, high) that occur in `among`, and their tooth counts. There is one row for each
+        of n multisets, in ascending order of the product: arrays of shape (n,) and (n, size). `among` must be ascending
+        and not empty.
         """
         row, column = spread(_ends(self, low), _ends(self, high))
         products = self.rows[row] * self.highs[column]
@@ -160,8 +174,8 @@ class ProductWindows:
 
 @lru_cache(maxsize=4)
 def _ends(products: ProductWindows, bound: int) -> Places:
-    """Return for each row the index after the last high part whose product with the row is below `bound`, shape
-    (rows,).
+    """Return, for each lower partial product, the index after the last upper partial product with which the product is
+    below `bound`, shape (rows,).
     """
     # one binary search for all tables: the offset of a row selects its table
     most = np.minimum((bound - 1) // products.rows, products.step - 1) + products.offsets
@@ -169,15 +183,18 @@ def _ends(products: ProductWindows, bound: int) -> Places:
 
 
 def multisets(number: int, size: int) -> int:
-    """Return the number of multisets of `size` elements from `number` counts: C(number + size - 1, size)."""
+    """Return the number of multisets of `size` elements chosen from `number` different tooth counts: C(number + size -
+    1, size).
+    """
     return comb(number + size - 1, size)
 
 
 @lru_cache(maxsize=4)
 def products_of(counts: tuple[int, ...], size: int) -> ProductWindows:
-    """Build the products of all multisets of `size` (1 to 5) of the counts, which must be ascending.
+    """Build the products of all multisets of `size` tooth counts. `counts` must be ascending, and `size` must be from 1
+    to 5.
 
-    Raise `RangeError` if the products are too large, or the tables would not fit in memory.
+    `RangeError` is raised if the products are too large, or if the tables would not fit in memory.
     """
     check_products(counts, size)
     numbers = np.array(counts, dtype=np.int64)
@@ -204,9 +221,10 @@ def products_of(counts: tuple[int, ...], size: int) -> ProductWindows:
 
 
 def _rows(numbers: Ints, below: int) -> tuple[Ints, Ints, Places]:
-    """Return every combination of a number and a multiset of `below` numbers that do not exceed this number.
+    """Return every combination of a number and a multiset of `below` numbers that do not exceed it.
 
-    The arrays contain the product, the counts, and the index of the number, with one row for each combination.
+    The three arrays contain the product of the numbers, the numbers, and the index of the first-mentioned number, with
+    one row for each combination.
     """
     parts = [_by_product(_chosen(numbers[: at + 1], below)) for at in range(len(numbers))]
     table = np.repeat(np.arange(len(numbers)), [len(part) for part in parts])
@@ -219,7 +237,9 @@ def _by_product(chosen: Ints) -> Ints:
 
 
 def _chosen(numbers: Ints, size: int) -> Ints:
-    """Return all multisets of 0, 1 or 2 of the numbers, in ascending order within each, shape (multisets, size)."""
+    """Return all multisets of `size` numbers, where `size` is 0, 1 or 2; each row is in ascending order, shape
+    (multisets, size).
+    """
     if size == 0:
         return np.empty((1, 0), dtype=numbers.dtype)
     if size == 1:
@@ -229,7 +249,7 @@ def _chosen(numbers: Ints, size: int) -> Ints:
 
 
 def row_products(chosen: Ints) -> Ints:
-    """Return the product of the counts in each row, in the dtype of the counts."""
+    """Return the product of the tooth counts in each row, in the dtype of the tooth counts."""
     found = np.ones(len(chosen), dtype=chosen.dtype)
     for column in chosen.T:
         found = found * column
@@ -237,7 +257,9 @@ def row_products(chosen: Ints) -> Ints:
 
 
 def check_products(counts: tuple[int, ...], size: int) -> None:
-    """Raise `RangeError` if the products of `products_of` are too large, or its tables would not fit in memory."""
+    """Raise `RangeError` if the products of `products_of` would be too large, or if its tables would not fit in
+    memory.
+    """
     number, half = len(counts), (size + 1) // 2
     # length of the longest table; from four stages on it contains triples of counts
     rows = multisets(number, half) if size < 4 else multisets(number, 3)

@@ -1,4 +1,4 @@
-"""Search of the denominator products, segment by segment, for the numerator products that match them.
+"""Search for numerator products that match denominator products, segment by segment.
 
 Segments are independent, and their results are plain JSON data. The division into segments does not influence the
 result.
@@ -44,14 +44,16 @@ if TYPE_CHECKING:
     Ints = NDArray[Any]
 
 BLOCK = 1 << 21
-"""Maximum number of products of one side in a segment, which bounds the memory."""
+"""Maximum number of denominator products, and of numerator products, in a segment, which limits the memory."""
 PER_ROW = 3
-"""Minimum number of products per row of the tables in a block, because each row costs a binary search."""
+"""Minimum number of products in a segment per row of the tables. Each row requires a binary search, whatever the number
+of products.
+"""
 CHUNK = 1 << 19
-"""Number of pairings of pairs of multisets processed in one vectorised step."""
+"""Number of pairings that are processed in one vectorised step."""
 _WIDER = 16  # factor between tolerances; all passes before the last then cost little
 _ENOUGH = 2 * 10**9
-"""Number of tested pairs of multisets at which a search without a tolerance stops widening its tolerance."""
+"""Number of tested pairs of multisets at which a search without a given tolerance stops increasing its tolerance."""
 _SLACK = 1e-12  # relative margin of float comparisons
 _MOST = 1e11
 """Maximum number of pairs of multisets that may be tested one by one."""
@@ -60,15 +62,15 @@ Range = tuple[int, int]
 
 
 def search_segment(packed: bytes, segment: Sequence[int]) -> dict[str, Any]:
-    """Count the solutions of a segment exactly, and return the best of them.
+    """Count the solutions of a segment exactly, and return the count and the best solutions.
 
-    packed    pickled problem, and the tolerance within which solutions are listed
-    segment   half-open ranges of the denominator products and of the numerator products (four numbers), or half-open
-              range of the sums of stages with equal sums (two numbers)
+    packed    pickled search problem, and the tolerance within which solutions are listed
+    segment   half-open ranges of the denominator products and of the numerator products (four numbers), or, if all
+              stages have equal sums of tooth counts, the half-open range of these sums (two numbers)
 
     The result has the keys `count`; `listed`, the number of solutions within the tolerance of the list; `removed`, the
-    number of pairs of multisets within the tolerance that are not solutions, by reason; and `rows`, the best as [rank
-    value, numerator counts, denominator counts].
+    number of pairs of multisets within the tolerance that were rejected for each reason; and `rows`, the best solutions
+    as [primary criterion, numerator counts, denominator counts].
     """
     question, tolerance = pickle.loads(packed)
     if question.of_equal_sums:
@@ -96,11 +98,11 @@ def search_segment(packed: bytes, segment: Sequence[int]) -> dict[str, Any]:
 
 
 def _search_sums(question: StageProblem, low: int, high: int) -> dict[str, Any]:
-    """Search the reverted trains whose stages have a sum of counts in [low, high); the result has the keys described in
-    `search_segment`.
+    """Search the reverted trains in which the sum of the tooth counts of a stage is in [low, high). The result has the
+    keys described in `search_segment`.
 
-    Every multiset of stages with this sum is generated once, from a lower and an upper half, by a meet in the middle on
-    the ratios. Candidates are compared as floats, and as Fractions near the tolerance.
+    For each sum, every multiset of stages is generated once, from a lower and an upper half, by a meet in the middle on
+    the ratios. Candidates near the tolerance are compared as Fractions, all others as floats.
     """
     judge, size = StageFilter(question), question.stages
     first, last = map(float, question.edges)
@@ -126,14 +128,16 @@ def _search_sums(question: StageProblem, low: int, high: int) -> dict[str, Any]:
 
 
 def _multisets(number: int, size: int) -> Ints:
-    """Return the multisets of `size` of the integers 0 to `number` - 1, ascending in each row, shape (n, size)."""
+    """Return all multisets of `size` integers from 0 to `number` - 1, each row in ascending order, shape (n, size),
+    where n is the number of multisets.
+    """
     found = list(combinations_with_replacement(range(number), size))
     return np.array(found, dtype=np.int64).reshape(len(found), size)
 
 
 def _are_within(over: Ints, under: Ints, question: StageProblem) -> NDArray[np.bool_]:
-    """Return whether each ratio over / under is within the tolerance of the requested ratio. Ratios are compared as
-    floats, and as Fractions near the tolerance.
+    """Return whether each ratio over / under is within the tolerance of the requested ratio. Ratios near the tolerance
+    are compared as Fractions, all others as floats.
     """
     limit, value = float(question.tolerance), question.value
     errors = np.abs(over.astype(np.float64) / under.astype(np.float64) / float(value) - 1)
@@ -144,7 +148,9 @@ def _are_within(over: Ints, under: Ints, question: StageProblem) -> NDArray[np.b
 
 
 def pieces(products: ProductWindows, low: int, high: int, most: int) -> Iterator[Range]:
-    """Split [low, high) into ascending ranges of at most `most` products each; empty ranges are omitted."""
+    """Split [low, high) into ascending ranges with at most `most` products each. Ranges without products are
+    omitted.
+    """
     number = products.below(high) - products.below(low) if low < high else 0
     if number > most and high - low > 1:
         # the geometric mean, because the logarithms of products are about uniform
@@ -156,8 +162,8 @@ def pieces(products: ProductWindows, low: int, high: int, most: int) -> Iterator
 
 
 class StageFilter:
-    """Filter that tests pairs of multisets of tooth counts by the constraints, counts the solutions and keeps the
-    best.
+    """Filter that tests pairs of multisets of tooth counts against the constraints, counts the solutions and keeps the
+    best solutions.
     """
 
     def __init__(self, question: StageProblem) -> None:
@@ -167,7 +173,9 @@ class StageFilter:
         self.count = 0
 
     def see(self, tops: Ints, beneaths: Ints, over: Ints, under: Ints) -> None:
-        """Test and rank pairs of multisets: counts of both sides, shape (n, k) each, and their products, shape (n,)."""
+        """Test and rank n pairs of multisets. The arguments are the tooth counts of numerator and denominator, shape
+        (n, k) each, where k is the number of stages, and their products, shape (n,) each.
+        """
         fit, at = self.question.fit, np.arange(len(over))
         if fit.different:
             # equal counts are neighbours after sorting
@@ -185,18 +193,20 @@ class StageFilter:
             self.best.add(np.column_stack([first, over[at], under[at], tops[at], beneaths[at]]))
 
     def outcome(self) -> dict[str, Any]:
-        """Return the number of solutions, the rejected pairs by reason, and the best solutions as plain data."""
+        """Return the number of solutions, the number of rejected pairs of multisets for each reason, and the best
+        solutions as plain data.
+        """
         return {"count": self.count, "listed": self.count, "removed": self.removed, "rows": self.best.plain()}
 
     def _filter(self, at: Ints, good: NDArray[np.bool_], reason: str) -> Ints:
-        """Return the indices for which `good` is true, and count the remaining indices under `reason`."""
+        """Return the indices for which `good` is True. The other indices are counted as rejected under `reason`."""
         if not good.all():
             self.removed[reason] = self.removed.get(reason, 0) + int((~good).sum())
         return at[good]
 
 
 def pairing_reason(question: StageProblem) -> str:
-    """Return the reason for rejecting pairs of multisets that have no feasible pairing, as text."""
+    """Return a description of the reason why pairs of multisets without a feasible pairing are rejected."""
     fit = question.fit
     requested = [
         *(["coprime counts in every stage"] if fit.hunting else []),
@@ -208,27 +218,29 @@ def pairing_reason(question: StageProblem) -> str:
 
 @dataclass(frozen=True, slots=True)
 class SweepOutcome:
-    """Results of all segments: the numbers of solutions and of rejected candidates within `tolerance`, and the
+    """Results merged from all segments: the number of solutions and of rejected candidates within `tolerance`, and the
     best solutions.
     """
 
     tolerance: Fraction
     count: int = 0
     listed: int = 0
-    """Number of solutions from which the best were selected."""
+    """Number of solutions from which the best solutions were selected."""
     removed: Mapping[str, int] = field(default_factory=dict)
     keys: Sequence[StageRank] = ()
     complete: bool = True
-    """True if every segment was searched."""
+    """True if every segment of the search was completed."""
     note: str = ""
-    """Reason why the search may have found fewer solutions than exist; "" otherwise."""
+    """Reason why the search may have found fewer solutions than exist; empty if there is no such reason."""
 
 
 def solve(question: StageProblem, tolerance: Fraction | None, means: Execution) -> SweepOutcome:
-    """Count all solutions within a tolerance, and keep the best; without a tolerance, find the best by absolute error.
+    """Count all solutions within a tolerance and keep the best. If the tolerance is None, find the solutions with the
+    smallest absolute errors.
 
-    The tolerance of the problem is ignored. If there are many solutions, only solutions near the ratio are listed. The
-    tolerance of the list is increased until it includes enough solutions, so all other solutions have larger errors.
+    `question.tolerance` is ignored. If there are many solutions, only solutions near the requested ratio are listed.
+    The tolerance of the list is increased until it includes enough solutions, so all other solutions have larger
+    errors.
     """
     minimum, most = reach_of_errors(question.value, *question.reach)
     if tolerance is not None:
@@ -252,14 +264,16 @@ def solve(question: StageProblem, tolerance: Fraction | None, means: Execution) 
 
 
 def _density(question: StageProblem) -> float:
-    """Estimate the number of candidates per unit of absolute relative error near the requested ratio."""
+    """Return an estimate of the number of candidates per unit of absolute relative error near the requested ratio."""
     span = log(question.top[-1] / question.top[0]) + log(question.beneath[-1] / question.beneath[0])
     # factor 2: errors of both signs; logarithms of ratios spread over about `stages` times the span
     return 2 * question.candidates / max(question.stages * span, 1e-3)
 
 
 def _start(question: StageProblem) -> Fraction:
-    """Return a tolerance, at most 1, within which about 16 times the requested number of solutions is expected."""
+    """Return an initial tolerance, at most 1, within which about 16 times the requested number of solutions is
+    expected.
+    """
     return rounded_up(max(min(16 * question.best / _density(question), 1.0), 1e-18))
 
 
@@ -277,7 +291,9 @@ def _check(question: StageProblem, tolerance: Fraction) -> None:
 
 
 def _sweep(question: StageProblem, near: Fraction, means: Execution) -> SweepOutcome:
-    """Search all segments and merge their results. After a keyboard interrupt, return the results obtained so far."""
+    """Search all segments and merge their results. After a keyboard interrupt, return the results obtained until
+    then.
+    """
     work, tasks = partial(search_segment, pickle.dumps((question, near))), _segments(question)
     # a single task runs in this process, without the overhead of an executor
     results = map(work, tasks) if len(tasks) < 2 else means.run(work, tasks)
@@ -296,10 +312,10 @@ def _sweep(question: StageProblem, near: Fraction, means: Execution) -> SweepOut
 
 
 def _segments(question: StageProblem) -> list[Sequence[int]]:
-    """Divide the search into segments, which together contain every pair of products within the tolerance exactly once.
+    """Divide the search into segments. Every pair of products within the tolerance is in exactly one segment.
 
-    Stages with equal sums are divided by their sum. A segment contains eight sums for four or more stages, whose search
-    is slow, and all sums for fewer stages.
+    If all stages must have equal sums of tooth counts, a segment is a range of sums. It contains eight sums if there
+    are four or more stages, because this search is slow, and all sums if there are fewer stages.
     """
     size = question.stages
     if question.of_equal_sums:

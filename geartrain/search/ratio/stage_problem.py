@@ -1,6 +1,7 @@
-"""Problem data of a search for one ratio by stages: ratio, constraints, feasible pairings, orders of solutions.
+"""Problem of a search for gear stages with a given ratio: ratio, constraints, feasible pairings, and orders of
+solutions.
 
-The orders are total, and do not depend on the sequence in which solutions are found.
+The orders are total orders, and do not depend on the sequence in which solutions are found.
 """
 
 from __future__ import annotations
@@ -35,8 +36,8 @@ _MARGIN = 1e-14  # relative bound of the rounding error of a ratio
 
 @dataclass(frozen=True, slots=True)
 class StageConstraints(Result):
-    """Constraints on the tooth counts of a train of stages. At least one pairing of the counts must satisfy all of
-    them.
+    """Constraints on the tooth counts of a train of stages. At least one pairing of the tooth counts must satisfy all
+    constraints.
 
     Examples
     --------
@@ -45,24 +46,24 @@ class StageConstraints(Result):
     """
 
     hunting: bool = False
-    """True to require that the two counts of every stage are coprime, so that every tooth meets every tooth of its
-    mate.
+    """True to require that the two tooth counts of every stage are coprime, so that every tooth meets every tooth of
+    the mating wheel.
     """
     reverted: bool = False
-    """True to require that all stages of the same module have the same centre distance. The sums of the two tooth
-    counts (their differences, for a stage with a ring) must then be equal.
+    """True to require that all stages have equal centre distances if they have the same module. The two tooth counts
+    must then have the same sum in all external stages, equal to their difference in stages with a ring.
     """
     different: bool = False
-    """True to require that all counts are distinct."""
+    """True to require that all tooth counts are distinct."""
     internal: int = 0
     """Number of internal meshes, 0 to the number of stages. An internal mesh preserves the sense of rotation; an
     external mesh reverses it. A ring has more teeth than its pinion.
     """
     maximum_total: int | None = None
-    """Maximum sum of all counts."""
+    """Maximum sum of all tooth counts; None if the sum is not limited."""
 
     def sense(self, stages: int) -> int:
-        """Return 1 if output and input turn in the same sense, -1 if they turn in opposite senses.
+        """Return 1 if the output and the input turn in the same sense, or -1 if they turn in opposite senses.
 
         Parameters
         ----------
@@ -73,12 +74,12 @@ class StageConstraints(Result):
 
     @property
     def pairs_matter(self) -> bool:
-        """True if a constraint depends on the pairing of the counts."""
+        """True if a constraint depends on which numerator count is paired with which denominator count."""
         return self.hunting or self.reverted or self.internal > 0
 
     @property
     def free(self) -> bool:
-        """True if every pair of multisets satisfies all constraints."""
+        """True if every pair of multisets of tooth counts satisfies all constraints."""
         return not (self.pairs_matter or self.different or self.maximum_total is not None)
 
     def check(self, stages: int) -> None:
@@ -101,20 +102,22 @@ class StageConstraints(Result):
 
 @dataclass(frozen=True)
 class StageProblem:
-    """Search for quotients of two products of `stages` counts each that are within a tolerance of a value."""
+    """Search problem: find quotients of two products of `stages` tooth counts each that are within a tolerance of a
+    value.
+    """
 
     value: Fraction
-    """Requested ratio, positive: numerator product divided by denominator product."""
+    """Requested positive ratio: numerator product divided by denominator product."""
     stages: int
     """Number of stages, 1 to 5."""
     top: Set
-    """Admissible counts of the numerator, ascending."""
+    """Admissible tooth counts in the numerator, in ascending order."""
     beneath: Set
-    """Admissible counts of the denominator, ascending."""
+    """Admissible tooth counts in the denominator, in ascending order."""
     fit: StageConstraints
     """Constraints on the tooth counts."""
     by: str
-    """Order of the solutions, a `StageOrder`."""
+    """Name of the order of the solutions, a `StageOrder`."""
     best: int
     """Number of solutions to keep."""
     tolerance: Fraction
@@ -122,52 +125,56 @@ class StageProblem:
 
     @cached_property
     def over(self) -> ProductWindows:
-        """Products of all multisets of numerator counts."""
+        """Products of all multisets of tooth counts in the numerator."""
         return products_of(self.top, self.stages)
 
     @cached_property
     def under(self) -> ProductWindows:
-        """Products of all multisets of denominator counts."""
+        """Products of all multisets of tooth counts in the denominator."""
         return products_of(self.beneath, self.stages)
 
     @property
     def reach(self) -> tuple[Fraction, Fraction]:
-        """Minimum and maximum ratio that the products can give."""
+        """Minimum and maximum ratio of a numerator product to a denominator product."""
         low, high = Fraction(self.top[0], self.beneath[-1]), Fraction(self.top[-1], self.beneath[0])
         return low**self.stages, high**self.stages
 
     @cached_property
     def edges(self) -> tuple[Fraction, Fraction]:
-        """Minimum and maximum ratio that are within the tolerance and are possible with the products."""
+        """Minimum and maximum ratio that are within the tolerance and within `reach`."""
         minimum, most = self.reach
         return max(self.value * (1 - self.tolerance), minimum), min(self.value * (1 + self.tolerance), most)
 
     @property
     def reachable(self) -> bool:
-        """True if a ratio of the products may be within the tolerance."""
+        """True if a ratio of products may be within the tolerance."""
         low, high = self.edges
         return low <= high
 
     @property
     def considered(self) -> int:
-        """Number of pairs of multisets, one for the numerator and one for the denominator."""
+        """Number of pairs of a multiset of numerator counts and a multiset of denominator counts."""
         return multisets(len(self.top), self.stages) * multisets(len(self.beneath), self.stages)
 
     @property
     def of_equal_sums(self) -> bool:
-        """True if all stages must have the same sum of counts."""
+        """True if all stages must have the same sum of tooth counts."""
         return self.fit.reverted and not self.fit.internal
 
     @property
     def candidates(self) -> int:
-        """Number of pairs of multisets; for stages with equal sums, number of multisets of stages."""
+        """Number of candidates: pairs of multisets of tooth counts, or multisets of stages if all stages must have
+        equal sums of tooth counts.
+        """
         if not self.of_equal_sums:
             return self.considered
         sums = Counter(a + b for a in self.top for b in self.beneath)
         return sum(multisets(stages, self.stages) for stages in sums.values())
 
     def beneath_within(self, low: int, high: int) -> tuple[int, int]:
-        """Return the part of the range [low, high) of denominator products for which a numerator product can match."""
+        """Return the part of the range [low, high) of denominator products for which a matching numerator product may
+        exist, as a half-open range.
+        """
         first, last = self.edges
         minimum, most = self.top[0] ** self.stages, self.top[-1] ** self.stages
         return max(low, -(-minimum * last.denominator // last.numerator)), min(
@@ -175,7 +182,7 @@ class StageProblem:
         )
 
     def tops_for(self, low: int, high: int) -> tuple[int, int]:
-        """Return the half-open range of the numerator products that can match denominator products in [low, high)."""
+        """Return the half-open range of the numerator products that may match denominator products in [low, high)."""
         first, last = self.edges
         minimum, most = self.top[0] ** self.stages, self.top[-1] ** self.stages
         return max(-(-low * first.numerator // first.denominator), minimum), min(
@@ -184,7 +191,7 @@ class StageProblem:
 
     @property
     def loose(self) -> bool:
-        """True if every pair of multisets within the tolerance is a solution."""
+        """True if every pair of multisets whose ratio is within the tolerance is a solution."""
         low, high = self.edges
         # one internal mesh is always possible unless all counts are equal, and then the ratio is 1
         ring_alone = self.fit.internal == 1 and not low <= 1 <= high
@@ -195,11 +202,12 @@ class StageProblem:
 
 
 def pairings(tops: Ints, beneaths: Ints, fit: StageConstraints) -> tuple[Bools, Ints, Ints]:
-    """Evaluate all k! pairings of numerator and denominator counts, shape (n, k) each, with all choices of internal
-    meshes.
+    """Evaluate all pairings of k numerator counts with k denominator counts, combined with all choices of internal
+    meshes, for each row of two arrays of shape (n, k).
 
-    Each result has shape (n, arrangements), with the rows of `_arrangements` as columns: whether the pairing satisfies
-    the constraints, the number of stages with coprime counts, and the number of distinct centre distances.
+    Return three arrays of shape (n, arrangements): whether the pairing satisfies the constraints, the number of stages
+    with coprime tooth counts, and the number of distinct centre distances. The columns correspond to the rows of
+    `_arrangements`.
     """
     orders, rings = _arrangements(tops.shape[1], fit.internal)
     tall, short = tops[:, None, :], beneaths[:, orders]
@@ -218,9 +226,9 @@ def pairings(tops: Ints, beneaths: Ints, fit: StageConstraints) -> tuple[Bools, 
 
 @lru_cache(maxsize=32)
 def _arrangements(size: int, internal: int) -> tuple[Ints, Bools]:
-    """Return every permutation of the denominator counts with every choice of the internal stages.
+    """Return every combination of a permutation of the denominator counts and a choice of the internal stages.
 
-    The arrays are permutations and choices, shape (arrangements, size) each.
+    The two arrays contain the permutations and the choices, shape (arrangements, size) each.
     """
     choices = [[stage in chosen for stage in range(size)] for chosen in combinations(range(size), internal)]
     both = list(product(permutations(range(size)), choices))
@@ -230,11 +238,13 @@ def _arrangements(size: int, internal: int) -> tuple[Ints, Bools]:
 def best_pairing(
     top: tuple[int, ...], beneath: tuple[int, ...], fit: StageConstraints | None = None, *, centres: bool = False
 ) -> Pairs | None:
-    """Return the best pairing that satisfies the constraints, or None if no pairing does.
+    """Return the best pairing of numerator and denominator counts that satisfies the constraints, or None if no pairing
+    satisfies them.
 
-    The criteria are, in this order, the number of distinct centre distances (only if `centres`), the number of stages
-    with coprime counts, and the quotient of the maximum and the minimum ratio of a stage. The last `fit.internal` of
-    the pairs are internal; external and internal pairs are ascending.
+    The criteria are, in this order: the minimum number of distinct centre distances (only if `centres` is True), the
+    maximum number of stages with coprime tooth counts, and the minimum quotient of the largest and the smallest stage
+    ratio. The last `fit.internal` pairs are internal. The external pairs and the internal pairs are each in ascending
+    order.
 
     >>> best_pairing((39, 73, 91), (15, 34, 38))  # 39 and 15 have a common divisor
     ((39, 34), (73, 15), (91, 38))
@@ -253,7 +263,7 @@ def best_pairing(
 
 
 def _spread(pairs: Pairs) -> Fraction:
-    """Return the quotient of the maximum and minimum ratio of a stage."""
+    """Return the largest stage ratio divided by the smallest stage ratio."""
     # over a common denominator, integers instead of fractions
     scale = prod(b for _, b in pairs)
     ratios = [a * (scale // b) for a, b in pairs]
@@ -264,19 +274,21 @@ def _spread(pairs: Pairs) -> Fraction:
 
 
 StageOrder = Literal["error", "total", "largest", "distinct", "hunting", "centres"]
-"""Primary criterion of the order of solutions: minimum absolute error, sum of counts, largest count or number of
-distinct counts, maximum number of stages with coprime counts, or minimum number of centre distances.
+"""Primary criterion of the order of solutions: minimum absolute error, minimum sum of tooth counts, minimum largest
+tooth count, minimum number of distinct tooth counts, maximum number of stages with coprime tooth counts, or minimum
+number of centre distances.
 
-Ties are broken by absolute error, sum, largest count, and the counts.
+Ties are broken by absolute error, sum of tooth counts, largest tooth count, and the tooth counts.
 """
 
 StageRank = tuple[int, Fraction, int, int, Set, Set]
-"""Sort key of a solution: primary criterion, absolute error, sum, largest count, counts of numerator and denominator.
+"""Sort key of a solution: primary criterion, absolute error, sum of tooth counts, largest tooth count, tooth counts of
+the numerator and tooth counts of the denominator.
 """
 
 
 def check_order(by: str) -> None:
-    """Raise `QuestionError` if the name of an order is unknown."""
+    """Raise `QuestionError` if the name of an order of solutions is unknown."""
     if by not in get_args(StageOrder):
         known = ", ".join(get_args(StageOrder))
         raise QuestionError(
@@ -289,9 +301,10 @@ def check_order(by: str) -> None:
 
 
 def first_of(by: str, tops: Ints, beneaths: Ints, fit: StageConstraints) -> Ints:
-    """Return the primary sort criterion (smaller is better) of solutions, shape (n,); 0 for the order by error.
+    """Return the primary sort criterion of n solutions (smaller is better), shape (n,). It is 0 for the order by error.
 
-    `tops` and `beneaths` are the counts of numerators and denominators, shape (n, k) each.
+    `tops` and `beneaths` contain the tooth counts of numerators and denominators, shape (n, k) each, where k is the
+    number of stages.
     """
     if by in ("hunting", "centres"):
         possible, coprime, centres = pairings(tops, beneaths, fit)
@@ -310,7 +323,7 @@ def first_of(by: str, tops: Ints, beneaths: Ints, fit: StageConstraints) -> Ints
 
 
 def cut(rows: Ints, best: int, value: Fraction) -> Ints:
-    """Return the first `best` rows of a table of `BestStages` in their exact order."""
+    """Sort the rows of a table of `BestStages` exactly, and return the first `best` of them."""
     if len(rows) > best:
         # errors in floats select slightly too many rows, which are then compared as Fractions
         first, over, under = rows[:, 0], rows[:, 1], rows[:, 2]
@@ -326,16 +339,16 @@ def cut(rows: Ints, best: int, value: Fraction) -> Ints:
 
 
 def key_of(first: int, top: Sequence[int], beneath: Sequence[int], value: Fraction) -> StageRank:
-    """Return the sort key of one solution in the given order."""
+    """Return the sort key of one solution. `first` is the primary criterion of the order."""
     miss = abs(Fraction(prod(top), prod(beneath)) / value - 1)
     return first, miss, sum(top) + sum(beneath), max(*top, *beneath), tuple(top), tuple(beneath)
 
 
 class BestStages:
-    """List of the n best of all rows (solutions) that are added, in bounded memory.
+    """List of the n best rows (solutions) among all rows that are added, in bounded memory.
 
     The columns of a row are the primary criterion of the order (smaller is better), the products of numerator and
-    denominator, and the counts of numerator and denominator, each ascending.
+    denominator, and the tooth counts of numerator and denominator, each in ascending order.
     """
 
     def __init__(self, best: int, value: Fraction) -> None:
@@ -343,14 +356,16 @@ class BestStages:
         self._parts: list[Ints] = []
 
     def add(self, rows: Ints) -> None:
-        """Add candidate rows to the list."""
+        """Add rows, which are candidates for the list, to the list."""
         self._parts.append(rows)
         # several times the list length is stored between two sorts, which amortises their cost
         if sum(map(len, self._parts)) > max(4 * self.best, 1 << 17):
             self._parts = [self._settled()]
 
     def plain(self) -> list[list[Any]]:
-        """Return the n best rows in order as plain data: criterion, numerator counts, denominator counts."""
+        """Return the n best rows in order as plain data: primary criterion, numerator counts, and denominator
+        counts.
+        """
         rows = self._settled().tolist() if self._parts else []
         stages = (len(rows[0]) - 3) // 2 if rows else 0
         return [[row[0], row[3 : 3 + stages], row[3 + stages :]] for row in rows]

@@ -1,11 +1,13 @@
-"""Search for one ratio by one to five stages of gear pairs: all solutions within a tolerance, or the best with proof.
+"""Search for tooth counts of one to five gear stages with a given ratio: all solutions within a tolerance, or solutions
+that are proved to be the best.
 
 A train of k stages has the ratio P / Q, where P and Q are products of k tooth counts each. For every denominator
-product Q, the numerator products P within the tolerance are a contiguous range of a sorted list. This meet-in-the-
-middle search finds all solutions at the cost of sorting. The ends of the ranges are determined by integer arithmetic.
-Products are generated in segments of value, which bounds the memory and gives independent tasks. Four stages of 200
-counts (69 million multisets per side) need less than 0.2 GB, five stages (2800 million) less than 0.4 GB, and less than
-0.5 GB with constraints and other orders.
+product Q, the numerator products P within the tolerance are a contiguous range of a sorted list. This
+meet-in-the-middle search finds all solutions with the effort of sorting the products. The ends of the ranges are
+determined by integer arithmetic. Products are generated for segments of their value, which limits the memory and gives
+independent tasks. A search for four stages with 200 admissible tooth counts (69 million multisets for the numerator and
+for the denominator) requires less than 0.2 GB. Five stages (2800 million multisets) require less than 0.4 GB, or less
+than 0.5 GB with constraints or with orders other than "error".
 """
 
 from __future__ import annotations
@@ -82,11 +84,11 @@ class StageFindings(Tabular, Result):
     stages: int
     """Number of stages."""
     top: Sequence[int]
-    """Tooth counts that are admissible in the numerator of the ratio, ascending."""
+    """Admissible tooth counts in the numerator of the ratio, in ascending order."""
     beneath: Sequence[int]
-    """Tooth counts that are admissible in the denominator of the ratio, ascending."""
+    """Admissible tooth counts in the denominator of the ratio, in ascending order."""
     fit: StageConstraints
-    """Constraints on the counts."""
+    """Constraints on the tooth counts."""
     by: str
     """Name of the criterion by which `solutions` are sorted."""
     tolerance: Fraction
@@ -96,14 +98,14 @@ class StageFindings(Tabular, Result):
     complete: bool
     """True if all candidates within the tolerance were examined; False if the search was interrupted."""
     count: int
-    """Number of solutions within the tolerance, exact if `complete`."""
+    """Number of solutions within the tolerance. It is exact if `complete` is True."""
     solutions: tuple[GearStages, ...]
-    """Best solutions, in the order `by`."""
+    """Best solutions, in the order given by `by`."""
     shortfall: Shortfall
-    """Numbers of rejected pairs of multisets by reason."""
+    """Number of rejected pairs of multisets for each reason."""
     note: str = ""
-    """Assumption that the search added to the request, or reason why the list is shorter than requested; "" if there is
-    neither.
+    """Assumption that the search added to the request, or reason why the list is shorter than requested; empty if there
+    is neither.
     """
 
     def _summary(self) -> str:
@@ -114,7 +116,7 @@ class StageFindings(Tabular, Result):
 
     @property
     def ended(self) -> Literal["whole", "interrupted"]:
-        """Outcome of the search: "whole" if it was completed, "interrupted" otherwise."""
+        """Outcome of the search: "whole" if it was completed, "interrupted" if it was not."""
         return "whole" if self.complete else "interrupted"
 
     @property
@@ -124,12 +126,12 @@ class StageFindings(Tabular, Result):
 
     @property
     def top_runs(self) -> str:
-        """Admissible counts of the numerator as a string, such as `15:60`."""
+        """Admissible tooth counts in the numerator as text, such as `15:60`."""
         return str(CountRuns.of(self.top)) if self.top else ""
 
     @property
     def beneath_runs(self) -> str:
-        """Admissible counts of the denominator as a string, such as `15:60`."""
+        """Admissible tooth counts in the denominator as text, such as `15:60`."""
         return str(CountRuns.of(self.beneath)) if self.beneath else ""
 
     def __len__(self) -> int:
@@ -143,8 +145,8 @@ class StageFindings(Tabular, Result):
 
 
 def stages_to_train(found: GearStages, internal: int = 0) -> dict[str, Any]:
-    """Return a declaration of a solution as plain data. The numerator wheels drive, so that the exact ratio is output
-    speed divided by input speed.
+    """Return a declaration of a solution as plain data. The numerator wheels are the driving wheels, so the exact ratio
+    is output speed divided by input speed.
 
     internal   number of internal pairs, which are the last pairs; the larger wheel of such a pair is a ring
     """
@@ -180,7 +182,7 @@ def find_stages(
     journal: Journal | None = None,
     tell: Callable[[int, int], None] | None = None,
 ) -> StageFindings:
-    """Find and count all solutions for a ratio with gear pairs in series, and list the best, by a meet-in-the-middle
+    """Find and count all gear pairs in series that give a ratio, and list the best solutions, by a meet-in-the-middle
     search.
 
     For every product of denominator counts, the range of numerator products within the tolerance is located in a sorted
@@ -194,21 +196,23 @@ def find_stages(
     stages : int
         Number of gear pairs in series, 1 to 5.
     wheels, pinions : sequence of int
-        Admissible tooth counts of the numerator and the denominator for a ratio of 1 or more, and vice versa for a
-        ratio below 1.
+        Admissible tooth counts. If the ratio is 1 or more, `wheels` applies to the numerator and `pinions` to the
+        denominator; if it is below 1, vice versa.
     tolerance : Fraction, optional
-        Maximum absolute relative error, 0 or more. By default, the order "error" chooses a tolerance that includes
-        enough solutions and proves that the listed solutions are the best. Other orders use 1e-6, which `note` reports.
+        Maximum absolute relative error, 0 or more. If None and the order is "error", the search increases the tolerance
+        until it includes enough solutions, so that the listed solutions are proved to be the best. If None and the
+        order is another one, the tolerance is 1e-6, which is reported in `note`.
     best : int
         Maximum number of solutions to list, 1 or more.
     by : {"error", "total", "largest", "distinct", "hunting", "centres"}
-        Primary criterion: minimum absolute error, sum of counts, largest count, number of distinct counts, maximum
-        number of stages with coprime counts, minimum number of centre distances. Ties are broken by absolute error,
-        sum, largest count, and the counts.
+        Primary criterion: minimum absolute error, minimum sum of tooth counts, minimum largest tooth count, minimum
+        number of distinct tooth counts, maximum number of stages with coprime tooth counts, or minimum number of centre
+        distances. Ties are broken by absolute error, sum of tooth counts, largest tooth count, and the tooth counts.
     fit : StageConstraints, optional
-        Constraints on the counts.
+        Constraints on the tooth counts.
     executor : concurrent.futures.Executor, optional
-        Executor of the independent tasks of a large search; this process by default. It does not change the result.
+        Executor of the independent tasks of a large search; by default they run in this process. The executor does not
+        change the result.
     journal : Journal, optional
         Journal of finished tasks, with which an interrupted run can be resumed.
     tell : callable, optional
@@ -225,7 +229,7 @@ def find_stages(
         If an argument is invalid.
     RangeError
         If the tables of products would not fit in memory (more than about 400 counts for four or more stages), if too
-        many candidates must be tested one by one, or if the admissible counts cannot approximate the ratio.
+        many candidates must be tested one by one, or if the admissible tooth counts cannot approximate the ratio.
 
     Examples
     --------
@@ -260,7 +264,7 @@ def _question(
     by: str,
     fit: StageConstraints,
 ) -> tuple[StageProblem, str]:
-    """Return the problem data, and a note on assumptions."""
+    """Return the search problem, and a note on assumptions; the note is empty if there are none."""
     check_order(by)
     if not 1 <= stages <= MOST_STAGES:
         raise _question_error(
@@ -312,8 +316,8 @@ def _stages(key: StageRank, question: StageProblem) -> GearStages:
 
 
 def _wrong_sense(question: StageProblem) -> Shortfall:
-    """Return the counts of rejected candidates of a search whose external and internal meshes contradict the requested
-    sense of rotation.
+    """Return the numbers of rejected candidates for a search whose external and internal meshes contradict the
+    requested sense of rotation.
     """
     stages, internal = question.stages, question.fit.internal
     # one more or one less internal mesh reverses the sense
@@ -329,7 +333,7 @@ def _wrong_sense(question: StageProblem) -> Shortfall:
 
 def _check_reach(question: StageProblem) -> None:
     """Raise `RangeError` if products are too large, if their tables would not fit in memory, or if the ratio is far
-    from all ratios that the counts can give.
+    from all ratios that are possible with the admissible tooth counts.
     """
     for counts in (question.top, question.beneath):
         check_products(counts, question.stages)
@@ -353,8 +357,8 @@ def _question_error(what: str, why: str, fix: str) -> QuestionError:
 
 
 def account(question: StageProblem, outcome: SweepOutcome) -> Mapping[str, int]:
-    """Return the number of rejected pairs of multisets by reason; with the solutions, these numbers add up to the
-    number of candidates.
+    """Return the number of rejected pairs of multisets for each reason. The sum of these numbers and of the number of
+    solutions is the number of candidates.
     """
     removed = {"no pairing with equal centre distances": question.considered - question.candidates}
     removed[OUTSIDE] = question.candidates - sum(outcome.removed.values()) - outcome.count
@@ -362,8 +366,8 @@ def account(question: StageProblem, outcome: SweepOutcome) -> Mapping[str, int]:
 
 
 def explain(question: StageProblem, outcome: SweepOutcome, sense: int, means: Execution) -> Shortfall:
-    """Return the rejected pairs of multisets by reason; for an empty result also return the nearest miss and
-    suggestions.
+    """Return the number of rejected pairs of multisets for each reason. If there is no solution, the result also
+    contains the nearest miss and suggestions.
     """
     if not outcome.complete:
         return Shortfall(
@@ -384,7 +388,9 @@ def explain(question: StageProblem, outcome: SweepOutcome, sense: int, means: Ex
 
 
 def _nearest(question: StageProblem, miss: SweepOutcome, plain: SweepOutcome) -> str:
-    """Describe the nearest miss, and the best solution without constraints if it differs."""
+    """Return a description of the nearest miss. If the best solution without constraints differs from the nearest miss,
+    it is described too.
+    """
     parts = []
     if miss.keys and miss.complete:
         parts.append(in_words(miss.keys[0], question.value))
@@ -396,7 +402,7 @@ def _nearest(question: StageProblem, miss: SweepOutcome, plain: SweepOutcome) ->
 
 
 def in_words(key: StageRank, value: Fraction) -> str:
-    """Format counts, ratio and error of one solution."""
+    """Format the tooth counts, the ratio and the error of one solution."""
     top, beneath = key[4:]
     ratio = Fraction(prod(top), prod(beneath))
     counts = f"{' x '.join(map(str, top))} / {' x '.join(map(str, beneath))}"
@@ -404,7 +410,7 @@ def in_words(key: StageRank, value: Fraction) -> str:
 
 
 def _advice(question: StageProblem, miss: SweepOutcome, removed: Mapping[str, int], sense: int) -> Iterator[str]:
-    """Yield suggestions of constraints to relax, the most certain to help first."""
+    """Yield suggestions of constraints to be relaxed, in descending order of the certainty that they help."""
     if miss.keys and miss.complete:
         yield f"a tolerance of {decimal(rounded_up(miss.keys[0][1]), 6)} gives a solution"
     for reason, number in removed.items():
@@ -415,8 +421,8 @@ def _advice(question: StageProblem, miss: SweepOutcome, removed: Mapping[str, in
 
 
 def _one_more(question: StageProblem, sense: int) -> Iterator[str]:
-    """Yield the suggestion of one more stage, with its number of solutions unless counting them would be slow. Nothing
-    is yielded if there is no solution.
+    """Yield the suggestion to add one stage, if this gives at least one solution. The suggestion contains the number of
+    solutions unless counting them would be slow.
     """
     size = question.stages + 1
     # one more external stage would reverse the required sense

@@ -1,4 +1,4 @@
-"""Command `geartrain teeth ratio RATIO`: search for gear pairs in series."""
+"""Command `geartrain teeth ratio RATIO`: search for gear pairs in series with a given ratio."""
 
 from __future__ import annotations
 
@@ -66,7 +66,8 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Find gear pairs in series for a ratio, count all solutions within the tolerance, and prove which are best.
+    """Find gear pairs in series with a given ratio, count all solutions within the tolerance, and list solutions that
+    are proved to be the best.
 
     Example: `geartrain teeth ratio 235/19 --stages 2 --tolerance 1e-4`.
     """

@@ -1,38 +1,40 @@
-"""Reconstruction: every train that explains surviving arbors and the speeds of pointers.
+"""Reconstruction: all trains that explain surviving arbors and the speeds of pointers.
 
-`reconstruct` solves a `ReconstructionRequest` on declared evidence. The single steps are also public:
-`evidence_question` converts the evidence to a `ReconstructionProblem`, `find_reconstructions` counts its explanations
-and lists the best, and `candidate_train` converts one of them to a train. The modules in the order of the search:
+`reconstruct` answers a `ReconstructionRequest` on declared evidence. Its steps are also public: `evidence_question`
+converts the evidence to a `ReconstructionProblem`, `find_reconstructions` counts the trains that explain it and lists
+the best, and `candidate_train` converts one of them to a train declaration. The modules are listed in the order of the
+search.
 
 The problem
 - `link_roles`: the link that carries the arbors, and links that couplings join to one arbor
-- `reconstruction_problem`: the problem with measured modules, radii and positions of axes; its size and digest
+- `reconstruction_problem`: the problem with measured modules, radii and positions of axes, and its size and digest
 - `evidence_translation`: conversion of declared evidence to the problem
-- `spur_tree`: parts of a complete train, found by breadth-first search along meshes; evidence of such a part without
-  some of its arbors
+- `spur_tree`: parts of a complete train, found by breadth-first search along meshes, and evidence that consists of such
+  a part without some of its arbors
 
 The search: enumeration of trees up to the order of arbors, by paths from the input to each dial
-- `train_topology`: a rooted tree without orders of arbors and counts of added wheels (an equivalence class of trains)
+- `train_topology`: a rooted tree without the order of arbors and without tooth counts of added wheels (an equivalence
+  class of trains)
 - `path_lists`: enumeration of the paths to one dial, pruned by large primes (columns of powers) and tables of quotients
-- `path_trees`: recursive enumeration of the topologies that have one given path per dial
-- `added_counts`: choices of added counts by variable elimination and tables of products; their sums
+- `path_trees`: recursive enumeration of the topologies with one given path for each dial
+- `added_counts`: number of choices of tooth counts of added wheels, by variable elimination and tables of products
 - `candidate_names`: canonical names of arbors and wheels
-- `arbor_orders`: orders of arbors on chains, enumerated
-- `search_tasks`: backtracking over dials, pruned by bit masks and tables of quotients; independent tasks for any number
-  of processes
+- `arbor_orders`: enumeration of the orders of arbors on chains
+- `search_tasks`: backtracking over dials, pruned by bit masks and tables of quotients, in independent tasks for any
+  number of processes
 - `geometry_likelihood`: likelihood of measured modules, radii and distances of axes
-- `reconstruction_search`: counts, most probable candidates; equality up to the order of arbors
+- `reconstruction_search`: numbers of trains, most probable candidates, and equality of trains up to the order of arbors
 
 The answer
-- `train_construction`: a complete declaration of a candidate
+- `train_construction`: conversion of a candidate to a complete declaration
 - `explained_facts`: exact marginals of facts over all trains, the fact of maximum entropy, and the family tree, a
   trie over meshes
-- `dropped_facts`: counts without each hard constraint, and reasons why no train explains the evidence
-- `candidate_rules`: a published train with the names of the evidence, and the rules that it breaks
+- `dropped_facts`: number of trains without each hard constraint, and reasons why no train explains the evidence
+- `candidate_rules`: conversion of a published train to a candidate, and the rules that it breaks
 - `known_rank`: the rank of a known train, and the facts that distinguish it
-- `reconstruction`: the request, and all steps in one call
-- `reconstruction_report`: the answer as a document
-- `verb`: the command
+- `reconstruction`: the request, and one function for all steps
+- `reconstruction_report`: the reconstruction as a document
+- `verb`: the command `geartrain reconstruct`
 """
 
 from __future__ import annotations

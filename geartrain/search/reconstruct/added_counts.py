@@ -1,10 +1,11 @@
-"""Number of choices of tooth counts of added wheels that give every dial its speed, by variable elimination.
+"""Number of choices of tooth counts for added wheels with which every dial has its required speed, by variable
+elimination.
 
-Wheels that change the speeds of the same dials form a group, of which only the quotient (product of the driving counts
-divided by product of the driven counts) matters. A dial that depends on only one remaining group determines the
-quotient of this group. Otherwise all possible quotients of the smallest group are tried. Tables of products are faster
-here than the exact join of uncertain tooth counts (`search.join`): 1 to 4 ms per topology instead of 5 to 7 ms, and for
-seven added wheels 0.6 s instead of 90 s.
+Added wheels that affect the speeds of the same dials form a group. Only the quotient of a group (product of its driving
+tooth counts divided by product of its driven tooth counts) affects the speeds. A dial that depends on only one
+remaining group determines the quotient of this group. If there is no such dial, all possible quotients of the smallest
+group are tried. Tables of products are faster here than the exact join of `search.join`: 1 to 4 ms per topology instead
+of 5 to 7 ms, and 0.6 s instead of 90 s for seven added wheels.
 """
 
 from __future__ import annotations
@@ -34,12 +35,14 @@ Range = tuple[int, int]
 """Minimum and maximum tooth count of an added wheel."""
 
 _LONGEST = 1 << 24
-"""Maximum length of a table of products. For larger products the counts of one wheel are tried in turn."""
+"""Maximum length of a table of products. If a table would be longer, the tooth counts of one wheel are tried one by
+one.
+"""
 
 
 @lru_cache(maxsize=16)
 def product_tally(wheels: int, counts: Range) -> NDArray[np.int64]:
-    """Return an array whose entry n is the number of choices of `wheels` tooth counts with product n."""
+    """Return an array in which entry n is the number of choices of `wheels` tooth counts whose product is n."""
     if not wheels:
         return np.array([0, 1], dtype=np.int64)
     before = product_tally(wheels - 1, counts)
@@ -52,8 +55,8 @@ def product_tally(wheels: int, counts: Range) -> NDArray[np.int64]:
 
 @lru_cache(maxsize=1 << 19)
 def count_choices(quotient: Fraction, drivers: int, driven: int, counts: Range) -> int:
-    """Count choices of tooth counts with prod(drivers) / prod(driven) = quotient. Choices in which the counts of two
-    wheels are exchanged are different.
+    """Return the number of choices of tooth counts for which the product of the driving counts divided by the product
+    of the driven counts is `quotient`. Choices that differ in the order of the tooth counts are counted separately.
     """
     minimum, maximum = counts
     num, den = quotient.numerator, quotient.denominator
@@ -78,9 +81,7 @@ def count_choices(quotient: Fraction, drivers: int, driven: int, counts: Range) 
 def list_choices(
     quotient: Fraction, drivers: int, driven: int, counts: Range
 ) -> Iterator[tuple[tuple[int, ...], tuple[int, ...]]]:
-    """Yield each choice (counts of the drivers, counts of the driven wheels) with a given quotient of their
-    products.
-    """
+    """Yield each choice of driving and driven tooth counts for which the quotient of their products is `quotient`."""
     num, den = quotient.numerator, quotient.denominator
     last = min(counts[1] ** drivers // num, counts[1] ** driven // den)
     for common in range(1, last + 1):
@@ -92,10 +93,10 @@ def list_choices(
 def quotients_of_parts(
     quotient: Fraction, one: tuple[int, int], other: tuple[int, int], counts: Range
 ) -> tuple[tuple[Fraction, int], ...]:
-    """Return the quotients of the first of two groups whose total quotient is given, each with its number of
-    choices for both groups.
+    """Return the possible quotients of the first of two groups whose total quotient is given. Each quotient is returned
+    with the number of choices of tooth counts for both groups.
 
-    A group is given by its numbers of driving and of driven wheels.
+    A group is given as (number of driving wheels, number of driven wheels).
     """
     found: dict[Fraction, int] = {}
     for drivers, driven in list_choices(quotient, one[0] + other[0], one[1] + other[1], counts):
@@ -106,7 +107,7 @@ def quotients_of_parts(
 
 @lru_cache(maxsize=1 << 16)
 def factorings(number: int, wheels: int, counts: Range) -> tuple[tuple[int, ...], ...]:
-    """Return all ordered factorizations of a number into `wheels` tooth counts."""
+    """Return all ordered factorisations of a number into `wheels` tooth counts."""
     minimum, maximum = counts
     if not minimum**wheels <= number <= maximum**wheels:
         return ()
@@ -118,7 +119,9 @@ def factorings(number: int, wheels: int, counts: Range) -> tuple[tuple[int, ...]
 
 @dataclass(frozen=True)
 class QuotientTable:
-    """Sorted table of quotients of products of tooth counts in lowest terms, with their numbers of choices."""
+    """Sorted table of quotients of products of tooth counts in lowest terms, with the number of choices for each
+    quotient.
+    """
 
     tops: NDArray[np.int64]
     bottoms: NDArray[np.int64]
@@ -127,7 +130,7 @@ class QuotientTable:
 
     @staticmethod
     def of(tops: NDArray[np.int64], bottoms: NDArray[np.int64], choices: NDArray[np.int64]) -> QuotientTable:
-        """Build the table from quotients that may be repeated and not in lowest terms."""
+        """Build the table from quotients that may be repeated and need not be in lowest terms."""
         common = np.gcd(tops, bottoms)
         pairs, at = np.unique(np.stack([tops // common, bottoms // common]), axis=1, return_inverse=True)
         number = sums_by(at.ravel(), choices, pairs.shape[1])
@@ -137,7 +140,7 @@ class QuotientTable:
         return QuotientTable(pairs[0][order], pairs[1][order], number[order], values[order])
 
     def within(self, minimum: Fraction, maximum: Fraction) -> slice:
-        """Return the slice of the quotients from `minimum` to `maximum`."""
+        """Return the slice of the table that contains the quotients between `minimum` and `maximum`, both inclusive."""
         # floats locate the ends up to rounding; exact fractions then correct them
         first = int(np.searchsorted(self.values, float(minimum) * (1 - 1e-15)))
         last = int(np.searchsorted(self.values, float(maximum) * (1 + 1e-15), side="right"))
@@ -153,7 +156,9 @@ class QuotientTable:
 
 @lru_cache(maxsize=32)
 def quotient_table(drivers: int, driven: int, counts: Range) -> QuotientTable:
-    """Return the table of all products of `drivers` tooth counts divided by products of `driven` tooth counts."""
+    """Return the table of all quotients of a product of `drivers` tooth counts and a product of `driven` tooth
+    counts.
+    """
     one = np.ones(1, dtype=np.int64)
     if not drivers and not driven:
         return QuotientTable.of(one, one, one)
@@ -168,7 +173,9 @@ def quotient_table(drivers: int, driven: int, counts: Range) -> QuotientTable:
 def quotients(
     minimum: Fraction, maximum: Fraction, drivers: int, driven: int, counts: Range
 ) -> Iterator[tuple[Fraction, int]]:
-    """Yield the quotients from `minimum` to `maximum` in ascending order, each with its number of choices."""
+    """Yield the possible quotients between `minimum` and `maximum` in ascending order, each with its number of choices
+    of tooth counts.
+    """
     if minimum == maximum:
         if number := count_choices(minimum, drivers, driven, counts):
             yield minimum, number
@@ -180,7 +187,9 @@ def quotients(
 
 
 def count_between(minimum: Fraction, maximum: Fraction, drivers: int, driven: int, counts: Range) -> int:
-    """Count choices of tooth counts whose quotient is from `minimum` to `maximum`."""
+    """Return the number of choices of tooth counts whose quotient is between `minimum` and `maximum`, both
+    inclusive.
+    """
     if minimum == maximum:
         return count_choices(minimum, drivers, driven, counts)
     if drivers + driven <= 3:
@@ -198,16 +207,18 @@ def count_between(minimum: Fraction, maximum: Fraction, drivers: int, driven: in
 
 
 Group = tuple[Dials, int, int]
-"""Group of added wheels: dials whose speed it changes, and its numbers of driving and of driven wheels."""
+"""Group of added wheels: dials whose speeds these wheels affect, number of driving wheels, and number of driven
+wheels.
+"""
 Wanted = tuple[tuple[str, Quotients], ...]
-"""Required bounds of the quotient of all added wheels on the path to each dial."""
+"""Minimum and maximum required quotient of all added wheels on the path to each dial, in pairs (dial, quotients)."""
 Counts = dict[Dials, tuple[tuple[int, ...], tuple[int, ...]]]
-"""Tooth counts of the driving and of the driven wheels of each group of dials."""
+"""Tooth counts of the driving wheels and of the driven wheels of each group, keyed by the dials of the group."""
 
 
 class OpenCounts(NamedTuple):
-    """Added wheels whose tooth counts are not yet chosen, with the required quotients of these counts and the upper
-    limits set by rings, in sorted order.
+    """Added wheels whose tooth counts are not yet chosen, with the required quotients of these tooth counts and the
+    upper limits set by rings. All are in sorted order.
     """
 
     added: AddedWheels
@@ -215,7 +226,7 @@ class OpenCounts(NamedTuple):
     limits: tuple[AddedKind, ...] = ()
 
     def kinds(self) -> Iterator[tuple[AddedKind, int]]:
-        """Yield each kind of added wheels with its number of wheels."""
+        """Yield each kind of added wheel and the number of wheels of this kind."""
         limited = {kind: self.limits.count(kind) for kind in self.limits}
         for kind, number in limited.items():
             yield kind, number
@@ -227,8 +238,8 @@ class OpenCounts(NamedTuple):
                 yield AddedKind(dials, drives), left
 
     def with_one(self, kind: AddedKind, count: int) -> OpenCounts:
-        """Return the remaining problem if one wheel of a kind has a given tooth count, which must be within the limit
-        of the kind.
+        """Return the remaining problem if one wheel of the given kind has the tooth count `count`, which must be within
+        the limit of the kind.
         """
         limits = list(self.limits)
         if kind.most is not None:
@@ -241,10 +252,10 @@ class OpenCounts(NamedTuple):
 
 
 class AddedCounts:
-    """Counter of the assignments of tooth counts, within given limits, to added wheels.
+    """Counter of the assignments of tooth counts to added wheels, within given limits.
 
-    Exchanging two different counts gives another assignment. Wheels of one kind are interchangeable, so each of them
-    has a given count equally often.
+    Assignments that differ in the order of the tooth counts are counted separately. Wheels of one kind are
+    interchangeable, so each of them has a given tooth count in equally many assignments.
     """
 
     def __init__(self, minimum: int, maximum: int) -> None:
@@ -254,7 +265,7 @@ class AddedCounts:
         self.with_any = lru_cache(maxsize=1 << 14)(self._with_any)
 
     def total(self, requested: OpenCounts) -> int:
-        """Return the number of assignments that give all dials their speeds."""
+        """Return the number of assignments with which every dial has its required speed."""
         minimum, maximum = self.range
         if requested.limits:
             kind = requested.limits[0]
@@ -265,15 +276,17 @@ class AddedCounts:
         return int(self._count(groups, alike) * (maximum - minimum + 1) ** idle) if alike is not None else 0
 
     def assignments(self, added: AddedWheels, wanted: Wanted) -> Iterator[tuple[Counts, tuple[int, ...]]]:
-        """Yield the assignments, each as counts of the groups and counts of wheels that change no speed."""
+        """Yield each assignment as the tooth counts of the groups and the tooth counts of the wheels that affect no
+        speed.
+        """
         alike = _merged_dials(added.groups, wanted)
         for counts in self._listed(added.groups, alike) if alike is not None else ():
             for idle in product(range(self.range[0], self.range[1] + 1), repeat=added.idle):
                 yield counts, idle
 
     def _of_kind(self, requested: OpenCounts, kind: AddedKind) -> dict[int, int]:
-        """Return, for each tooth count, the number of choices in which a given wheel of a kind has this count; zeros
-        are omitted.
+        """Return, for each tooth count, the number of choices in which one particular wheel of a kind has this tooth
+        count. Tooth counts for which there is no choice are omitted.
         """
         minimum, maximum = self.range
         most = maximum if kind.most is None else min(kind.most, maximum)
@@ -281,8 +294,8 @@ class AddedCounts:
         return {count: number for count, number in found if number}
 
     def _with_any(self, requested: OpenCounts) -> dict[int, int]:
-        """Return, for each tooth count, the number of choices in which at least one wheel has it, by
-        inclusion-exclusion.
+        """Return, for each tooth count, the number of choices in which at least one added wheel has this tooth count,
+        computed by inclusion-exclusion.
         """
         kinds = tuple(requested.kinds())
         counts = {count for kind, _ in kinds for count in self.of_kind(requested, kind)}
@@ -292,7 +305,9 @@ class AddedCounts:
     def _without_count(
         self, requested: OpenCounts, kinds: tuple[tuple[AddedKind, int], ...], count: int, number: int
     ) -> int:
-        """Return the number of choices, out of `number`, in which no wheel of the given kinds has a given count."""
+        """Return the number of choices in which no wheel of the given kinds has the tooth count `count`. The total
+        number of choices is `number`.
+        """
         if not kinds or not number:
             return number
         (kind, wheels), others = kinds[0], kinds[1:]
@@ -331,7 +346,9 @@ class AddedCounts:
         )
 
     def _count_pair(self, groups: tuple[Group, ...], wanted: Wanted, one: int, other: int, both: Fraction) -> int:
-        """Count the assignments by enumeration of the counts of two groups whose total quotient is known."""
+        """Return the number of assignments, computed by enumeration of the quotients of two groups whose total quotient
+        is `both`.
+        """
         rest = tuple(group for at, group in enumerate(groups) if at not in (one, other))
         kinds = groups[one][1:], groups[other][1:]
         return sum(
@@ -356,7 +373,9 @@ class AddedCounts:
 
     @staticmethod
     def _next(groups: tuple[Group, ...], wanted: Wanted) -> tuple[int, Quotients, bool] | None:
-        """Return the group to eliminate next, the bounds of its quotient, and whether only one dial depends on it."""
+        """Return the index of the group to be eliminated next, the bounds of its quotient, and whether the group
+        affects only one dial. Return None if no group remains.
+        """
         if not groups:
             return None
         alone: dict[int, Quotients] = {}
@@ -386,12 +405,12 @@ _BOUNDLESS = Fraction(10**40)  # beyond every quotient of added counts
 
 
 _LISTED_TOGETHER = 3
-"""Maximum number of wheels in two groups whose choices with a given total quotient are enumerated."""
+"""Maximum total number of wheels in two groups for which the choices with a given total quotient are enumerated."""
 
 
 def _pair(groups: tuple[Group, ...], wanted: Wanted) -> tuple[int, int, Fraction] | None:
-    """Return two small groups that together determine the speed of a dial with an exact speed, and their total
-    quotient.
+    """Return the indices of two small groups that together determine the speed of a dial with an exact speed, and their
+    total quotient; None if there are no such groups.
     """
     best, fewest = None, _LISTED_TOGETHER + 1
     for dial, (low, high) in wanted:
@@ -403,13 +422,15 @@ def _pair(groups: tuple[Group, ...], wanted: Wanted) -> tuple[int, int, Fraction
 
 
 def _may_satisfy(groups: tuple[Group, ...], wanted: Wanted) -> bool:
-    """Return whether all dials that depend on no remaining group have their required speeds."""
+    """Return whether every dial that depends on no remaining group has its required speed."""
     open_dials = {dial for dials, _, _ in groups for dial in dials}
     return all(low <= 1 <= high for dial, (low, high) in wanted if dial not in open_dials)
 
 
 def _merged_dials(groups: tuple[Group, ...], wanted: Wanted) -> Wanted | None:
-    """Merge the bounds of dials that depend on the same groups. Return None if the bounds do not intersect."""
+    """Return the bounds after the bounds of all dials that depend on the same groups were merged. Return None if such
+    bounds do not intersect.
+    """
     found: dict[tuple[int, ...], tuple[str, Quotients]] = {}
     for dial, (low, high) in wanted:
         own = tuple(at for at, group in enumerate(groups) if dial in group[0])
@@ -427,40 +448,46 @@ def _without(wanted: Wanted, dials: Dials) -> Wanted:
 
 
 def divided(wanted: Wanted, dials: Dials, quotient: Fraction) -> Wanted:
-    """Return the quotients that the remaining groups must have if one group has a given quotient."""
+    """Return the bounds that remain for the other groups if the group that affects the given dials has the given
+    quotient.
+    """
     return tuple(
         (dial, (low / quotient, high / quotient) if dial in dials else (low, high)) for dial, (low, high) in wanted
     )
 
 
 Bounds = tuple[Floats, Floats]
-"""Arrays of the minimum and the maximum of each quotient, equal if the quotient is exact."""
+"""Arrays of the minimum and the maximum of each quotient. The two are equal if the quotient is exact."""
 
 _FEW = 2
-"""Maximum number of added wheels whose quotients are all tabulated."""
+"""Maximum number of added wheels for which all possible quotients are tabulated."""
 _LONGEST = 12_000_000
-"""Maximum number of quotients in a table. Larger tables are not built, and every number is then accepted."""
+"""Maximum number of quotients in a table. If a table would be longer, it is not built, and every range is considered
+possible.
+"""
 ROUNDING = 1e-12
-"""Relative rounding error of a quotient."""
+"""Upper bound of the relative rounding error of a quotient."""
 
 
 class QuotientTables:
     """Sorted tables of all quotients of products of tooth counts that added wheels can have.
 
-    minimum, maximum   range of the tooth count of an added wheel
+    minimum, maximum   minimum and maximum tooth count of an added wheel
     """
 
     def __init__(self, minimum: int, maximum: int) -> None:
         self._counts = np.arange(minimum, maximum + 1, dtype=np.float64)
 
     def may_hold(self, bounds: Bounds, drivers: int, driven: int) -> Bools:
-        """Return whether each range contains a product of `drivers` added counts divided by a product of `driven`
-        added counts, without false negatives.
+        """Return, for each range, whether it may contain the product of `drivers` added tooth counts divided by the
+        product of `driven` added tooth counts. False is returned only if this is impossible.
         """
         return _contain(self._table(drivers, driven), bounds)
 
     def fewest(self, bounds: Bounds) -> NDArray[np.int8]:
-        """Return a lower bound, at most `_FEW` + 1, of the number of added wheels with a quotient in each range."""
+        """Return, for each range, a lower bound of the number of added wheels with a quotient in this range. The bound
+        is at most `_FEW` + 1.
+        """
         found = np.full(bounds[0].shape, _FEW + 1, dtype=np.int8)
         for wheels in range(_FEW, -1, -1):
             found[_contain(self._few(wheels), bounds)] = wheels
@@ -468,7 +495,7 @@ class QuotientTables:
 
     @cache  # noqa: B019 -- lives as long as the search
     def _few(self, wheels: int) -> Floats | None:
-        """Return all quotients of products of at most `wheels` added counts; None if there are too many."""
+        """Return all quotients that are possible with at most `wheels` added wheels; None if there are too many."""
         tables = [self._table(drivers, n - drivers) for n in range(wheels + 1) for drivers in range(n + 1)]
         known = [table for table in tables if table is not None]
         return _distinct(np.concatenate(known)) if len(known) == len(tables) else None
@@ -490,13 +517,15 @@ class QuotientTables:
 
 
 def _distinct(numbers: Floats) -> Floats:
-    """Return the sorted distinct numbers. Sorting is ten times faster than the hash table of `numpy.unique`."""
+    """Return the distinct numbers in sorted order. Sorting is ten times as fast as `numpy.unique`, which uses a hash
+    table.
+    """
     found = np.sort(numbers, axis=None)
     return np.asarray(found[np.append(True, found[1:] != found[:-1])])
 
 
 def _contain(table: Floats | None, bounds: Bounds) -> Bools:
-    """Return whether each range contains an entry of a table; True for all ranges if there is no table."""
+    """Return whether each range contains an entry of the table. If the table is None, return True for all ranges."""
     low, high = bounds
     if table is None:
         return np.ones(low.shape, dtype=bool)

@@ -1,4 +1,4 @@
-"""Orders of the arbors on chains, and the trains that result from orders and tooth counts."""
+"""Orders of the arbors on chains, and the trains that result from these orders and from tooth counts."""
 
 from __future__ import annotations
 
@@ -23,11 +23,12 @@ from geartrain.search.reconstruct.train_topology import (
 
 
 Rings = frozenset[str]
-"""Names of rings (wheels with internal teeth)."""
+"""Names of the rings, which are wheels with internal teeth."""
 
 
 def may_mesh(wheel: PlacedWheel, mate: PlacedWheel, rings: Rings) -> bool:
-    """Return whether two wheels can mesh: at most one is a ring, and then its mate has fewer teeth.
+    """Return whether two wheels can mesh. At most one of them may be a ring, and the mate of a ring must have fewer
+    teeth.
 
     An added wheel without a tooth count can mesh with any ring.
     """
@@ -44,12 +45,14 @@ def rings_mesh(arbor: Arbor, rings: Rings) -> bool:
 
 
 def rings_limit(topology: Topology, rings: Rings, maximum: int) -> bool:
-    """Return whether a used ring has at most `maximum` teeth, so that it may limit the tooth counts of added wheels."""
+    """Return whether a ring used in the topology has at most `maximum` teeth, so that it may limit the tooth counts of
+    added wheels.
+    """
     return any(wheel.name in rings and wheel.teeth <= maximum for wheel in topology.used)
 
 
 class CountTokens:
-    """Negative numbers (tokens) that replace the tooth counts of added wheels and identify each wheel."""
+    """Negative numbers (tokens) that replace the tooth counts of added wheels. Each token identifies one wheel."""
 
     def __init__(self, added: AddedWheels) -> None:
         self._owners: list[tuple[Dials, bool]] = []
@@ -65,10 +68,10 @@ class CountTokens:
         return tuple(-at - 1 for at in range(first, first + wheels))
 
     def kinds(self, arbor: Arbor, rings: Rings, maximum: int) -> dict[int, AddedKind]:
-        """Return the kind of each added wheel, by the token (a negative number) that replaces its tooth count in the
-        train.
+        """Return the kind of each added wheel, keyed by the token (a negative number) that replaces its tooth count in
+        the train.
 
-        maximum   maximum tooth count; the maximum of a wheel that meshes with a smaller ring is reduced accordingly
+        maximum   maximum tooth count of an added wheel; it is reduced for a wheel that meshes with a smaller ring
         """
         most: dict[int, int] = {}
         for pair in _meshes(arbor):
@@ -93,13 +96,13 @@ _Step = tuple[str | None, ArborPass]
 _COMPOUND: _Step = (None, ArborPass(ADDED, ADDED, 0))
 _IDLER: _Step = (None, ArborPass(ADDED, ADDED, 0, idler=True))
 _Driving = tuple[str | None, PlacedWheel]
-"""Name of an arbor (None for an added arbor), and the driving wheel on it."""
+"""Name of an arbor (None for an added arbor), and the driving wheel on this arbor."""
 _Pairs = frozenset[frozenset[str]]
 
 
 @dataclass(frozen=True)
 class MeshFacts:
-    """Known facts on meshes: pairs of wheels that mesh, pairs that do not mesh, coaxial pairs of arbors, and
+    """Known facts about meshes: pairs of wheels that mesh, pairs that do not mesh, pairs of coaxial arbors, and
     rings.
     """
 
@@ -110,12 +113,12 @@ class MeshFacts:
 
     @staticmethod
     def of(problem: ReconstructionProblem) -> MeshFacts:
-        """Return the known meshes of a problem."""
+        """Return the known facts about meshes of a problem."""
         return MeshFacts(problem.meshes, problem.apart, problem.coaxial, problem.rings)
 
     def met(self, driving: _Driving, arbor: str | None, driven: PlacedWheel | None) -> _Pairs | None:
-        """Return the known pair of meshing wheels that a mesh realises, in a set that is empty if there is none; return
-        None if the mesh is excluded.
+        """Return the known pairs of meshing wheels that a mesh realises, as a set with at most one pair. Return None if
+        the known facts exclude the mesh.
         """
         assert driven is not None
         if _pair(driving[0], arbor) in self.coaxial or (pair := _pair(driving[1].name, driven.name)) in self.apart:
@@ -152,7 +155,7 @@ def _met_on_chain(steps: tuple[_Step, ...], driving: _Driving, facts: MeshFacts)
 
 
 def sequences(chain: Chain) -> Iterator[tuple[_Step, ...]]:
-    """Yield each order of the arbors on a chain. Added arbors of one kind are interchangeable."""
+    """Yield each order of the surviving and added arbors on a chain. Added arbors of one kind are interchangeable."""
     yield from _sequences(chain.through, chain.compounds, chain.idlers)
 
 
@@ -174,7 +177,7 @@ def _sequences(through: tuple[_Step, ...], compounds: int, idlers: int) -> Itera
 
 
 def arranged(topology: Topology, counts: Counts, idle: tuple[int, ...], facts: MeshFacts) -> Iterator[Arbor]:
-    """Yield the trains of a topology with given tooth counts of added wheels, one for each permitted order of
+    """Yield the trains of a topology with given tooth counts of the added wheels, one train for each permitted order of
     arbors.
     """
     chains = topology.chains
@@ -208,7 +211,7 @@ def _agrees(topology: Topology, orders: dict[int, tuple[_Step, ...]], facts: Mes
 
 
 class _Assembly:
-    """Construction of a train, which assigns tooth counts to the added wheels of a topology one by one."""
+    """Builder of a train, which assigns tooth counts to the added wheels of a topology one by one."""
 
     def __init__(self, orders: dict[int, tuple[_Step, ...]], counts: Counts, idle: tuple[int, ...]) -> None:
         self.orders = orders
@@ -217,7 +220,7 @@ class _Assembly:
         self.idle = iter(idle)
 
     def branching(self, branching: Branching, dials: Dials) -> Arbor:
-        """Return the arbor of a branching with its subtree. `dials` are all dials of the subtree."""
+        """Return the arbor of a branching with its subtree. `dials` contains all dials of the subtree."""
         past = {dial for chain in branching.passes for dial in chain.dials}
         driven = branching.driven
         if driven == ADDED:
@@ -231,11 +234,13 @@ class _Assembly:
         return Arbor(branching.name, driven, branching.here, tuple(drives), self.chains(branching.passes))
 
     def chains(self, chains: tuple[Chain, ...]) -> tuple[Arbor, ...]:
-        """Return the arbors that one wheel drives, which begin the given chains."""
+        """Return the arbors that are driven by one wheel and at which the given chains begin."""
         return tuple(arbor for chain in chains for arbor in self.chain(chain))
 
     def chain(self, chain: Chain) -> tuple[Arbor, ...]:
-        """Return the first arbor of a chain with its subtree; if the chain has no arbors, the arbors that follow it."""
+        """Return the first arbor of a chain with its subtree. If the chain has no arbors, return the arbors that follow
+        the chain.
+        """
         end = chain.end
         below = (self.branching(end, chain.dials),) if isinstance(end, Branching) else self.chains(end)
         # from the end, because an arbor contains the arbors that it drives

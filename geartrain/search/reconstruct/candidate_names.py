@@ -1,4 +1,4 @@
-"""Names of the arbors and wheels of a candidate, and of a topology with the same names in all of its trains."""
+"""Names of the arbors and wheels of a candidate, and names for a topology that are common to all of its trains."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _ADDED = "new"
 
 @dataclass(frozen=True)
 class NamedWheel:
-    """Wheel of a candidate with its name, its tooth count, and whether it is added."""
+    """Wheel of a candidate: its name, its tooth count, and whether it is added."""
 
     name: str
     teeth: int
@@ -29,30 +29,30 @@ class NamedWheel:
 
 @dataclass(frozen=True)
 class NamedArbor:
-    """Arbor of a candidate with its name and the subtree that it drives."""
+    """Arbor of a candidate: its name, its wheels, and the subtree that it drives."""
 
     name: str
     added: bool
     driven: NamedWheel | None
-    """Driven wheel; None for the input arbor."""
+    """Driven wheel of the arbor; None for the input arbor."""
     dials: tuple[str, ...]
-    """Sorted names of the dials whose pointers the arbor carries."""
+    """Sorted names of the dials whose pointers are on the arbor."""
     drives: tuple[tuple[NamedWheel, NamedArbor], ...]
-    """Pairs of a driving wheel and an arbor that it drives."""
+    """Pairs of a driving wheel on this arbor and an arbor that it drives."""
 
     def arbors(self) -> Iterator[NamedArbor]:
-        """Yield this arbor and its subtree in depth-first order."""
+        """Yield this arbor and all arbors of its subtree in depth-first order."""
         yield self
         for _, arbor in self.drives:
             yield from arbor.arbors()
 
     def wheels(self) -> tuple[NamedWheel, ...]:
-        """Return the meshing wheels of this arbor, each once, the driven wheel first."""
+        """Return the meshing wheels on this arbor without repetition, the driven wheel first."""
         own = {self.driven.name: self.driven} if self.driven is not None else {}
         return tuple((own | {wheel.name: wheel for wheel, _ in self.drives}).values())
 
     def meshes(self) -> Iterator[tuple[NamedArbor, NamedWheel, NamedArbor]]:
-        """Yield every mesh as (driving arbor, driving wheel, driven arbor), in the order of `arbors`."""
+        """Yield every mesh in the subtree as (driving arbor, driving wheel, driven arbor), in the order of `arbors`."""
         for wheel, arbor in self.drives:
             yield self, wheel, arbor
             yield from arbor.meshes()
@@ -62,15 +62,17 @@ def name_train(arbor: Arbor, dials: Sequence[str], links: Collection[str], wheel
     """Return a candidate in which all arbors and wheels have names.
 
     arbor   input arbor
-    dials   all dials, in the order of the evidence
-    links   existing names of arbors
-    wheels  existing names of wheels
+    dials   names of all dials, in the order of the evidence
+    links   names of arbors that are already used
+    wheels  names of wheels that are already used
     """
     return _Naming(tuple(dials), FreeNames(set(links), set(wheels))).name(arbor)
 
 
 def free_name(name: str, kind: str, taken: Container[str]) -> str:
-    """Return `name` if it is not taken, otherwise the name extended by `kind` and, if necessary, a number."""
+    """Return `name` if it is not in `taken`. If it is, return the name extended by `kind` and, if necessary, by a
+    number.
+    """
     if name not in taken:
         return name
     longer = f"{name}_{kind}"
@@ -78,7 +80,7 @@ def free_name(name: str, kind: str, taken: Container[str]) -> str:
 
 
 def numbered(stem: str, taken: Container[str]) -> str:
-    """Return `stem` followed by the smallest positive number that gives a name not in `taken`."""
+    """Return `stem` followed by the smallest positive integer for which the result is not in `taken`."""
     number = 1
     while f"{stem}{number}" in taken:
         number += 1
@@ -90,19 +92,23 @@ class FreeNames:
     """Generator of distinct names for added arbors and wheels."""
 
     links: set[str]
-    """Names of arbors that are already used."""
+    """Names of arbors that are already in use."""
     wheels: set[str]
-    """Names of wheels that are already used."""
+    """Names of wheels that are already in use."""
 
     def link(self, dials: tuple[str, ...] = ()) -> str:
-        """Return the name of the next added arbor, derived from the first dial whose pointer it carries, if any."""
+        """Return an unused name for an added arbor. It is derived from the first dial whose pointer the arbor carries,
+        if any.
+        """
         name = f"{_ADDED}_{dials[0]}" if dials else numbered(_ADDED, self.links)
         link = free_name(name, "arbor", self.links)
         self.links.add(link)
         return link
 
     def wheel(self, link: str, survives: bool) -> str:
-        """Return the name of the next added wheel on an arbor."""
+        """Return an unused name for an added wheel on the arbor `link`. `survives` is True if the arbor is a surviving
+        arbor.
+        """
         # the underscore separates two numbers, as in `new1_2`
         stem = f"{link}_{_ADDED}" if survives else f"{link}_" if link[-1].isdigit() else link
         name = numbered(stem, self.wheels)
@@ -112,7 +118,7 @@ class FreeNames:
 
 @dataclass
 class _Naming:
-    """Assignment of names to the arbors of a candidate, in depth-first order from the input."""
+    """Assignment of names to the arbors of a candidate, in depth-first order from the input arbor."""
 
     dials: tuple[str, ...]
     free: FreeNames
@@ -135,7 +141,7 @@ class _Naming:
         return NamedArbor(link, arbor.name is None, driven, arbor.dials, driving)
 
     def _first(self, arbor: Arbor) -> int:
-        """Return the index of the first dial in the subtree of an arbor."""
+        """Return the smallest index of a dial in the subtree of an arbor."""
         shown = (self.dials.index(dial) for each in arbor.arbors() for dial in each.dials)
         return min(shown, default=len(self.dials))
 

@@ -1,6 +1,6 @@
-"""Rules of a reconstruction problem applied to one candidate: the rules that it breaks.
+"""Check of one candidate against the rules of a reconstruction problem.
 
-A published train is read as a candidate: its surviving wheels are identified by their names.
+The module also converts a published train to a candidate, whose surviving wheels are identified by their names.
 """
 
 from __future__ import annotations
@@ -32,21 +32,21 @@ Rule = Literal[
     "dial", "speed", "place", "wheel", "arbor", "count", "driven", "idler", "end", "ring", "teeth", "arbors", "beside",
     "seen", "apart", "coaxial", "distance",
 ]  # fmt: skip
-"""Kinds of rules of a reconstruction problem, each with the condition that a candidate must satisfy.
+"""Kind of a rule of a reconstruction problem. Each kind is listed with the condition that a candidate must satisfy.
 
 dial      every dial has its pointer in the train
-speed     a dial has its speed and sense
-place     the pointer of a dial is on its arbor
+speed     a dial has its required speed and sense of rotation
+place     the pointer of a dial is on the arbor known to carry it
 wheel     every surviving wheel meshes
 arbor     every surviving arbor is in the train
 count     a surviving wheel has one of its possible tooth counts
-driven    the driven wheel of a surviving arbor is a surviving wheel
+driven    the driven wheel of a surviving arbor is one of its surviving wheels
 idler     a driven wheel does not drive
 end       an arbor that drives nothing carries a pointer
 ring      a ring meshes only with wheels of fewer teeth
 teeth     the tooth counts of added wheels are within their limits
 arbors    the number of added arbors is within its limit
-beside    wheels are added only on new arbors
+beside    wheels are added only to added arbors
 seen      wheels that were seen in mesh do mesh
 apart     wheels that are known not to mesh do not mesh
 coaxial   arbors on one axis do not mesh
@@ -56,20 +56,24 @@ distance  the radii of meshing wheels fit the distance of their axes
 
 @dataclass(frozen=True, slots=True)
 class BrokenRule(Result):
-    """Rule of the problem that a candidate breaks, with the change of the evidence that would admit the candidate."""
+    """Rule of the problem that a candidate breaks, and the change of the evidence with which the candidate would be
+    admissible.
+    """
 
     rule: Rule
     """Kind of the broken rule, one of `Rule`."""
     subject: tuple[str, ...]
-    """Names of the dial, wheels or arbors that break the rule; empty for a rule on added parts."""
+    """Names of the dial, the wheels or the arbors that break the rule; empty if the rule concerns added parts."""
     what: str
     """Property of the candidate that breaks the rule."""
     change: str | None
-    """Change of the evidence that would admit the candidate; None if no single change would."""
+    """Change of the evidence with which the candidate would satisfy this rule; None if no single change is
+    sufficient.
+    """
 
 
 def broken_rules(candidate: Arbor, problem: ReconstructionProblem) -> tuple[BrokenRule, ...]:
-    """Return every rule that a candidate breaks, except the maximum number of added wheels.
+    """Return all rules that a candidate breaks. The maximum number of added wheels is not checked.
 
     The result is empty if and only if the candidate explains the dials.
 
@@ -110,14 +114,14 @@ def _without(dial: str) -> str:
 
 
 def speed_text(dial: SearchedDial) -> str:
-    """Format the required speed of a dial [turns per unit]."""
+    """Format the required speed of a dial [turns per unit of the input]."""
     bounds = dict.fromkeys((dial.minimum, dial.maximum))
     text = " to ".join(fraction_text(each) if dial.is_exact else f"{float(each):.7g}" for each in bounds)
     return text + ("" if dial.signed else " in either sense")
 
 
 def _speeds(candidate: Arbor, speed: Fraction, rings: frozenset[str]) -> Iterator[tuple[Arbor, Fraction]]:
-    """Yield every arbor with its speed [turns per unit]."""
+    """Yield every arbor of a candidate with its speed [turns per unit of the input]."""
     yield candidate, speed
     for wheel, child in candidate.driven_arbors():
         assert child.driven is not None
@@ -145,7 +149,7 @@ def _use_rules(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[Bro
 
 
 def counts_text(counts: Sequence[tuple[int, Fraction]]) -> str:
-    """Format possible tooth counts as a range `60-63` or as a list `60/62`."""
+    """Format possible tooth counts as a range, such as `60-63`, or as a list, such as `60/62`."""
     teeth = [count for count, _ in counts]
     if len(teeth) > 1 and teeth == list(range(teeth[0], teeth[-1] + 1)):
         return f"{teeth[0]}-{teeth[-1]}"
@@ -186,7 +190,7 @@ def _addition_rules(candidate: Arbor, problem: ReconstructionProblem) -> Iterato
 
 
 def _wheel_names(arbor: Arbor) -> set[str | None]:
-    """Return the names of the meshing wheels of one arbor, with None for added wheels."""
+    """Return the names of the meshing wheels on one arbor. The set contains None if one of them is an added wheel."""
     driven = set() if arbor.driven is None else {arbor.driven.name}
     return driven | {wheel.name for wheel, _ in arbor.drives}
 
@@ -223,32 +227,34 @@ def _pair(one: str | None, other: str | None) -> frozenset[str | None]:
 
 @dataclass(frozen=True)
 class KnownTrain:
-    """Known train, read as a candidate of a problem."""
+    """Known train, converted to a candidate of a reconstruction problem."""
 
     name: str
     """Name of the train."""
     arbor: Arbor
-    """Input arbor. The train has the pointers of all dials of the problem that its meshes reach, at any speed."""
+    """Input arbor of the candidate. The candidate has a pointer for every dial of the problem that is connected to the
+    input by meshes, even if its speed differs from the required speed.
+    """
     added: Mapping[str, int]
-    """Tooth count of each added wheel, by its name in the train."""
+    """Tooth count of each added wheel, keyed by the name of the wheel in the known train."""
     notes: tuple[str, ...]
-    """Features of the train that are ignored, because a candidate cannot have them."""
+    """Descriptions of features of the train that are ignored, because a candidate cannot have them."""
 
 
 def find_known_train(train: Train, problem: ReconstructionProblem, same: Mapping[str, str] | None = None) -> KnownTrain:
-    """Read a train as a candidate of a problem whose arbors turn in the frame, not on a carrier.
+    """Convert a train to a candidate of a problem whose arbors turn in the frame and not on a carrier.
 
-    same   name in the problem of wheels and outputs that the train names differently; other parts must have equal
-           names, except for capitals
+    same   name in the problem, keyed by name in the train, of wheels and outputs that are named differently in the
+           train; the names of other parts may differ only in capitals
 
-    Raise `QuestionError` if the train has no arbor of the input, its meshes close a loop, or the tooth count of a wheel
-    is not known.
+    `QuestionError` is raised if the train has no input arbor, if its meshes close a loop, or if the tooth count of a
+    wheel is not known.
     """
     return _TrainReading(train, problem, same or {}).known()
 
 
 class _TrainReading:
-    """Reader of a known train as a candidate, with the names of a problem."""
+    """Conversion of a known train to a candidate with the names of a reconstruction problem."""
 
     def __init__(self, train: Train, problem: ReconstructionProblem, same: Mapping[str, str]) -> None:
         self.train, self.problem, self.same = train, problem, same
@@ -272,7 +278,7 @@ class _TrainReading:
 
     @cached_property
     def _matches(self) -> dict[str, str]:
-        """Wheel of the train by the name of a wheel of the problem."""
+        """Name of the wheel in the train, keyed by the name of the wheel in the problem."""
         wanted = [wheel.name for arbor in self._arbors.values() for wheel in arbor.wheels]
         found = {self.same[name]: name for name in self.train.wheels if self.same.get(name) in wanted}
         free = [name for name in self.train.wheels if name not in self.same]
@@ -286,7 +292,9 @@ class _TrainReading:
 
     @cached_property
     def _links(self) -> dict[str, str]:
-        """Link of the train for each arbor of the problem: the link with most of the arbor's wheels."""
+        """Link of the train that corresponds to each arbor of the problem, keyed by arbor. It is the link that carries
+        most wheels of the arbor.
+        """
         found: dict[str, str] = {}
         for arbor in self._arbors.values():
             links = [self._link(self._matches[wheel.name]) for wheel in arbor.wheels if wheel.name in self._matches]
@@ -302,7 +310,9 @@ class _TrainReading:
 
     @cached_property
     def _joined(self) -> dict[str, str]:
-        """First link of the group of each link, where pins and slots on the frame connect the links of a group."""
+        """First link of the group to which each link belongs, keyed by link. The links of a group turn in the frame and
+        are connected by pins and slots.
+        """
         tree, frame = find_tree(self.train), self.train.frame
         pairs = (
             (coupling.pin, coupling.slot) for coupling in self.train.pin_couplings if coupling.kind == "pin_and_slot"
@@ -312,12 +322,14 @@ class _TrainReading:
 
     @cached_property
     def _names(self) -> dict[str, str]:
-        """Arbor of the problem by the name of a link of the train."""
+        """Name of the arbor in the problem, keyed by the name of the link in the train."""
         return {link: arbor for arbor, link in self._links.items()}
 
     @cached_property
     def _survivors(self) -> dict[str, str]:
-        """Wheel of the problem by the name of a wheel of the train, only for wheels on the link of the right arbor."""
+        """Name of the wheel in the problem, keyed by the name of the wheel in the train. Only wheels on the link of the
+        correct arbor are included.
+        """
         return {
             self._matches[wheel.name]: wheel.name
             for arbor in self._arbors.values()
@@ -345,7 +357,9 @@ class _TrainReading:
 
     @cached_property
     def _driven(self) -> dict[str, DrivenArbor]:
-        """Mesh that drives each link that is connected to the input by meshes on the frame, in breadth-first order."""
+        """Mesh that drives each link connected to the input by meshes in the frame, keyed by link in breadth-first
+        order.
+        """
         rings = {own for own, name in self._survivors.items() if name in self.problem.rings}
         return walk_meshes(self.train, self._source, self._joined, rings)
 
@@ -356,7 +370,10 @@ class _TrainReading:
             what = f"the tooth count of '{wheel}' is not known"
             raise QuestionError(
                 Problem(
-                    what, "a rank requires all tooth counts", "declare the count, such as `teeth: {value: 64}`", place
+                    what,
+                    "a train is ranked by all its tooth counts",
+                    "declare the count, such as `teeth: {value: 64}`",
+                    place,
                 )
             )
         return count
@@ -365,7 +382,9 @@ class _TrainReading:
 
     @cached_property
     def _shown(self) -> dict[str, str]:
-        """Link that carries the pointer of each dial, if meshes reach it."""
+        """Link that carries the pointer of each dial, keyed by dial. Only links connected to the input by meshes are
+        included.
+        """
         found = {}
         for dial in self.problem.dials:
             link = self._links.get(dial.place) if dial.place not in (None, NEW) else self._pointer(dial)
@@ -374,8 +393,8 @@ class _TrainReading:
         return found
 
     def _pointer(self, dial: SearchedDial) -> str | None:
-        """Return the link of a dial whose arbor is not known: the output of the same name, otherwise a link of the same
-        speed.
+        """Return the link of a dial whose arbor is not known: the link of the output with the same name or, if there is
+        none, a link with the same speed.
         """
         called = {**{name: name for name in self.train.outputs}, **self.same}
         for name, output in self.train.case(None).outputs.items():
@@ -406,8 +425,8 @@ class _TrainReading:
 
 
 def check_same(pairs: Mapping[str, str], trains: Sequence[Train], problem: ReconstructionProblem) -> None:
-    """Raise `QuestionError` if a pair of names declared equivalent does not map a part of a train to a part of the
-    problem.
+    """Raise `QuestionError` unless each pair of equivalent names consists of the name of a part in one of the trains
+    and the name of a part in the problem.
     """
     own = {name for train in trains for name in (*train.wheels, *train.outputs)}
     requested = {wheel.name for arbor in (problem.input, *problem.arbors) for wheel in arbor.wheels}

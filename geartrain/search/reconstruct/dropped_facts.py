@@ -1,5 +1,5 @@
-"""Sensitivity of the number of explanations to each hard constraint of the evidence: the search is repeated
-without it.
+"""Sensitivity of the number of explanations to each hard constraint of the evidence. The search is repeated without
+each of the constraints.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _MINIMUM_TEETH = 3  # lower end of the widened range of added tooth counts
 
 @dataclass(frozen=True)
 class ChangedQuestion:
-    """Reconstruction problem with one change of the evidence, and a description of the change."""
+    """Reconstruction problem in which one item of the evidence is changed, and a description of the change."""
 
     change: str
     problem: ReconstructionProblem
@@ -34,32 +34,32 @@ class ChangedQuestion:
 
 @dataclass(frozen=True, slots=True)
 class ChangedCount(Result):
-    """Number of trains that explain the evidence with one change."""
+    """Number of trains that explain the evidence after one change."""
 
     change: str
     """Description of the change."""
     solutions: tuple[int, ...]
-    """Number of trains with exactly 0, 1, 2, ... added wheels."""
+    """Number of trains by number of added wheels: entry n is the number of trains with exactly n added wheels."""
     complete: bool = True
-    """True if the search covered all candidates."""
+    """True if the search covered all candidates of the changed problem."""
     refused: str | None = None
-    """Reason why the changed problem could not be searched; None if it was searched."""
+    """Reason why the changed problem could not be searched; None if it could be searched."""
 
     @property
     def total(self) -> int:
-        """Total number of trains."""
+        """Total number of trains that explain the changed evidence."""
         return sum(self.solutions)
 
     @property
     def fewest(self) -> int | None:
-        """Minimum number of added wheels of a train; None if no train explains the changed evidence."""
+        """Minimum number of added wheels in a train; None if no train explains the changed evidence."""
         return next((added for added, count in enumerate(self.solutions) if count), None)
 
 
 def changed_counts(questions: list[ChangedQuestion], execution: Execution | None = None) -> Iterator[ChangedCount]:
-    """Yield the counts of changed problems in the order of `questions`, as soon as each count is complete.
+    """Yield the number of trains for each changed problem, in the order of `questions`, as soon as it is known.
 
-    `KeyboardInterrupt` is raised if a search is interrupted, so no journal stores a partial result.
+    `KeyboardInterrupt` is raised if a search is interrupted, so that no journal stores a partial result.
     """
     answers = (execution or Execution()).run(_count, [question.problem for question in questions])
     for question, (solutions, complete, refused) in zip(questions, answers, strict=True):
@@ -77,13 +77,17 @@ def _count(problem: ReconstructionProblem) -> tuple[list[int], bool, str | None]
 
 
 def without_each_fact(problem: ReconstructionProblem) -> list[ChangedQuestion]:
-    """Return the problems that result from dropping each hard constraint of the evidence in turn."""
+    """Return the problems that result if one hard constraint of the evidence is removed, one problem for each
+    constraint.
+    """
     # a change without effect on the problem needs no search
     return [ChangedQuestion(change, changed) for change, changed in _changes(problem) if changed != problem]
 
 
 def without_each_dial(problem: ReconstructionProblem) -> Iterator[ChangedQuestion]:
-    """Yield the problems that result from dropping each dial in turn; yield nothing if there is only one dial."""
+    """Yield the problems that result if one dial is removed, one problem for each dial. Yield nothing if there is only
+    one dial.
+    """
     for dial in problem.dials if len(problem.dials) > 1 else ():
         left = tuple(each for each in problem.dials if each is not dial)
         yield ChangedQuestion(f"without the dial {dial.name}", replace(problem, dials=left))
@@ -146,7 +150,9 @@ def _rules(problem: ReconstructionProblem) -> Iterator[tuple[str, Reconstruction
 
 
 def _unsigned(dial: SearchedDial) -> SearchedDial:
-    """Return the dial with its sense of rotation dropped: the bounds of the speed become bounds of its magnitude."""
+    """Return the dial without its sense of rotation. The bounds of its speed become bounds of the magnitude of the
+    speed.
+    """
     ends = sorted(map(abs, (dial.minimum, dial.maximum)))
     minimum = Fraction(0) if dial.minimum < 0 < dial.maximum else ends[0]
     return replace(dial, minimum=minimum, maximum=ends[1], signed=False)
@@ -156,40 +162,43 @@ def _unsigned(dial: SearchedDial) -> SearchedDial:
 
 
 MISREAD = 3
-"""Maximum difference between a tooth count as read and the true count."""
+"""Maximum difference between a tooth count as read and the true tooth count."""
 
 
 @dataclass(frozen=True, slots=True)
 class LoneDial(Result):
-    """Minimum number of added wheels that explain one dial if the other dials are dropped."""
+    """Minimum number of added wheels with which one dial can be explained if the other dials are ignored."""
 
     dial: str
     """Name of the dial."""
     fewest: int | None
-    """Minimum number of added wheels that explain the dial; None if the permitted number is not sufficient."""
+    """Minimum number of added wheels with which the dial can be explained; None if the permitted number of added wheels
+    is not sufficient.
+    """
     refused: str | None = None
-    """Reason why the dial could not be searched; None if it was searched."""
+    """Reason why the problem of this dial could not be searched; None if it could be searched."""
 
 
 @dataclass(frozen=True, slots=True)
 class MissingExplanation(Result):
-    """Reasons why a problem has no explanation: the result for each dial by itself, and the changes that would
-    help.
+    """Reasons why a problem has no explanation: results for each single dial, and changes of the evidence that would
+    permit an explanation.
     """
 
     dials: tuple[LoneDial, ...]
-    """Minimum number of added wheels that explain each dial if the other dials are dropped."""
+    """Minimum number of added wheels with which each dial can be explained if the other dials are ignored."""
     uncertainties: tuple[ChangedCount, ...]
-    """Single changes of the evidence with which at least one train explains it, ordered by the number of added wheels.
+    """Single changes of the evidence after which at least one train explains it, ordered by the number of added
+    wheels.
     """
     requested: int
     """Number of changes of the evidence that were tried."""
     refused: tuple[str, ...]
-    """Changes for which the search was rejected."""
+    """Descriptions of the changes for which the search was rejected."""
 
 
 def explain_missing(problem: ReconstructionProblem, execution: Execution | None = None) -> MissingExplanation:
-    """Search for the reasons why a problem has no explanation."""
+    """Return the reasons why a problem has no explanation."""
     dials = tuple(_lone_dial(problem, at) for at in range(len(problem.dials)))
     changed = [*without_each_fact(problem), *without_each_dial(problem), *_misread_counts(problem)]
     counts = tuple(changed_counts(changed, execution))
@@ -199,7 +208,9 @@ def explain_missing(problem: ReconstructionProblem, execution: Execution | None 
 
 
 def _lone_dial(problem: ReconstructionProblem, at: int) -> LoneDial:
-    """Search for an explanation of one dial by itself. Surviving arbors that do not lead to it may be unused."""
+    """Return the minimum number of added wheels with which the dial with index `at` can be explained if the other dials
+    are ignored. Surviving arbors that are not on the path to this dial may be unused.
+    """
     dial = problem.dials[at]
     # known meshes may belong to arbors of other dials
     lone = replace(problem, dials=(dial,), use="some", meshes=frozenset())
@@ -214,8 +225,8 @@ def _lone_dial(problem: ReconstructionProblem, at: int) -> LoneDial:
 
 
 def _misread_counts(problem: ReconstructionProblem) -> Iterator[ChangedQuestion]:
-    """Yield the problem with another tooth count of one surviving wheel, for each count that differs by at most
-    `MISREAD` from a possible count, in ascending order of the difference.
+    """Yield problems in which one surviving wheel has a different tooth count, one problem for each tooth count that
+    differs by at most `MISREAD` from a possible one. The problems are in ascending order of this difference.
     """
     for arbor in (problem.input, *problem.arbors):
         for wheel in arbor.wheels:

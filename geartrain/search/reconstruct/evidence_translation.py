@@ -1,5 +1,5 @@
-"""Conversion of declared evidence to a `ReconstructionProblem`. Unsupported declarations are rejected with
-their location.
+"""Conversion of declared evidence to a `ReconstructionProblem`. Unsupported declarations are rejected with a message
+that gives their location.
 """
 
 from __future__ import annotations
@@ -48,9 +48,9 @@ Limits = tuple[Fraction, Fraction]
 
 @dataclass(frozen=True)
 class PointerBounds:
-    """Minimum and maximum speed of a pointer, and the declared facts that were not used as bounds.
+    """Minimum and maximum speed of a pointer, and the declared facts that are not used as bounds.
 
-    The bounds are bounds of the magnitude if `signed` is False.
+    If `signed` is False, the bounds are bounds of the magnitude of the speed.
     """
 
     limits: Limits
@@ -63,10 +63,10 @@ class PointerBounds:
 
 
 def find_bounds(evidence: Train, name: str, free_sense: bool, base: BaseLink) -> PointerBounds:
-    """Return the bounds of the speed of an output relative to the base, the link that carries the arbors; with
-    `free_sense`, bounds of its magnitude.
+    """Return the bounds of the speed of an output relative to the base, which is the link that carries the arbors. If
+    `free_sense` is True, return bounds of the magnitude of this speed.
 
-    Raise `DeclarationError` if the admissible speeds are not one range.
+    `DeclarationError` is raised if the admissible speeds do not form a single range.
     """
     output, place = evidence.outputs[name], evidence.place("outputs", name)
     if output.relative_to not in (None, evidence.frame, base.name):
@@ -115,7 +115,7 @@ def _bounds(evidence: Train, name: str, free_sense: bool) -> PointerBounds:
 
 
 def _seen_from_base(bounds: PointerBounds, name: str, turning: Fraction, place: str) -> PointerBounds:
-    """Convert bounds relative to the frame to bounds relative to a base that turns with a given speed."""
+    """Convert bounds of a speed relative to the frame to bounds relative to a base that turns with speed `turning`."""
     if not turning:
         return bounds
     if not bounds.signed:
@@ -127,8 +127,8 @@ def _seen_from_base(bounds: PointerBounds, name: str, turning: Fraction, place: 
 
 
 def _ranges(evidence: Train, output: Output) -> Iterator[tuple[Limits, bool]]:
-    """Yield each declared range of a speed, with True for a range of the signed speed, False for a range of its
-    magnitude.
+    """Yield each declared range of the speed of an output, and True for a range of the signed speed or False for a
+    range of its magnitude.
     """
     if output.expect is not None:
         value, tolerance = output.expect.value, output.expect.tolerance
@@ -175,7 +175,9 @@ def _common(ranges: list[Limits], name: str, place: str) -> Limits:
 
 
 _UNSUPPORTED = ("fixed", "locks", "clutches", "states", "loads", "solve_for", "drive", "escapement")
-"""Keys of a train that a reconstruction does not support, because they change speeds or name arbors."""
+"""Keys of a train declaration that are not supported in a reconstruction, because they change speeds or refer to
+arbors.
+"""
 
 _MOST_COUNTS = 10_000
 """Maximum number of possible tooth counts of one wheel."""
@@ -183,7 +185,7 @@ _MOST_COUNTS = 10_000
 
 @dataclass(frozen=True)
 class EvidenceQuestion(Shown):
-    """Reconstruction problem derived from declared evidence, with its base link and the unused declarations.
+    """Reconstruction problem derived from declared evidence, with its base link and the declarations that are not used.
 
     See Also
     --------
@@ -193,11 +195,11 @@ class EvidenceQuestion(Shown):
     problem: ReconstructionProblem
     """Reconstruction problem, the input of the search."""
     base: BaseLink
-    """Link that carries the arbors. The speeds of the problem are relative to this link."""
+    """Base link, which carries the arbors. The speeds in the problem are relative to this link."""
     joined: Joined
-    """Links that form one arbor because given couplings connect them, by the name of the arbor."""
+    """Links that form one arbor because declared couplings connect them, keyed by the name of the arbor."""
     unused: tuple[str, ...]
-    """Declarations that do not affect the result, one line for each."""
+    """Descriptions of the declarations that do not affect the result, one line for each."""
 
 
 def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool = False) -> EvidenceQuestion:
@@ -210,7 +212,7 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
     wheels : int, optional
         Maximum number of added wheels; it overrides the number in the evidence.
     idlers : bool
-        True if a driven wheel may also drive, even if the evidence does not allow it.
+        True to allow that a driven wheel also drives, even if the evidence does not allow it.
 
     Returns
     -------
@@ -219,7 +221,8 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
     Raises
     ------
     DeclarationError
-        If declarations are unsupported or do not define a problem. The message gives the location of each.
+        If declarations are unsupported or do not define a problem. The message gives the location of each such
+        declaration.
 
     Examples
     --------
@@ -292,7 +295,7 @@ def _arbor(evidence: Train, link: str) -> SurvivingArbor:
 
 
 def _coaxial(evidence: Train, base: BaseLink, geometry: SurvivingGeometry) -> Iterator[frozenset[str]]:
-    """Yield pairs of arbors that are declared on one axis, or on axes with equal positions."""
+    """Yield pairs of arbors that are declared on the same axis, or on axes with equal positions."""
     on_axis: dict[str, set[str]] = {}
     for joint in evidence.revolutes:
         on_axis.setdefault(joint.axis, set()).update(joint.pair)
@@ -308,7 +311,7 @@ def _coaxial(evidence: Train, base: BaseLink, geometry: SurvivingGeometry) -> It
 
 
 def _counts(wheel: Wheel) -> tuple[tuple[int, Fraction], ...]:
-    """Return the possible tooth counts of a wheel, with weights that sum to 1."""
+    """Return pairs of a possible tooth count of a wheel and its weight. The sum of the weights is 1."""
     teeth = wheel.teeth
     if isinstance(teeth, int):
         return ((teeth, Fraction(1)),)
@@ -376,7 +379,7 @@ def _teeth(evidence: Train, wheel: Wheel, place: Loc) -> Iterator[Problem]:
 
 
 def _unused(evidence: Train) -> Iterator[str]:
-    """Yield one line for each declaration that the search does not use."""
+    """Yield a one-line description of each declaration that the search does not use."""
     yield from unweighed_geometry(evidence)
     for gear in evidence.gears:
         if gear.driver is not None:

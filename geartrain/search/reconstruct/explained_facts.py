@@ -1,8 +1,8 @@
-"""Facts derived from all candidates: marginal probabilities, the fact of maximum entropy, the family tree.
+"""Facts derived from all candidates: marginal probabilities, the fact with maximum entropy, and the family tree.
 
-A fact has one answer in each candidate: whether two wheels mesh, which wheel drives an arbor, the tooth count of a
-wheel. Its marginals are the probabilities of its answers. The candidate determines the answer, so the expected
-information of an observation is the entropy of these probabilities.
+A fact is a property that has one answer in each candidate, such as whether two wheels mesh, which arbor drives an
+arbor, or the tooth count of a wheel. The marginals of a fact are the probabilities of its answers. The candidate
+determines the answer, so the expected information of an observation of the fact is the entropy of these probabilities.
 """
 
 from __future__ import annotations
@@ -25,16 +25,16 @@ from geartrain.search.weighted_alternatives import entropy
 from geartrain.train import Train
 
 FactKind = Literal["mesh", "pair", "driver", "pointer", "count", "added", "needed", "used"]
-"""Kinds of facts about a candidate.
+"""Kind of a fact about a candidate.
 
-mesh     one wheel drives another, `e4 > f1`
+mesh     one wheel drives another wheel, such as `e4 > f1`
 pair     two surviving wheels mesh, in either direction
 driver   arbor that drives a surviving arbor
-pointer  arbor of the pointer of a dial
-count    tooth count of a surviving wheel with uncertain count
+pointer  arbor that carries the pointer of a dial
+count    tooth count of a surviving wheel for which it is uncertain
 added    tooth count of a named added wheel
-needed   a wheel of this tooth count is added
-used     a surviving wheel meshes
+needed   at least one wheel with this tooth count is added
+used     a surviving wheel meshes with another wheel
 """
 
 _KINDS: tuple[FactKind, ...] = get_args(FactKind)
@@ -42,13 +42,15 @@ _KINDS: tuple[FactKind, ...] = get_args(FactKind)
 AN_ADDED_ARBOR = "an added arbor"
 YES, NO, NONE, OUTSIDE, UNUSED = "yes", "no", "none", "not in the train", "not used"
 _ELSE: dict[FactKind, str] = {"driver": OUTSIDE, "pointer": OUTSIDE, "count": UNUSED, "added": NONE}
-"""Answer to a fact for which a candidate has no entry, by kind of fact; `NO` for kinds that are not listed."""
+"""Answer that is used if a candidate has no entry for a fact, keyed by kind of fact. For kinds without an entry, the
+answer is `NO`.
+"""
 
 LOOKED_FOR: tuple[FactKind, ...] = ("pair", "driver", "count", "added", "pointer")
-"""Kinds of facts that an examination of surviving or new fragments can establish."""
+"""Kinds of facts that can be established by examining surviving or newly found fragments."""
 
 _MOST_FACTS = 200
-"""Maximum number of facts that are compared to find facts that partition the candidates in the same way."""
+"""Maximum number of facts that are compared in order to find facts that partition the candidates in the same way."""
 
 
 class Fact(NamedTuple):
@@ -64,7 +66,7 @@ class Fact(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class FactAnswer(Result):
-    """Answer to a fact, with its posterior probability and its number of candidates."""
+    """Answer to a fact, with its posterior probability and the number of candidates that give this answer."""
 
     KEYS = ("answer", Key("weight", "share", float), "solutions")
 
@@ -87,41 +89,41 @@ class FactMarginal(Result):
     subject: str
     """Subject of the fact: names of wheels, name of an arbor or a dial, or a tooth count."""
     answers: tuple[FactAnswer, ...]
-    """Answers in descending order of probability."""
+    """Answers to the fact, in descending order of probability."""
 
     @property
     def bits(self) -> float:
-        """Entropy of the answers [bit], which is the expected information of an observation."""
+        """Entropy of the answers [bit], which is the expected information of an observation of the fact."""
         return entropy(float(answer.share) for answer in self.answers)
 
     @property
     def trains(self) -> int:
-        """Number of candidates over which the probabilities are computed."""
+        """Number of candidates from which the probabilities are computed."""
         return sum(answer.solutions for answer in self.answers)
 
     def share(self, answer: str) -> Fraction:
-        """Return the posterior probability of one answer."""
+        """Return the posterior probability of one answer to the fact."""
         return next((one.share for one in self.answers if one.answer == answer), Fraction(0))
 
 
 @dataclass(frozen=True, slots=True)
 class NextFact(Result):
-    """Fact to observe next, with other facts that give the same information."""
+    """Fact whose observation is proposed, with other facts that give the same information."""
 
     KEYS = (Key("", "fact"), "same")
 
     fact: FactMarginal
-    """Marginal distribution of the fact."""
+    """Marginal distribution of the answers to the fact."""
     same: tuple[Fact, ...]
     """Other facts that partition the candidates in the same way."""
 
 
 WeighedTrains = Sequence[tuple[NamedArbor, int]]
-"""Candidates in descending order of weight, with integer weights, so that sums are exact and fast."""
+"""Candidates in descending order of weight. The weights are integers, so that sums are exact and fast."""
 
 
 class FactTally:
-    """Sums of weights and numbers of trains, for each answer to each fact."""
+    """Sums of weights and numbers of trains for each answer to each fact."""
 
     def __init__(self, problem: ReconstructionProblem) -> None:
         self.trains = 0
@@ -130,24 +132,26 @@ class FactTally:
         self._wheels = [wheel.name for arbor in _survivors(problem) for wheel in arbor.wheels]
 
     def add_trains(self, weight: Fraction | int, number: int = 1) -> None:
-        """Add `number` trains, each with this weight, to the totals."""
+        """Add `number` trains, each with the given weight, to the totals."""
         self._whole += weight * number
         self.trains += number
 
     def add(self, fact: Fact, answer: str, weight: Fraction | int, number: int = 1) -> None:
-        """Add `number` trains, each with this weight, to an answer. Each train has one answer to a fact."""
+        """Add `number` trains, each with the given weight, to one answer to a fact. A train must have only one answer
+        to a fact.
+        """
         answers = self._found.setdefault(fact, {})
         before = answers.get(answer, (Fraction(0), 0))
         answers[answer] = before[0] + weight * number, before[1] + number
 
     def facts(self) -> Iterator[Fact]:
-        """Yield all facts, except facts of the kind `used` on wheels that every train uses."""
+        """Yield all facts. Facts of the kind `used` are omitted for wheels that are used in every train."""
         used = {wheel: Fact("used", wheel) for wheel in self._wheels}
         used_by_all = {fact for fact in used.values() if self._found.get(fact, {}).get(YES, (0, 0))[1] == self.trains}
         yield from (fact for fact in {**self._found, **dict.fromkeys(used.values())} if fact not in used_by_all)
 
     def marginal(self, fact: Fact) -> FactMarginal:
-        """Return the marginal distribution of a fact."""
+        """Return the marginal distribution of the answers to a fact."""
         found = self._found.get(fact, {})
         answers = [FactAnswer(answer, weight / self._whole, number) for answer, (weight, number) in found.items()]
         # trains without an entry share one implicit answer
@@ -160,11 +164,11 @@ class FactTally:
 
 
 class ExplainedFacts:
-    """Marginals of all facts, and groups of facts that partition the trains in the same way.
+    """Marginal distributions of all facts, and groups of equivalent facts. Equivalent facts partition the trains in the
+    same way.
 
-    weighed   all trains, or only the best trains
-    tally     sums over all trains, if known; facts are then equivalent if they partition `weighed` in the same way and
-              have equal sums
+    weighed   all trains, or only the best trains, with their weights
+    tally     sums over all trains, or None; if it is not None, equivalent facts must also have equal sums
     """
 
     def __init__(self, weighed: WeighedTrains, problem: ReconstructionProblem, tally: FactTally | None = None) -> None:
@@ -180,15 +184,17 @@ class ExplainedFacts:
         self._tally = own if tally is None else tally
 
     def marginals(self) -> tuple[FactMarginal, ...]:
-        """Return the marginals of all facts except the kind `pair`, by kind and in descending order of probability."""
+        """Return the marginal distributions of all facts except facts of the kind `pair`, sorted by kind and then by
+        descending probability.
+        """
         found = [self._tally.marginal(fact) for fact in self._tally.facts() if fact.kind != "pair"]
         return tuple(
             sorted(found, key=lambda one: (_KINDS.index(one.kind), -_yes_weight(one), _answer_order(one.subject)))
         )
 
     def next_facts(self) -> tuple[NextFact, ...]:
-        """Return the observable facts whose answers differ among the trains, in descending order of entropy, with
-        equivalent facts as one group.
+        """Return the observable facts whose answers differ among the trains, in descending order of entropy. Equivalent
+        facts are combined into one entry.
         """
         requested = [self._tally.marginal(fact) for fact in self._tally.facts() if fact.kind in LOOKED_FOR]
         requested = [one for one in requested if len(one.answers) > 1]
@@ -203,7 +209,9 @@ class ExplainedFacts:
         )
 
     def _parts(self, one: FactMarginal) -> Hashable:
-        """Return the sets into which a fact partitions the listed trains, each with its sums over all trains."""
+        """Return the sets into which a fact partitions the listed trains. Each set is returned with the sums over all
+        trains that have the same answer.
+        """
         fact = Fact(one.kind, one.subject)
         parts = [frozenset(indexes) for indexes in self._listed.get(fact, {}).values()]
         rest = frozenset(range(len(self._weighed))).difference(*parts)
@@ -214,9 +222,10 @@ class ExplainedFacts:
 
 
 def train_facts(train: NamedArbor, doubtful: set[str], lost: set[str]) -> Iterator[tuple[Fact, str]]:
-    """Yield all facts of a candidate with their answers, each fact once.
+    """Yield each fact of a candidate once, with its answer.
 
-    Tooth counts of surviving wheels are included only for wheels in `doubtful`, and pointers only for dials in `lost`.
+    Facts about tooth counts of surviving wheels are yielded only for wheels in `doubtful`, and facts about pointers
+    only for dials in `lost`.
     """
     yield from _order_facts(train, doubtful, lost)
     added = _added_wheels(train)
@@ -248,12 +257,12 @@ def _added_wheels(train: NamedArbor) -> list[NamedWheel]:
 
 
 def lost_pointers(problem: ReconstructionProblem) -> set[str]:
-    """Return the names of dials whose arbor is not known."""
+    """Return the names of the dials for which the arbor of the pointer is not known."""
     return {dial.name for dial in problem.dials if dial.place is None}
 
 
 def uncertain_wheels(problem: ReconstructionProblem) -> set[str]:
-    """Return the names of surviving wheels with uncertain tooth counts."""
+    """Return the names of the surviving wheels whose tooth counts are uncertain."""
     return {wheel.name for arbor in _survivors(problem) for wheel in arbor.wheels if not wheel.is_sure}
 
 
@@ -262,14 +271,14 @@ def _survivors(problem: ReconstructionProblem) -> Sequence[SurvivingArbor]:
 
 
 def _yes_weight(fact: FactMarginal) -> Fraction:
-    """Return the probability of the answer yes; for a fact without yes and no, the probability of its most
-    probable answer.
+    """Return the probability of the answer `yes`. If the answers to the fact are not `yes` and `no`, return the
+    probability of its most probable answer.
     """
     return fact.answers[0].share if fact.kind in _ELSE else fact.share(YES)
 
 
 def _answer_order(answer: str) -> tuple[int, str]:
-    """Return a sort key that orders tooth counts by size, before words."""
+    """Return a sort key for answers: tooth counts in ascending order come before words."""
     return (int(answer), "") if answer.isdigit() else (1 << 62, answer)
 
 
@@ -277,13 +286,15 @@ def _answer_order(answer: str) -> tuple[int, str]:
 
 
 MOST_SUMMED = 20_000_000
-"""Maximum number of trains for which sums over choices of tooth counts are fast."""
+"""Maximum number of trains for which sums over all choices of tooth counts are fast."""
 
 
 def sum_facts(
     weighed: Iterable[tuple[Topology, Fraction]], problem: ReconstructionProblem, evidence: Train
 ) -> FactTally:
-    """Sum the facts of all trains of some topologies, each given with the prior weight of one of its trains."""
+    """Return the sums over all trains of the given topologies for all facts. Each topology is given with the prior
+    weight of one of its trains.
+    """
     trains, sums = TopologyTrains(problem), FactTally(problem)
     lost, doubtful = lost_pointers(problem), uncertain_wheels(problem)
     for topology, weight in weighed:
@@ -313,40 +324,42 @@ def sum_facts(
 
 @dataclass(frozen=True, slots=True)
 class FamilyTrain(Result):
-    """Candidate at the end of a branch of the family tree."""
+    """Candidate that ends at a branch of the family tree."""
 
     KEYS = ("rank", Key("weight", "share", float), "counts")
 
     rank: int
-    """Rank by probability, from 1."""
+    """Rank of the candidate by probability, starting with 1."""
     share: Fraction
-    """Probability of the candidate among the candidates in the tree, 0 to 1."""
+    """Probability of the candidate, normalised over the candidates in the tree, 0 to 1."""
     counts: dict[str, int]
-    """Tooth counts of added wheels, then of surviving wheels whose counts differ among the candidates."""
+    """Tooth counts of added wheels, followed by those of surviving wheels whose tooth counts differ among the
+    candidates.
+    """
 
 
 @dataclass(frozen=True, slots=True)
 class FamilyBranch(Result):
-    """Branch of the family tree: consecutive meshes that all candidates in the branch have in common."""
+    """Branch of the family tree: consecutive meshes that are common to all candidates in the branch."""
 
     KEYS = ("parent", "meshes", Key("weight", "share", float), "solutions", "trains")
 
     parent: int | None
-    """Index of the parent branch; None for the root."""
+    """Index of the parent branch; None for the first branch."""
     meshes: tuple[str, ...]
-    """Meshes as "driving > driven", with the pointers of the driven arbor in parentheses."""
+    """Meshes in the format "driving > driven", followed by the pointers of the driven arbor in parentheses."""
     share: Fraction
-    """Total probability of the candidates in the branch among the candidates in the tree, 0 to 1."""
+    """Total probability of the candidates in the branch, normalised over the candidates in the tree, 0 to 1."""
     solutions: int
     """Number of candidates in the branch."""
     trains: tuple[FamilyTrain, ...]
-    """Candidates that end at this branch, in descending order of probability."""
+    """Candidates whose last mesh is in this branch, in descending order of probability."""
 
 
 def grow_family_tree(weighed: WeighedTrains, doubtful: Sequence[str] = ()) -> tuple[FamilyBranch, ...]:
     """Build the family tree in depth-first order, with branches in descending order of probability.
 
-    doubtful   names of surviving wheels whose tooth counts are included
+    doubtful   names of surviving wheels whose tooth counts are included in the tree
     """
     root, whole = _Node(), sum(weight for _, weight in weighed)
     for rank, (train, weight) in enumerate(weighed, 1):
@@ -356,7 +369,7 @@ def grow_family_tree(weighed: WeighedTrains, doubtful: Sequence[str] = ()) -> tu
 
 @dataclass
 class _Node:
-    """Node of the trie: a mesh, with the meshes that follow it in some candidate."""
+    """Node of the trie: a mesh, and the meshes that follow it in at least one candidate."""
 
     weight: int = 0
     solutions: int = 0
@@ -377,7 +390,7 @@ class _Node:
 
 
 def _branches(root: _Node) -> Iterator[FamilyBranch]:
-    """Yield the branches in depth-first order. A sequence of meshes without alternatives is one branch."""
+    """Yield the branches in depth-first order. A sequence of meshes without alternatives forms one branch."""
     waiting: list[tuple[int | None, list[str], _Node]] = [(None, [], root)]
     number = 0
     while waiting:
@@ -426,18 +439,20 @@ class CandidateFindings(Result):
     share: float = 0.0
     """Total posterior probability of the candidates in the family tree, 0 to 1."""
     of_all: bool = False
-    """True if the facts are computed over all trains, False if only over the trains of the family tree."""
+    """True if the facts are computed from all trains; False if they are computed only from the trains in the family
+    tree.
+    """
     marginals: tuple[FactMarginal, ...] = ()
     """Marginal distribution of every fact except facts of the kind `pair`."""
     next_facts: tuple[NextFact, ...] = ()
     """Facts to observe next, in descending order of their entropy."""
     family: tuple[FamilyBranch, ...] = ()
-    """Family tree of the candidates. Its probabilities are relative to these candidates."""
+    """Family tree of the listed candidates. Its probabilities are normalised over these candidates."""
     assumptions: tuple[ChangedCount, ...] = ()
-    """Number of explanations without each hard constraint of the evidence, if requested."""
+    """Number of explanations without each hard constraint of the evidence; empty if this was not requested."""
     missing: MissingExplanation | None = None
-    """Reasons why the evidence has no explanation; None if it has an explanation, or if the reasons were not
-    searched.
+    """Reasons why the evidence has no explanation; None if there is an explanation, or if the reasons were not searched
+    for.
     """
 
 
@@ -450,9 +465,9 @@ def find_facts(
     found: Reconstructions,
     assumptions: tuple[ChangedCount, ...] = (),
 ) -> CandidateFindings:
-    """Compute the marginals, the facts to observe next, and the family tree of the listed candidates.
+    """Return the marginals, the facts to observe next, and the family tree of the listed candidates.
 
-    Marginals and facts to observe next cover all trains if sums over all trains can be computed.
+    The marginals and the facts to observe next are based on all trains if sums over all trains can be computed.
     """
     candidates = found.candidates
     if not candidates:

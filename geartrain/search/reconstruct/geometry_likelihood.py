@@ -1,13 +1,14 @@
 """Likelihood of a candidate, given measured modules, radii and positions of axes; 0 if the candidate is impossible.
 
-Every mesh of two measured wheels contributes exp(-(e/s)^2 / 2), where e is the logarithm of the ratio of their modules
-and s its standard deviation. A wheel that was not measured has the module that fits the adjacent wheels best. Misfits
-therefore combine like springs: a mesh with a wheel of known module has stiffness 1, and a mesh with a wheel that is
-itself supported with stiffness k has stiffness k/(1 + k). A measured radius with an error also acts as a spring of
-stiffness (s*radius/error)^2.
+Every mesh of two measured wheels contributes the factor exp(-(e/s)^2 / 2), where e is the natural logarithm of the
+ratio of their modules and s is the standard deviation of e. A wheel that was not measured has the module that fits its
+mates best. Misfits therefore combine like springs. A mesh with a wheel whose module is known has stiffness 1, and a
+mesh with a wheel that is itself supported with stiffness k has stiffness k/(1 + k). A measured radius with a stated
+error acts as a spring with the stiffness (s*radius/error)^2.
 
-A mesh of two axes with known positions contributes exp(-(f/s')^2 / 2), where f is the logarithm of the sum of the pitch
-radii divided by the distance between the axes. Misfits of modules and of distances are treated as independent.
+A mesh between two axes with known positions contributes the factor exp(-(f/s')^2 / 2), where f is the natural logarithm
+of the sum of the pitch radii divided by the distance between the axes, and s' is the standard deviation of f. Misfits
+of modules and of distances are treated as independent.
 """
 
 from __future__ import annotations
@@ -22,8 +23,8 @@ from geartrain.search.reconstruct.reconstruction_problem import Arbor, PlacedWhe
 
 
 def candidate_likelihood(arbor: Arbor, geometry: SurvivingGeometry) -> float:
-    """Return the likelihood of the measurements for a candidate, up to a common factor; 0 if the candidate is
-    impossible.
+    """Return the likelihood of the measurements for a candidate, up to a factor common to all candidates; 0 if the
+    candidate is impossible.
 
     arbor   input arbor of the candidate
     """
@@ -39,7 +40,7 @@ def candidate_likelihood(arbor: Arbor, geometry: SurvivingGeometry) -> float:
 
 _MINIMUM = -700.0  # exp(-700) is still positive; only an impossible candidate has likelihood 0
 _End = tuple[str | None, tuple[str | None, int]]
-"""Mesh partner: name of an arbor, and name and tooth count of a wheel on it."""
+"""Wheel of a mesh: name of its arbor, and the name and the tooth count of the wheel."""
 
 
 class _Mesh(NamedTuple):
@@ -59,8 +60,8 @@ def _size(wheel: PlacedWheel) -> tuple[str | None, int]:
 
 
 def _distance_misfit(mesh: _Mesh, geometry: SurvivingGeometry) -> float:
-    """Return the squared logarithm of the sum of pitch radii divided by the axis distance; 0 if one of them is not
-    known.
+    """Return the squared natural logarithm of the sum of the pitch radii divided by the axis distance; 0 if a pitch
+    radius or the axis distance is not known.
     """
     square = geometry.square_distance(mesh.driving[0], mesh.driven[0])
     whole = geometry.radii_sum(mesh.driving[1], mesh.driven[1])
@@ -69,7 +70,9 @@ def _distance_misfit(mesh: _Mesh, geometry: SurvivingGeometry) -> float:
 
 
 class _Pull(NamedTuple):
-    """Misfit of a part of a train, stiffness * (x - centre)^2 + misfit, where x is the logarithm of a module."""
+    """Misfit of a part of a train as the function stiffness * (x - centre)^2 + misfit of x, the natural logarithm of a
+    module.
+    """
 
     stiffness: float
     centre: float
@@ -78,19 +81,21 @@ class _Pull(NamedTuple):
 
 @dataclass(frozen=True)
 class _Modules:
-    """Minimum sum of squared misfits of modules, computed by elimination of the unknown modules from the leaves up."""
+    """Least-squares fit of the modules of a train. The unknown modules are eliminated one by one, from the leaves of
+    the train to its root.
+    """
 
     geometry: SurvivingGeometry
 
     def misfit(self, arbor: Arbor) -> float:
-        """Return the minimum misfit of all meshes in the subtree of an arbor."""
+        """Return the minimum total misfit of the meshes in the subtree of an arbor."""
         # wheels driven by an idler share the mesh in which it is driven, and are counted there
         own = sum(self._misfit_of_wheel(wheel, children).misfit for wheel, children in arbor.drives)
         return own + sum(self.misfit(child) for _, child in arbor.driven_arbors())
 
     def _misfit_of_wheel(self, wheel: PlacedWheel, children: Iterable[Arbor]) -> _Pull:
-        """Return the misfit as a function of the module of a wheel, from its measurement and the wheels that it
-        drives.
+        """Return the misfit as a function of the module of a wheel: the misfit of the measurement of the wheel plus the
+        misfits of the arbors that it drives.
         """
         pulls = [self._misfit_through_mesh(child) for child in children]
         module = self.geometry.module_of(_size(wheel))
@@ -108,12 +113,14 @@ class _Modules:
         return _Pull(stiffness, centre, misfit)
 
     def _stiffness(self, radius: Fraction) -> float:
-        """Return the stiffness of a measured pitch radius [mm], relative to the stiffness of a mesh."""
+        """Return the stiffness of a measured pitch radius [mm], divided by the stiffness of a mesh."""
         error = self.geometry.radius
         return math.inf if error is None else float(self.geometry.module * radius / error) ** 2
 
     def _misfit_through_mesh(self, child: Arbor) -> _Pull:
-        """Return the misfit as a function of the module of a driving wheel, from its mesh with the arbor `child`."""
+        """Return the misfit of the arbor `child` and its subtree as a function of the module of the wheel that drives
+        `child`.
+        """
         assert child.driven is not None
         held = self._misfit_of_wheel(child.driven, child.passes)
         # springs in series: the mesh has stiffness 1

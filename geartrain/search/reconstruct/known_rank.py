@@ -1,4 +1,4 @@
-"""Rank of a known train among all trains that explain the evidence, or the rules that it breaks."""
+"""Rank of a known train among all trains that explain the evidence, or the rules that the known train breaks."""
 
 from __future__ import annotations
 
@@ -29,23 +29,23 @@ from geartrain.train import Train
 
 @dataclass(frozen=True, slots=True)
 class TellingFact(Result):
-    """Distinguishing fact: it is true of a given explanation, but not of all explanations."""
+    """Distinguishing fact: a fact that is true of a given explanation, but not of all explanations."""
 
     kind: FactKind
     """Kind of the fact, one of `LOOKED_FOR`."""
     subject: str
-    """Wheels, arbor or dial of the fact."""
+    """Subject of the fact: names of wheels, name of an arbor or a dial, or a tooth count."""
     answer: str
-    """Answer to the fact in the train."""
+    """Answer to the fact in the given explanation."""
     solutions: int
-    """Number of trains with this answer, including the train itself."""
+    """Number of trains with this answer, including the given explanation."""
 
 
 def find_telling_facts(
     evidence: Train, problem: ReconstructionProblem, found: Reconstructions, candidate: Arbor
 ) -> tuple[TellingFact, ...]:
     """Return the observable facts that distinguish one explanation from others, in ascending order of the number of
-    trains that share them.
+    trains in which the fact has the same answer.
 
     The result is empty unless all explanations are listed.
     """
@@ -72,13 +72,13 @@ class TrainPlace(Result):
     KEYS = ("ranks", "trains", "ranks_alike", "trains_alike", Key("weight", to=float), Key("dearer", to=float))
 
     ranks: tuple[int, int]
-    """First and last rank by probability. They differ if several trains are equally probable."""
+    """First and last rank of the train by probability. They differ if several trains are equally probable."""
     trains: int
     """Number of explanations among which the train is ranked."""
     ranks_alike: tuple[int, int]
-    """First and last rank among explanations with the same number of added wheels."""
+    """First and last rank of the train among the explanations with the same number of added wheels."""
     trains_alike: int
-    """Number of explanations with the same number of added wheels."""
+    """Number of explanations with the same number of added wheels as the train."""
     weight: float
     """Posterior probability of the train, 0 to 1."""
     dearer: Fraction
@@ -87,22 +87,26 @@ class TrainPlace(Result):
 
 @dataclass(frozen=True, slots=True)
 class KnownRank(Result):
-    """Rank of a known train in a problem, or the rules that it breaks."""
+    """Rank of a known train among the explanations of a problem, or the rules that the train breaks."""
 
     train: str
-    """Name of the train."""
+    """Name of the known train."""
     wheels: dict[str, int]
-    """Tooth count of each wheel that the train adds, by its name in the train."""
+    """Tooth count of each wheel that the train adds to the surviving wheels, keyed by the name of the wheel in the
+    train.
+    """
     arbors: int
-    """Number of arbors that the train adds."""
+    """Number of arbors that the train adds to the surviving arbors."""
     broken: tuple[BrokenRule, ...]
-    """Rules that the train breaks; empty if it is an explanation."""
+    """Rules that the train breaks; empty if the train is an explanation of the evidence."""
     notes: tuple[str, ...] = ()
-    """Features of the train that are ignored."""
+    """Descriptions of features of the train that are ignored."""
     place: TrainPlace | None = None
-    """Rank of the train; None if it breaks rules or adds more wheels than permitted."""
+    """Rank and probability of the train; None if it breaks rules or adds more wheels than permitted."""
     telling: tuple[TellingFact, ...] = ()
-    """Facts that distinguish the train; empty unless the train is an explanation and all explanations are listed."""
+    """Facts that distinguish the train from other explanations; empty unless the train is an explanation and all
+    explanations are listed.
+    """
 
 
 def rank_known_train(
@@ -112,10 +116,10 @@ def rank_known_train(
     found: Reconstructions,
     same: Mapping[str, str] | None = None,
 ) -> KnownRank:
-    """Rank a known train among the explanations of a problem whose arbors turn in the frame.
+    """Return the rank of a known train among the explanations of a problem whose arbors turn in the frame.
 
     found   all explanations of the problem
-    same    name in the problem of each part that the train names differently; see `find_known_train`
+    same    name in the problem of each part that is named differently in the train; see `find_known_train`
     """
     known = find_known_train(train, problem, same)
     broken = broken_rules(known.arbor, problem)
@@ -127,9 +131,9 @@ def rank_known_train(
 def find_place(candidate: Arbor, problem: ReconstructionProblem, found: Reconstructions) -> TrainPlace | None:
     """Return the rank and probability of one explanation among all explanations.
 
-    Return None if it adds more wheels than permitted, or its number of wheels was not searched completely. If the prior
-    depends only on the topology, the rank follows from the numbers of trains of each weight, without a list of the
-    trains.
+    Return None if it adds more wheels than permitted, or if trains with its number of wheels were not searched
+    completely. If the prior depends only on the topology, the rank follows from the number of trains for each weight,
+    so the trains need not be listed.
     """
     if found.topologies:
         weight = train_prior(candidate, problem)

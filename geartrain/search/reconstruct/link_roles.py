@@ -1,4 +1,6 @@
-"""Roles of declared links in a reconstruction: the link that carries the arbors, and links that form one arbor."""
+"""Roles of declared links in a reconstruction: the link that carries the arbors, and links that together form one
+arbor.
+"""
 
 from __future__ import annotations
 
@@ -22,31 +24,33 @@ _ONE_START = "a train on a carrier begins at one link: the frame, or one other d
 
 @dataclass(frozen=True)
 class BaseLink:
-    """Base of a train: the link that carries its arbors, and the link at which the train begins."""
+    """Base of a reconstruction, which is the link that carries the arbors, and input link of the train."""
 
     name: str
-    """Name of the base: the frame or a carrier."""
+    """Name of the base, which is the frame or a carrier."""
     speed: Fraction
     """Speed of the base relative to the frame [turns per unit]."""
     source: str
-    """Link at which the train begins."""
+    """Name of the input link of the train."""
     driven: Fraction
-    """Speed of the link `source` relative to the base [turns per unit]."""
+    """Speed of the input link `source` relative to the base [turns per unit]."""
 
     @property
     def is_carrier(self) -> bool:
-        """True if the base is a carrier, which turns."""
+        """True if the base is a carrier; False if it is the frame."""
         return bool(self.speed)
 
     def seen(self, relative_to: str) -> Fraction:
-        """Return the speed of the base relative to a link, which is the base itself or the frame [turns per unit]."""
+        """Return the speed of the base relative to the link `relative_to`, which is the base itself or the frame [turns
+        per unit].
+        """
         return Fraction(0) if relative_to == self.name else self.speed
 
 
 def find_base(evidence: Train) -> BaseLink:
-    """Return the base of a reconstruction: the link that carries the arbors, and the link at which the train begins.
+    """Return the base of a reconstruction, which is the link that carries the arbors, and the input link of the train.
 
-    The evidence must be valid: `base_problems` must not yield any problem.
+    The evidence must be valid, that is, `base_problems` must not yield a problem.
     """
     inputs = evidence.case(None).inputs
     carrier = _carrier(evidence)
@@ -58,7 +62,7 @@ def find_base(evidence: Train) -> BaseLink:
 
 
 def base_problems(evidence: Train) -> Iterator[Problem]:
-    """Yield problems of evidence that leave the base or the input of the train undetermined or that are not
+    """Yield a problem for each declaration that leaves the base or the input of the train undetermined, or that is not
     supported.
     """
     carrier = _carrier(evidence)
@@ -156,7 +160,9 @@ def _carrier_wheel_problems(evidence: Train, carrier: str) -> Iterator[Problem]:
 
 
 def _carrier_arbor_problems(evidence: Train, carrier: str) -> Iterator[Problem]:
-    """Yield problems of arbors that turn neither on the carrier nor in the frame about the axis of the carrier."""
+    """Yield a problem for each arbor that turns neither on the carrier nor in the frame about the axis of the
+    carrier.
+    """
     axis = carrier_axis(evidence, carrier)
     for at, joint in enumerate(evidence.revolutes):
         place = evidence.place("revolutes", at)
@@ -174,7 +180,7 @@ def _carrier_arbor_problems(evidence: Train, carrier: str) -> Iterator[Problem]:
 
 
 def carrier_axis(evidence: Train, carrier: str) -> str | None:
-    """Return the label of the declared axis about which the carrier turns; None if it is not declared."""
+    """Return the label of the declared axis about which the carrier turns; None if the axis is not declared."""
     pair = {evidence.frame, carrier}
     return next((joint.axis for joint in evidence.revolutes if set(joint.pair) == pair), None)
 
@@ -202,13 +208,14 @@ def _carrier_geometry_problems(evidence: Train) -> Iterator[Problem]:
 
 
 Joined = Mapping[str, tuple[str, ...]]
-"""Links that each arbor of the problem represents, beginning with the link of the same name."""
+"""Links that form each arbor of the problem, keyed by arbor. The link with the name of the arbor comes first."""
 
 
 def joined_arbors(evidence: Train) -> Joined:
-    """Return the groups of links that given couplings connect to one arbor.
+    """Return the groups of links that declared couplings connect so that they form one arbor.
 
-    A group is named after the input link if the group contains it, otherwise after its first link with wheels.
+    A group is named after the input link if it contains this link. If it does not, the group is named after its first
+    link with wheels.
     """
     found = {}
     for links in joined_groups(evidence.links, (pair for pair, _ in _pairs(evidence))):
@@ -219,7 +226,7 @@ def joined_arbors(evidence: Train) -> Joined:
 
 
 def couplings_of(evidence: Train, links: Sequence[str]) -> Iterator[dict[str, Any]]:
-    """Yield the couplings whose pin is on one of the links, as plain data with the keys of a declaration."""
+    """Yield the couplings whose pin is on one of the links, in the format of a declaration."""
     requested = evidence.reconstruct
     for coupling in evidence.pin_couplings:
         if coupling.pin in links:
@@ -238,7 +245,7 @@ def _pairs(evidence: Train) -> Iterator[tuple[tuple[str, str], Loc]]:
 
 
 def join_arbors(problem: ReconstructionProblem, joined: Joined) -> ReconstructionProblem:
-    """Return the problem in which the links of each group are one arbor."""
+    """Return the problem in which the links of each group form one arbor."""
     if not joined:
         return problem
     names = {link: name for name, links in joined.items() for link in links}
@@ -264,7 +271,9 @@ def join_arbors(problem: ReconstructionProblem, joined: Joined) -> Reconstructio
 
 
 def coupling_problems(evidence: Train) -> Iterator[Problem]:
-    """Yield problems of given couplings that lock an arbor, close a loop, or cross a carrier."""
+    """Yield a problem for each declared coupling that locks an arbor, closes a loop, or connects links across a
+    carrier.
+    """
     assert evidence.reconstruct is not None, "no evidence"
     bearing = {evidence.frame, evidence.reconstruct.carrier}
     for at, coupling in enumerate(evidence.couplings):
@@ -298,7 +307,7 @@ def coupling_problems(evidence: Train) -> Iterator[Problem]:
 
 
 def _bearing_problems(evidence: Train, pair: tuple[str, str], place: str) -> Iterator[Problem]:
-    """Yield problems of joined arbors that do not turn on the base, which is the frame or the carrier."""
+    """Yield a problem for each joined link that does not turn on the base, which is the frame or the carrier."""
     assert evidence.reconstruct is not None, "no evidence"
     base = evidence.reconstruct.carrier or evidence.frame
     for link in pair:
@@ -322,9 +331,10 @@ def _bearing_problems(evidence: Train, pair: tuple[str, str], place: str) -> Ite
 
 
 def parted_problems(evidence: Train, problem: ReconstructionProblem, joined: Joined) -> Iterator[Problem]:
-    """Yield problems of joined links on different axes, because each axis would exclude other meshes.
+    """Yield a problem for joined links on different axes. Such links are not supported, because each axis would exclude
+    different meshes.
 
-    problem   problem in which the links are not yet joined
+    problem   reconstruction problem in which the links are not yet joined
     """
     for name, links in joined.items():
         places = {problem.geometry.places.get(link) for link in links}

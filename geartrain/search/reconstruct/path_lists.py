@@ -1,8 +1,8 @@
 """Enumeration of all paths from the input to one dial through surviving arbors and wheels.
 
-Most paths are impossible, because the speed of the dial divided by the ratio of the surviving wheels must be a quotient
-of few added tooth counts. Few paths remain, and the search for trains visits only branches in which every dial still
-has a path.
+Most paths are impossible, because the required speed of the dial divided by the speed that the surviving wheels give
+must be a quotient of a few added tooth counts. Few paths remain, and the search for trains visits only branches in
+which every dial still has a path.
 """
 
 from __future__ import annotations
@@ -36,14 +36,16 @@ from geartrain.search.reconstruct.train_topology import ADDED, ArborPass, arbor_
 
 
 _Fits = Bools
-"""Compatibility matrix of the passes of a path through two arbors, by their codes; code 0 if the path avoids the arbor.
+"""Compatibility matrix of the passes of a path through two arbors, indexed by the codes of the passes. Code 0 means
+that the path avoids the arbor.
 """
 
 
 def seen_clusters(problem: ReconstructionProblem) -> tuple[tuple[int, ...], ...]:
-    """Return the connected components of the arbors under the known meshes, as arbor indices; the input has index 0.
+    """Return the connected components that the known meshes form among the arbors, as tuples of arbor indices. The
+    input arbor has index 0.
 
-    Each arbor except the first of a component meshes with an earlier arbor.
+    Each arbor of a component except the first meshes with an earlier arbor of the component.
     """
     mates: dict[int, list[int]] = {}
     for first, _, second, _ in _meshes(problem):
@@ -60,18 +62,19 @@ def seen_clusters(problem: ReconstructionProblem) -> tuple[tuple[int, ...], ...]
 
 
 def _meshes(problem: ReconstructionProblem) -> Iterator[tuple[int, str, int, str]]:
-    """Yield each known mesh as (arbor index, wheel, arbor index, wheel), with index 0 for the input."""
+    """Yield each known mesh as (arbor index, wheel name, arbor index, wheel name). The input arbor has index 0."""
     owner = {wheel.name: at for at, arbor in enumerate((problem.input, *problem.arbors)) for wheel in arbor.wheels}
     for one, other in sorted(map(sorted, problem.meshes)):
         yield owner[one], one, owner[other], other
 
 
 class SeenMeshes:
-    """Compatibility of the passes (driven and driving wheels) of a path through different arbors, from the known
-    meshes.
+    """Compatibility of the passes of a path through different arbors according to the known meshes. A pass is the pair
+    of the driven and the driving wheel by which the path passes through an arbor.
 
-    passes   passes of each arbor, the input first
-    order    indices of the arbors; arbors of one component are adjacent, and components with many passes come first
+    passes   possible passes of each arbor, the input arbor first
+    order    indices of the arbors; arbors of one component are adjacent, and components with many passes come before
+             others
     """
 
     def __init__(self, problem: ReconstructionProblem, passes: Sequence[Sequence[ArborPass]]) -> None:
@@ -93,7 +96,9 @@ class SeenMeshes:
             self._fits[second].append((first, np.array(fits, dtype=bool)))
 
     def allowed(self, codes: NDArray[np.uint16], at: int, code: int) -> Bools | None:
-        """Return a mask of the paths that may take a given pass of one more arbor; None if all paths may."""
+        """Return a mask of the paths that may have the pass `code` of the arbor with index `at`; None if all paths may
+        have it.
+        """
         if not self._fits[at]:
             return None
         found = np.ones(len(codes), dtype=bool)
@@ -107,9 +112,10 @@ class SeenMeshes:
 def _are_compatible(
     mine: ArborPass | None, one: str, theirs: ArborPass | None, other: str, idlers: bool, below: bool
 ) -> bool:
-    """Return whether a path may have these passes of two arbors whose wheels `one` and `other` mesh.
+    """Return whether a path may contain the passes `mine` and `theirs` of two arbors whose wheels `one` and `other`
+    mesh. A pass is None if the path avoids the arbor.
 
-    below   True if the first arbor must drive the second
+    below   True if the arbor of wheel `one` must drive the arbor of wheel `other`
     """
     if mine is None or theirs is None:
         there, wheel = (mine, one) if theirs is None else (theirs, other)
@@ -128,34 +134,36 @@ def _is_named(wheel: PlacedWheel | None, name: str) -> bool:
 
 @dataclass(frozen=True)
 class PathGrowth:
-    """Partial paths through some of the arbors, one in each row of the arrays."""
+    """Partial paths through some of the arbors. Each row of the arrays represents one path."""
 
     codes: NDArray[np.uint16]
-    """Code of the pass (driven and driving wheel) on each arbor, from 1; 0 if the path avoids the arbor."""
+    """Code of the pass (pair of driven and driving wheel) of each path through each arbor, starting with 1; 0 if the
+    path avoids the arbor.
+    """
     ratio: Floats
-    """Speed of the end of the path without the added wheels, as a magnitude [turns per unit]."""
+    """Magnitude of the speed at the end of each path if the ratio of the added wheels is 1 [turns per unit]."""
     powers: NDArray[np.int8]
-    """Exponents of the large primes in the quotient of tooth counts that the added wheels must provide, shape (paths,
+    """Exponents of the large primes in the quotient of tooth counts required from the added wheels, shape (paths,
     primes).
     """
     drivers: NDArray[np.int8]
-    """Number of added driving wheels on surviving arbors."""
+    """Number of added driving wheels on the surviving arbors of each path."""
     driven: NDArray[np.int8]
-    """Number of added driven wheels on surviving arbors."""
+    """Number of added driven wheels on the surviving arbors of each path."""
     added: NDArray[np.int8]
-    """Number of added wheels, including idlers."""
+    """Number of added wheels on the surviving arbors of each path, including idlers."""
     idle: NDArray[np.int8]
-    """Number of surviving wheels on the arbors of the path that the path does not use."""
+    """Number of surviving wheels that are on the arbors of each path but are not used by the path."""
     need: NDArray[np.int8]
-    """Number of added wheels whose count must be divisible by a large prime, because no later arbor contains this
-    prime.
+    """Number of added wheels whose tooth counts must be divisible by a large prime, because no later arbor has a wheel
+    that contains this prime.
     """
     ended: Bools
-    """True if the path ends at one of the arbors."""
+    """True for each path that ends at one of the surviving arbors."""
 
     @staticmethod
     def start(arbors: int, speed: float, powers: NDArray[np.int8]) -> PathGrowth:
-        """Return the single path through no arbor, from which the enumeration starts."""
+        """Return a single path through no arbor, from which the enumeration starts."""
         none = np.zeros(1, dtype=np.int8)
         return PathGrowth(
             np.zeros((1, arbors), dtype=np.uint16),
@@ -166,17 +174,17 @@ class PathGrowth:
         )
 
     def columns(self) -> tuple[NDArray[Any], ...]:
-        """Return all arrays of the partial paths, each with one row per path."""
+        """Return all arrays of the partial paths. Each of them has one row for each path."""
         numbers = self.drivers, self.driven, self.added, self.idle, self.need
         return self.codes, self.ratio, self.powers, *numbers, self.ended
 
     @staticmethod
     def joined(parts: list[PathGrowth]) -> PathGrowth:
-        """Join the paths of several parts into one set of arrays."""
+        """Return the paths of several parts, joined into one set of arrays."""
         return PathGrowth(*map(np.concatenate, zip(*(part.columns() for part in parts), strict=True)))
 
     def kept(self, rows: Bools | np.bool_ | slice) -> PathGrowth:
-        """Return the selected paths, with the corresponding rows of all arrays."""
+        """Return the selected paths with the corresponding rows of all arrays."""
         return PathGrowth(*(column[rows] for column in self.columns()))
 
     def along(
@@ -187,11 +195,12 @@ class PathGrowth:
         powers: NDArray[np.int8],
         limits: tuple[int, int | None],
     ) -> PathGrowth:
-        """Return the paths that may take a pass of one more arbor, or avoid it, with updated `need`.
+        """Return the paths that may be extended by the pass `each` of one more arbor, or that may avoid the arbor if
+        `each` is None. The array `need` of these paths is updated.
 
-        closing   columns of large primes that no later arbor contains
-        lost      mask of the columns whose prime is larger than the maximum tooth count
-        limits    maximum number of added wheels, and of unused surviving wheels
+        closing   columns of the large primes that occur in no later arbor
+        lost      mask of the columns with a prime larger than the maximum tooth count
+        limits    maximum number of added wheels, and maximum number of unused surviving wheels (None for no limit)
         """
         wheels, debts = limits
         need = self.need.copy()
@@ -209,7 +218,9 @@ class PathGrowth:
         return replace(self, need=need).kept(good)
 
     def through(self, at: int, code: int, each: ArborPass, ratio: float, powers: NDArray[np.int8]) -> PathGrowth:
-        """Return the paths extended by a pass of one more arbor. Paths that have ended must already be excluded."""
+        """Return the paths extended by a pass of the arbor with index `at`. Paths that have ended must not be
+        included.
+        """
         codes = self.codes.copy()
         codes[:, at] = code
         return PathGrowth(
@@ -227,29 +238,30 @@ class PathGrowth:
 
 Rows = NDArray[np.int64]
 WayThrough = tuple[PlacedWheel | None, PlacedWheel | None]
-"""Driven and driving wheel by which a path passes through a surviving arbor, as in `ArborPass`."""
+"""Driven wheel and driving wheel of a path on a surviving arbor, as in `ArborPass`."""
 _MOST_PATHS = 1_000_000_000
-"""Maximum number of partial paths that are examined, which takes minutes."""
+"""Maximum number of partial paths that are examined. The examination of this number takes minutes."""
 _PIECE = 1 << 19
-"""Number of partial paths that are extended at once."""
+"""Number of partial paths that are extended together."""
 
 
 AddedArbors = tuple[int, int]
-"""Numbers of added arbors on a path: arbors with two wheels, and arbors with one wheel (idlers)."""
+"""Number of added arbors with two wheels, and number of added arbors with one wheel (idlers), on a path."""
 
 
 class PathList:
-    """Possible paths to a dial, one per row of the arrays.
+    """Possible paths to a dial. Each row of the arrays represents one path.
 
-    along   only permitted pass of some surviving arbors, with all other arbors excluded; None for all paths
+    along   the only permitted pass of each surviving arbor in the mapping, where all other arbors are excluded; None
+            for all paths
 
-    codes                code of the pass of each arbor, the input first: 1 + index in `passes`, 0 if avoided; shape
-                         (rows, arbors)
-    arbors               bit mask of the surviving arbors on the path, bit i - 1 for arbor i
-    ends_new             True if the arbor of the dial is added
-    compounds, idlers    numbers of added arbors before the last
-    wheels, new          numbers of added wheels and of added arbors
-    bounds               minimum and maximum quotient of the added wheels, up to rounding
+    codes                code of the pass of each arbor, the input arbor first: 1 + index in `passes`, or 0 if the path
+                         avoids the arbor; shape (rows, arbors)
+    arbors               bit mask of the surviving arbors on the path, with bit i - 1 for arbor i
+    ends_new             True if the arbor that carries the pointer is added
+    compounds, idlers    numbers of added arbors with two wheels and with one wheel; an added last arbor is not counted
+    wheels, new          number of added wheels, and number of added arbors
+    bounds               minimum and maximum quotient of the tooth counts of the added wheels, up to rounding errors
     """
 
     def __init__(
@@ -293,7 +305,9 @@ class PathList:
     # extension by one arbor at a time
 
     def _possible_paths(self, plans: tuple[AddedArbors, ...]) -> tuple[PathGrowth, Bools]:
-        """Return the complete paths, and a matrix of the plans of added arbors that are possible for each path."""
+        """Return the complete paths, and a Boolean matrix that is True for the plans of added arbors that are possible
+        with each path.
+        """
         growth = PathGrowth.start(len(self.passes), float(abs(self.problem.input_speed)), self._powers(self._wanted))
         self._examined = 0
         found = []
@@ -309,7 +323,7 @@ class PathList:
         return PathGrowth.joined([piece for piece, _ in found]), np.concatenate([possible for _, possible in found])
 
     def _grown(self, growth: PathGrowth, order: tuple[int, ...]) -> Iterator[PathGrowth]:
-        """Yield the paths extended through further arbors, in blocks that fit into memory."""
+        """Yield the paths extended by the arbors in `order`, in blocks that fit into memory."""
         if not order:
             yield growth
             return
@@ -322,7 +336,9 @@ class PathList:
             yield from self._grown(growth.kept(slice(start, start + _PIECE)), order[1:])
 
     def _with_arbor(self, growth: PathGrowth, at: int, closing: Sequence[int]) -> PathGrowth:
-        """Return the paths extended by one arbor or avoiding it. No later arbor contains the primes in `closing`."""
+        """Return the paths extended through the arbor with index `at`, and the paths that avoid it. `closing` contains
+        the columns of primes that occur in no later arbor.
+        """
         # wheels unused on this path must be used on paths to the other dials
         debts = len(self.problem.dials) - 1 if self.problem.use == "wheels" else None
         limits = self.problem.additions.wheels, debts
@@ -345,14 +361,16 @@ class PathList:
         return PathGrowth.joined(parts) if parts else growth.kept(np.zeros(len(growth.codes), dtype=bool))
 
     def _is_listed(self, at: int, each: ArborPass | None) -> bool:
-        """Return whether `along` permits a pass of an arbor; the pass is None if the path avoids the arbor."""
+        """Return whether `along` permits the pass `each` of the arbor with index `at`. The pass is None if the path
+        avoids the arbor.
+        """
         if self._along is None:
             return True
         arbor = (self.problem.input, *self.problem.arbors)[at]
         return self._along.get(arbor.name) == (None if each is None else (each.driven, each.driver))
 
     def _step(self, each: ArborPass) -> tuple[float, NDArray[np.int8]]:
-        """Return the speed ratio of a pass, and its changes of the powers of large primes."""
+        """Return the speed ratio of a pass, and the change of the exponents of the large primes due to the pass."""
         if each.idler:
             return 1.0, np.zeros(len(self.primes), dtype=np.int8)
         ratio = Fraction(_known_count(each.driver), _known_count(each.driven))
@@ -362,7 +380,9 @@ class PathList:
 
     @cached_property
     def primes(self) -> tuple[int, ...]:
-        """Large primes, at most one of which divides the count of an added wheel; empty if the dial has a tolerance."""
+        """Large primes. The tooth count of an added wheel contains at most one of them, and only once. Empty if the
+        dial has a tolerance.
+        """
         if not self.dial.is_exact:
             return ()
         minimum = self.problem.additions.maximum
@@ -384,13 +404,13 @@ class PathList:
 
     @cached_property
     def _lost(self) -> Bools:
-        """Mask of the primes that are larger than the maximum tooth count."""
+        """Mask of the large primes that are larger than the maximum tooth count of an added wheel."""
         return np.array([prime > self.problem.additions.maximum for prime in self.primes], dtype=bool)
 
     @cached_property
     def _wanted(self) -> Fraction:
-        """Magnitude of the speed of the dial divided by the speed of the input; the minimum if the dial has a
-        tolerance.
+        """Magnitude of the speed of the dial divided by the speed of the input. If the dial has a tolerance, its
+        minimum speed is used.
         """
         minimum = self.dial.minimum
         return abs(minimum / self.problem.input_speed) if minimum else Fraction(1)
@@ -398,7 +418,9 @@ class PathList:
     # added arbors on a path
 
     def _possible(self, growth: PathGrowth, plans: tuple[AddedArbors, ...]) -> Bools:
-        """Return a boolean matrix, shape (paths, plans): True if a path is possible with a plan of added arbors."""
+        """Return, for each path and each plan of added arbors, whether the path is possible with the plan, shape
+        (paths, plans).
+        """
         new = ~growth.ended
         found = np.zeros((len(growth.codes), len(plans)), dtype=bool)
         for at, (compounds, idlers) in enumerate(plans):
@@ -413,7 +435,9 @@ class PathList:
         return found
 
     def _ring_meshes(self, codes: NDArray[np.uint16]) -> NDArray[np.int64]:
-        """Return the number of meshes with a ring on each path. They do not reverse the sense of rotation."""
+        """Return, for each path, the number of meshes with a ring. These meshes do not reverse the sense of
+        rotation.
+        """
         found = np.zeros(len(codes), dtype=np.int64)
         if self.problem.rings:
             for at, passes in enumerate(self.passes):
@@ -421,12 +445,14 @@ class PathList:
         return found
 
     def _may_turn(self, turned: bool) -> bool:
-        """Return whether the dial may turn opposite to the input (`turned`), or in the same sense."""
+        """Return whether the dial may turn in the sense opposite to the input (if `turned` is True) or in the sense of
+        the input (if it is False).
+        """
         return self._magnitudes(turned)[1] > 0
 
     def _magnitudes(self, turned: bool) -> tuple[Fraction, Fraction]:
-        """Return the minimum and maximum speed magnitude of the dial in one sense; the maximum is 0 if the sense is
-        excluded.
+        """Return the minimum and the maximum magnitude of the speed of the dial for one sense of rotation. The maximum
+        is 0 if this sense is excluded.
         """
         low, high = self.dial.minimum, self.dial.maximum
         if self.dial.signed and (self.problem.input_speed > 0) == turned:
@@ -451,11 +477,13 @@ class PathList:
         return minimum / ratio, np.where(turned, float(turned_high), float(high)) / ratio
 
     def _turned(self, codes: NDArray[np.uint16], new: NDArray[np.int64]) -> Bools:
-        """Return for each path whether the dial turns opposite to the input, for given numbers of added arbors."""
+        """Return, for each path, whether the dial turns in the sense opposite to the input. `new` contains the number
+        of added arbors of each path.
+        """
         return np.asarray(((codes[:, 1:] > 0).sum(axis=1) + new - self._ring_meshes(codes)) % 2 == 1)
 
     def wanted_quotients(self, row: int) -> tuple[Fraction, Fraction]:
-        """Return the minimum and maximum quotient of the added wheels on a path."""
+        """Return the minimum and the maximum required quotient of the added wheels on the path in a given row."""
         taken = [passes[code - 1] for passes, code in zip(self.passes, self.codes[row], strict=True) if code]
         ratios = (Fraction(_known_count(each.driver), _known_count(each.driven)) for each in taken if not each.idler)
         known = prod(ratios, start=abs(self.problem.input_speed))
@@ -471,6 +499,6 @@ def _plans(wheels: int, idlers: bool) -> Iterator[AddedArbors]:
 
 
 def _known_count(wheel: object) -> int:
-    """Return the tooth count of a surviving wheel; 1 for an added wheel and for None."""
+    """Return the tooth count of a surviving wheel. Return 1 for an added wheel and for None."""
     teeth = getattr(wheel, "teeth", 1)
     return teeth if wheel is not None and wheel != ADDED else 1

@@ -1,7 +1,8 @@
-"""Recursive enumeration of all topologies that have one given path for each dial, each topology once.
+"""Recursive enumeration of all topologies that have one given path for each dial. Each topology occurs once.
 
-Surviving arbors that two paths share are above their branching. The remaining choices are the number of added arbors on
-each chain, the added arbors at which paths separate, and the shared added driving wheels.
+Surviving arbors that are common to two paths precede the branching at which the paths separate. The remaining choices
+are the number of added arbors on each chain, the added arbors at which paths separate, and the added driving wheels
+that are common to several paths.
 """
 
 from __future__ import annotations
@@ -24,15 +25,16 @@ from geartrain.search.reconstruct.train_topology import ADDED, ArborPass, Branch
 HERE = "="
 IDLER = "~"
 BESIDE = "+"
-"""Exits by which a path can leave an arbor other than surviving wheels: its own dial, its driven wheel, an added wheel.
+"""Exits by which a path can leave an arbor, other than surviving driving wheels: the dial on the arbor, the driven
+wheel (as an idler), or an added wheel.
 """
 
 Block = tuple[str, Dials]
-"""Exit of an arbor, and the dials to which it leads."""
+"""Exit of an arbor, and the dials to which this exit leads."""
 
 
 def exit_of(each: ArborPass) -> str:
-    """Return the exit by which a path leaves an arbor."""
+    """Return the exit by which a path with the pass `each` leaves the arbor."""
     if each.driver is None:
         return HERE
     if each.idler:
@@ -43,13 +45,14 @@ def exit_of(each: ArborPass) -> str:
 def dial_partitions(
     dials: Dials, ways: Mapping[str, tuple[str, ...]], arbors: Mapping[str, int]
 ) -> Iterator[tuple[Dials, tuple[Block, ...]]]:
-    """Yield each partition of dials into the dials whose pointers an arbor carries and, for each of its wheels, the
-    dials to which the wheel leads.
+    """Yield each partition of dials into the dials whose pointers an arbor carries and, for each wheel of the arbor,
+    the dials to which this wheel leads.
 
-    Dials whose paths leave by added wheels are partitioned into blocks, with one added wheel for each block.
+    Dials whose paths leave the arbor by added wheels are partitioned into blocks, with one added wheel for each block.
 
     ways     exits by which the path to each dial may leave the arbor
-    arbors   bit mask of the surviving arbors on the path to each dial; dials with a common arbor stay in one block
+    arbors   bit mask of the surviving arbors on the path to each dial; dials whose paths have a common arbor are in the
+             same block
     """
     for chosen in product(*(ways[dial] for dial in dials)):
         by_way: dict[str, list[str]] = {}
@@ -61,7 +64,9 @@ def dial_partitions(
 
 
 def partitions(dials: Dials, arbors: Mapping[str, int]) -> Iterator[tuple[Dials, ...]]:
-    """Yield each partition of dials into blocks without common surviving arbors, the first dial in the first block."""
+    """Yield each partition of dials into blocks such that the paths of different blocks have no common surviving arbor.
+    The first dial is in the first block.
+    """
     place = {dial: at for at, dial in enumerate(dials)}
     for blocks in _set_partitions(_connected_dials(dials, arbors)):
         yield tuple(
@@ -70,7 +75,9 @@ def partitions(dials: Dials, arbors: Mapping[str, int]) -> Iterator[tuple[Dials,
 
 
 def _connected_dials(dials: Dials, arbors: Mapping[str, int]) -> tuple[Dials, ...]:
-    """Return the connected components of dials, where dials with a common surviving arbor are connected."""
+    """Return the connected components of dials. Two dials are connected if their paths have a common surviving
+    arbor.
+    """
     joined = (pair for pair in combinations(dials, 2) if arbors[pair[0]] & arbors[pair[1]])
     return tuple(map(tuple, joined_groups(dials, joined)))
 
@@ -92,38 +99,40 @@ _ENDLESS = 1 << 20  # number of added arbors if it is not limited
 
 
 class DialPath(NamedTuple):
-    """Part of the path to a dial that is not yet in the tree."""
+    """Part of the path to a dial that is not yet represented in the tree."""
 
     arbors: int
-    """Bit mask of the surviving arbors on this part of the path."""
+    """Bit mask of the surviving arbors on the remaining part of the path."""
     passes: Mapping[int, ArborPass]
-    """Driven and driving wheel of the path on each surviving arbor, by the index of the arbor; index 0 is the input."""
+    """Driven and driving wheel of the path on each surviving arbor, keyed by the index of the arbor. Index 0 is the
+    input arbor.
+    """
     compounds: int
     """Number of added arbors with two wheels before the last arbor."""
     idlers: int
-    """Number of added arbors with an idler before the last arbor."""
+    """Number of added arbors with one wheel (idlers) before the last arbor."""
     wheels: int
-    """Number of added wheels on this part of the path."""
+    """Number of added wheels on the remaining part of the path."""
     ends_new: bool
-    """True if the last arbor is added."""
+    """True if the last arbor of the path is an added arbor."""
 
     @property
     def is_at_end(self) -> bool:
-        """True if no arbor is left except possibly an added last arbor."""
+        """True if no arbor is left on the remaining part of the path, except possibly an added last arbor."""
         return not (self.arbors or self.compounds or self.idlers)
 
     @property
     def new(self) -> int:
-        """Number of added arbors on this part of the path."""
+        """Number of added arbors on the remaining part of the path."""
         return self.compounds + self.idlers + self.ends_new
 
 
 Paths = dict[str, DialPath]
-"""Path to each dial, sorted by the name of the dial."""
+"""Path to each dial, keyed by the name of the dial in sorted order."""
 
 
 class _Budget(NamedTuple):
-    """Number of added wheels still to be used, and number of added arbors still permitted."""
+    """Number of added wheels that remain to be placed, and number of added arbors that are still permitted."""
 
     wheels: int
     new: int
@@ -139,7 +148,7 @@ class _Budget(NamedTuple):
 class PathTrees:
     """Enumeration of the topologies that have one given path for each dial.
 
-    lists   list of the paths to each dial, sorted by the name of the dial
+    lists   list of the possible paths to each dial, keyed by the name of the dial in sorted order
     """
 
     def __init__(self, problem: ReconstructionProblem, lists: Mapping[str, PathList]) -> None:
@@ -148,14 +157,16 @@ class PathTrees:
         self._new = _ENDLESS if problem.additions.arbors is None else problem.additions.arbors
 
     def topologies(self, choice: Mapping[str, int], added: int) -> Iterator[Topology]:
-        """Yield all topologies with exactly `added` added wheels and the chosen rows of the path lists."""
+        """Yield all topologies that have exactly `added` added wheels and, for each dial, the path in the chosen row of
+        its list.
+        """
         roots = self.roots({dial: self._path(dial, choice[dial]) for dial in self.lists}, added)
         if roots:
             wanted = tuple((dial, self.lists[dial].wanted_quotients(choice[dial])) for dial in self.lists)
             yield from (Topology(root, wanted) for root in roots)
 
     def roots(self, paths: Paths, added: int) -> list[Branching]:
-        """Return the input arbor of each tree that has these paths and exactly `added` added wheels."""
+        """Return the input arbor of each tree that has the given paths and exactly `added` added wheels."""
         return [root for root, left in self._branching(0, paths, _Budget(added, self._new)) if not left.wheels]
 
     def _path(self, dial: str, row: int) -> DialPath:
@@ -169,13 +180,17 @@ class PathTrees:
     # subtrees of a driving wheel
 
     def _forest(self, paths: Paths, left: _Budget, minimum: int = 1) -> Iterator[tuple[tuple[Chain, ...], _Budget]]:
-        """Yield sets of chains that lead to some dials. Dials with a common surviving arbor share a chain."""
+        """Yield each set of chains that lead to the dials of the given paths. Dials whose paths have a common surviving
+        arbor share a chain.
+        """
         for blocks in partitions(tuple(paths), _own_arbors(paths)):
             if len(blocks) >= minimum:
                 yield from self._chains([_restricted(paths, block) for block in blocks], left)
 
     def _chains(self, blocks: Sequence[Paths], left: _Budget) -> Iterator[tuple[tuple[Chain, ...], _Budget]]:
-        """Yield one chain for each block of dials, reserving the added wheels that later blocks need."""
+        """Yield each set of chains with one chain for each block of dials. The added wheels required by later blocks
+        are reserved.
+        """
         if not blocks:
             yield (), left
             return
@@ -211,11 +226,11 @@ class PathTrees:
                     yield from _with_ends(trunk, self._branching(last, below, after))
 
     def _trunks(self, paths: Paths, through: tuple[int, ...], left: _Budget) -> Iterator[tuple[Chain, _Budget, Paths]]:
-        """Yield each chain of given surviving arbors and some added arbors that all paths can share, without the end of
-        the chain.
+        """Yield each chain that consists of the surviving arbors `through` and of added arbors that all paths can
+        share. The end of the chain is not yet determined.
 
-        The second entry is the number of wheels and arbors that may still be added, and the third is the rest of each
-        path.
+        The second item is the remaining budget of added wheels and arbors, and the third item is the remaining part of
+        each path.
         """
         passes = paths_first(paths).passes
         named = tuple((self.names[at], passes[at]) for at in through)
@@ -238,9 +253,10 @@ class PathTrees:
                 yield Chain(tuple(paths), named, compounds, idlers, ()), after, below
 
     def _common(self, paths: Paths) -> tuple[tuple[int, ...], int | None] | None:
-        """Return the surviving arbors that all paths pass in the same way, and the arbor at which they separate.
+        """Return the indices of the surviving arbors through which all paths have the same pass, and the index of the
+        surviving arbor at which the paths separate or end.
 
-        The second entry is None if there is no such arbor. The result is None if paths separate at more than one arbor.
+        The index is None if there is no such arbor. The result is None if there is more than one such arbor.
         """
         through, ends = [], []
         for at in _arbors(reduce(and_, (path.arbors for path in paths.values()))):
@@ -268,7 +284,9 @@ class PathTrees:
     # arbors at which paths end or separate
 
     def _branching(self, at: int, paths: Paths, left: _Budget) -> Iterator[tuple[Branching, _Budget]]:
-        """Yield branchings at a surviving arbor that carries pointers or has several exits, or at the input arbor."""
+        """Yield each branching at the surviving arbor with index `at`, and the remaining budget. Such an arbor carries
+        pointers, or has several exits, or is the input arbor.
+        """
         first = paths_first(paths).passes[at]
         ways = {dial: (exit_of(path.passes[at]),) for dial, path in paths.items()}
         paid = int(first.driven == ADDED)
@@ -288,7 +306,9 @@ class PathTrees:
                 )
 
     def _new_branching(self, paths: Paths, left: _Budget) -> Iterator[tuple[Branching, _Budget]]:
-        """Yield branchings at an added arbor that carries pointers or has several exits."""
+        """Yield each branching at an added arbor that carries pointers or has several exits, and the remaining
+        budget.
+        """
         ways = {dial: tuple(_ways_from_added(path)) for dial, path in paths.items()}
         after = left.without(1, 1)
         if not after.is_possible or not all(ways.values()):
@@ -319,7 +339,7 @@ class PathTrees:
         paths: Paths,
         left: _Budget,
     ) -> Iterator[tuple[Branching, _Budget]]:
-        """Yield a branching with each set of chains that its wheels can drive."""
+        """Yield a branching for each set of chains that its wheels can drive, and the remaining budget."""
         if not _are_disjoint([dials for _, dials in blocks], paths):
             return
         after = left.without(sum(way == BESIDE for way, _ in blocks))
@@ -343,7 +363,7 @@ class PathTrees:
 
 
 def paths_first(paths: Paths) -> DialPath:
-    """Return any one of the paths, from which properties that all paths share can be read."""
+    """Return one of the paths. It is used to read properties that are common to all paths."""
     return next(iter(paths.values()))
 
 
@@ -356,7 +376,7 @@ def _own_arbors(paths: Paths) -> dict[str, int]:
 
 
 def _needed_wheels(paths: Paths) -> int:
-    """Return the minimum number of added wheels of a tree with these paths."""
+    """Return a lower bound of the number of added wheels in a tree with the given paths."""
     return max(path.wheels for path in paths.values())
 
 
@@ -382,7 +402,7 @@ def _ways_from_added(path: DialPath) -> Iterator[str]:
 
 
 def _arbors(bits: int) -> Iterator[int]:
-    """Yield the indices, from 1, of the arbors whose bits are set in a bit mask."""
+    """Yield the indices, starting with 1, of the arbors whose bits are set in a bit mask."""
     at = 1
     while bits:
         if bits & 1:

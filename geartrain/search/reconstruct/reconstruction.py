@@ -1,4 +1,6 @@
-"""Complete reconstruction in one call, from declared evidence or from a train without some of its arbors."""
+"""Complete reconstruction by one function call, from declared evidence or from a train some of whose arbors are treated
+as lost.
+"""
 
 from __future__ import annotations
 
@@ -36,7 +38,7 @@ from geartrain.train import Train
 
 _MOST_LISTED = 1_000_000  # list of all trains, `best` None
 _MINIMUM_COMPARED = 2000
-"""Minimum number of candidates whose meshes and counts are compared, even if fewer are listed."""
+"""Minimum number of candidates whose meshes and tooth counts are compared, even if fewer candidates are listed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,66 +51,68 @@ class ReconstructionRequest(Shown):
     """
 
     evidence: Train
-    """Declaration with the block `reconstruct`, or a complete train if `lost` is given."""
+    """Declaration with the block `reconstruct`; if `lost` is given, the declaration of a complete train."""
     lost: tuple[str, ...] = ()
-    """Arbors of the train that are treated as lost."""
+    """Names of the arbors of the train that are treated as lost."""
     source: str | None = None
-    """Link at which the reconstructed part of the train begins, used with `lost`; by default the start of the first
-    part that contains the lost arbors.
+    """Link at which the reconstructed part of the train begins, used with `lost`. If None, this is the first link of
+    the first part that contains the lost arbors.
     """
     seen: bool = False
-    """True if the meshes of surviving wheels are known, and no more arbors are added than are lost; used with `lost`.
+    """True if the meshes of surviving wheels are known, and no more arbors may be added than are lost. Used with
+    `lost`.
     """
     wheels: int | None = None
-    """Maximum number of added wheels; by default the number in the evidence."""
+    """Maximum number of added wheels. If None, the number in the evidence is used."""
     idlers: bool = False
-    """True if a driven wheel may also drive (an idler)."""
+    """True to allow that a driven wheel also drives (an idler)."""
     best: int | None = 20
-    """Number of trains to list; None lists all of them."""
+    """Maximum number of trains to list; None to list all of them."""
     counts_only: bool = False
-    """True to count trains without listing them."""
+    """True to count the trains without listing them."""
     prior_of: Literal["solution", "class"] = "solution"
-    """Unit of the uniform prior: the same weight for every train, or for every equivalence class of trains with equal
-    ratios.
+    """Unit of the uniform prior: the same weight for every train ("solution"), or the same weight for every equivalence
+    class of trains with equal ratios ("class").
     """
     assumptions: bool = False
-    """True to recount the trains with each hard constraint of the evidence dropped in turn."""
+    """True to count the trains again without each hard constraint of the evidence, one constraint at a time."""
     known: tuple[Train, ...] = ()
     """Known trains whose ranks among the explanations are computed."""
     same: Mapping[str, str] = field(default_factory=dict)
-    """Name in the evidence of each wheel or output that a known train names differently, by its name in the known
-    train.
+    """Name in the evidence of each wheel or output that has a different name in a known train, keyed by its name in the
+    known train.
     """
 
 
 class ReconstructionRun:
-    """Callbacks and executors of the long parts of a reconstruction.
+    """Callbacks and executors for the long parts of a reconstruction.
 
-    The default runs every part in this process and to its end. The command overrides the methods to show progress, to
-    write journals, and to let the user interrupt a part.
+    By default, every part is executed in this process without interruption. The command overrides the methods to show
+    progress, to write journals, and to let the user interrupt a part.
     """
 
     def begin(self, problem: ReconstructionProblem) -> None:
-        """Receive the problem before the search begins."""
+        """Handle the start of the search. `problem` is the reconstruction problem that is searched."""
 
     def search(self, problem: ReconstructionProblem) -> AbstractContextManager[Execution]:
         """Return a context manager that provides the executor of the search."""
         return nullcontext(Execution())
 
     def searched(self, complete: bool) -> None:
-        """Receive the notification that the search has ended, and whether it is complete."""
+        """Handle the end of the search. `complete` is True if the search covered all candidates."""
 
     def part(self, what: str) -> AbstractContextManager[Execution]:
         """Return a context manager that provides the executor for another part of the work.
 
-        If the manager suppresses an interruption, the rest of the part is omitted from the answer.
+        If the context manager suppresses an interruption, the results of this part that are not yet computed are
+        missing in the answer.
         """
         return nullcontext(Execution())
 
 
 @dataclass(frozen=True, slots=True)
 class RankedTrain(Result):
-    """Train that explains the evidence, in the list of the best trains.
+    """Train in the list of the best trains that explain the evidence.
 
     See Also
     --------
@@ -118,24 +122,24 @@ class RankedTrain(Result):
     KEYS = ("rank", "ranks", "added", Key("weight", to=float), "wheels", "doubtful", "meshes")
 
     rank: int
-    """Position in the list, from 1."""
+    """Position of the train in the list, starting with 1."""
     ranks: tuple[int, int]
-    """First and last rank by probability, which differ if several trains are equally probable."""
+    """First and last rank of the train by probability. They differ if several trains are equally probable."""
     added: int
-    """Number of added wheels."""
+    """Number of added wheels in the train."""
     weight: float
     """Posterior probability of the train, 0 to 1."""
     wheels: dict[str, int]
-    """Tooth count of each added wheel."""
+    """Tooth count of each added wheel, keyed by wheel."""
     doubtful: dict[str, int]
-    """Tooth count that this train gives to each surviving wheel with an uncertain tooth count."""
+    """Tooth count in this train of each surviving wheel with an uncertain tooth count, keyed by wheel."""
     meshes: tuple[str, ...]
-    """All meshes of the train, each as "driving > driven"."""
+    """All meshes of the train, each in the format "driving > driven"."""
 
 
 @dataclass(frozen=True, slots=True)
 class ReconstructionAnswer(Result):
-    """Result of `reconstruct`: numbers of trains, best trains, their common facts, and ranks of known trains.
+    """Result of `reconstruct`: numbers of trains, best trains, facts common to the trains, and ranks of known trains.
 
     See Also
     --------
@@ -157,7 +161,7 @@ class ReconstructionAnswer(Result):
     )
 
     name: str
-    """Name of the evidence."""
+    """Name of the declared evidence."""
     problem: ReconstructionProblem
     """Reconstruction problem that was searched."""
     counts: tuple[ExplanationCount, ...]
@@ -165,23 +169,25 @@ class ReconstructionAnswer(Result):
     complete: bool
     """True if the search covered all candidates."""
     unused: tuple[str, ...]
-    """Declared evidence that the search does not use, one line for each fact."""
+    """Descriptions of declared facts that the search does not use, one line for each."""
     best: tuple[RankedTrain, ...]
-    """Best explanations in descending order of probability, at most the requested number."""
+    """Best explanations in descending order of probability. Their number is at most the requested number."""
     original: tuple[int, int] | None = None
-    """First and last rank of the original train by probability, if its arbors were treated as lost; None
-    otherwise, or if the train is not listed.
+    """First and last rank of the original train by probability, if arbors of it were treated as lost. None if no arbors
+    were treated as lost, or if the train is not listed.
     """
     findings: CandidateFindings = NO_FINDINGS
-    """Facts derived from the explanations: common facts, most informative facts, family tree."""
+    """Facts derived from the explanations: common facts, most informative facts, and the family tree."""
     base: BaseLink | None = None
-    """Link that carries the arbors: the frame or a carrier."""
+    """Base of the train, which is the link that carries the arbors (the frame or a carrier), and input link of the
+    train.
+    """
     joined: Joined = field(default_factory=dict)
-    """Links that form one arbor because given couplings connect them, by the name of the arbor."""
+    """Links that form one arbor because declared couplings connect them, keyed by the name of the arbor."""
     known: tuple[KnownRank, ...] = ()
-    """Ranks of the known trains, or the rules that they break."""
+    """Ranks of the known trains, or the rules that these trains break."""
     evidence: Train | None = None
-    """Evidence of the problem; if arbors of a train are treated as lost, the evidence that remains."""
+    """Evidence of the problem. If arbors of a train are treated as lost, this is the evidence that remains."""
     candidates: tuple[Candidate, ...] = ()
     """Candidate reconstructions, in the order of `best`."""
 
@@ -192,22 +198,24 @@ class ReconstructionAnswer(Result):
 
     @property
     def requested(self) -> RequestedQuestion:
-        """Size of the reconstruction problem: numbers of surviving parts, pointers and added wheels."""
+        """Size of the reconstruction problem: numbers of surviving arbors and wheels, of pointers, and of added
+        wheels.
+        """
         return RequestedQuestion.of(self.problem)
 
     @property
     def total(self) -> int:
-        """Number of explanations, summed over all numbers of added wheels."""
+        """Total number of explanations over all numbers of added wheels."""
         return sum(count.solutions for count in self.counts)
 
 
 def reconstruct(request: ReconstructionRequest, run: ReconstructionRun | None = None) -> ReconstructionAnswer:
-    """Find and count all trains that explain the evidence, and list the most probable.
+    """Find and count all trains that explain the evidence, and list the most probable trains.
 
     Parameters
     ----------
     request : ReconstructionRequest
-        Evidence, limits and options.
+        Evidence, limits and options of the search.
     run : ReconstructionRun, optional
         Executors of the long stages. By default the stages run one after the other in this process.
 
@@ -218,7 +226,7 @@ def reconstruct(request: ReconstructionRequest, run: ReconstructionRun | None = 
     Raises
     ------
     QuestionError
-        If the evidence does not support the request, or the search would be too long.
+        If the evidence does not support the request, or if the search would take too long.
 
     Examples
     --------
@@ -259,13 +267,15 @@ def reconstruct(request: ReconstructionRequest, run: ReconstructionRun | None = 
 
 
 def _lost_train(request: ReconstructionRequest) -> tuple[Train, Arbor]:
-    """Return the evidence that remains of a train without its lost arbors, and the train as a candidate."""
+    """Return the evidence that remains of a train after the loss of some arbors, and the complete train as a
+    candidate.
+    """
     tree = find_spur_tree(request.evidence, request.lost, request.source)
     return lost_evidence(tree, request.lost, request.seen), tree.arbor(lost_arbors(tree, request.lost))
 
 
 def _check_known(request: ReconstructionRequest, question: EvidenceQuestion) -> None:
-    """Raise `QuestionError` for known trains that cannot be ranked. This is done before the search."""
+    """Raise `QuestionError` if a known train cannot be ranked. This is checked before the search."""
     if request.known and question.base.is_carrier:
         what = "known trains cannot be ranked if arbors turn on a carrier"
         raise QuestionError(Problem(what, "ranking supports only trains with fixed axes", "omit --rank"))
@@ -275,7 +285,9 @@ def _check_known(request: ReconstructionRequest, question: EvidenceQuestion) -> 
 
 
 def _without_facts(problem: ReconstructionProblem, run: ReconstructionRun) -> tuple[ChangedCount, ...]:
-    """Return the counts without each hard constraint; after an interruption, only the counts that are complete."""
+    """Return the number of trains without each hard constraint. After an interruption, only completed results are
+    returned.
+    """
     counted: list[ChangedCount] = []
     with run.part("assumptions") as execution:
         for each in changed_counts(without_each_fact(problem), execution):
@@ -291,9 +303,10 @@ def _findings(
     counts_only: bool,
     run: ReconstructionRun,
 ) -> CandidateFindings:
-    """Return the facts derived from the candidates, or the reasons why no train explains the evidence.
+    """Return the facts derived from the candidates or, if there are none, the reasons why no train explains the
+    evidence.
 
-    With `counts_only` the result has only the counts without each hard constraint.
+    If `counts_only` is True, the result contains only the numbers of trains without each hard constraint.
     """
     if counts_only:
         return CandidateFindings(assumptions=dropped)

@@ -1,4 +1,5 @@
-"""Problem of a reconstruction: surviving arbors with wheels and sizes, dials with speeds, limits of additions.
+"""Reconstruction problem: surviving arbors with wheels and measured sizes, dials with speeds, and limits on added
+parts.
 
 Speeds are exact and signed [turns per unit of the input]. The input arbor turns at `input_speed`. Lengths are exact, in
 millimetres. All axes are parallel, so the position of an arbor is a point in the plan.
@@ -28,10 +29,10 @@ Size = tuple[str | None, int]
 """Name of a wheel (None for an added wheel) and its tooth count."""
 
 NEW = "new"
-"""Value of `SearchedDial.place` for a dial whose arbor does not survive."""
+"""Value of `SearchedDial.place` for a dial whose pointer is on an arbor that does not survive."""
 UNMEASURED_SPREADS = 3
-"""Maximum relative difference between the modules of a measured wheel and an unmeasured mate, in units of the standard
-deviation `module`.
+"""Maximum relative difference between the modules of a measured wheel and of an unmeasured mate, as a multiple of the
+standard deviation `module`.
 """
 _MOST_UNCERTAINTIES = 3  # wheels that a message names
 
@@ -43,12 +44,12 @@ class MeasuredWheel:
     name: str
     is_module: bool
     length: Fraction
-    """Module or pitch radius [mm]."""
+    """Measured module or pitch radius [mm]."""
 
 
 @dataclass(frozen=True)
 class PlacedArbor:
-    """Surviving arbor with a known position of its axis [mm]."""
+    """Surviving arbor with a known position of its axis in the plan [mm]."""
 
     name: str
     place: Place
@@ -56,47 +57,55 @@ class PlacedArbor:
 
 @dataclass(frozen=True)
 class SurvivingGeometry:
-    """Measured modules, radii and positions of axes, with the standard deviations of their misfits."""
+    """Measured modules, radii and axis positions, with the standard deviations of their misfits."""
 
     wheels: tuple[MeasuredWheel, ...] = ()
     arbors: tuple[PlacedArbor, ...] = ()
     module: Fraction = Fraction(43, 1000)
-    """Standard deviation of the logarithm of the ratio of the modules of two meshing wheels."""
+    """Standard deviation of the natural logarithm of the ratio of the modules of two meshing wheels."""
     distance: Fraction = Fraction(3, 100)
-    """Standard deviation of the logarithm of the sum of two pitch radii divided by the distance between the axes."""
+    """Standard deviation of the natural logarithm of the sum of two pitch radii divided by the distance between the
+    axes.
+    """
     reach: Fraction | None = None
-    """Maximum possible difference between the sum of pitch radii and the axis distance [mm]; None if unlimited."""
+    """Maximum difference between the sum of the pitch radii of two meshing wheels and the distance of their axes [mm];
+    None if it is not limited.
+    """
     radius: Fraction | None = None
-    """Error of every measured pitch radius [mm]; None if it is included in the standard deviation of modules."""
+    """Standard deviation of every measured pitch radius [mm]; None if it is included in the standard deviation
+    `module`.
+    """
 
     @cached_property
     def places(self) -> Mapping[str | None, Place]:
-        """Position of the axis of each arbor, by name [mm]."""
+        """Position of the axis of each arbor [mm], keyed by the name of the arbor."""
         return {arbor.name: arbor.place for arbor in self.arbors}
 
     @cached_property
     def measured(self) -> Mapping[str | None, MeasuredWheel]:
-        """Measured wheels by their names."""
+        """Measured wheels, keyed by name."""
         return {wheel.name: wheel for wheel in self.wheels}
 
     def module_of(self, size: Size) -> Fraction | None:
-        """Return the module of a wheel [mm]; None if it was not measured."""
+        """Return the module of a wheel [mm]; None if the wheel was not measured."""
         wheel = self.measured.get(size[0])
         if wheel is None:
             return None
         return wheel.length if wheel.is_module else 2 * wheel.length / size[1]
 
     def square_distance(self, first: str | None, second: str | None) -> Fraction | None:
-        """Return the square of the distance between two axes [mm2]; None if a position is not known."""
+        """Return the square of the distance between the axes of two arbors [mm2]; None if one of the positions is not
+        known.
+        """
         if first not in self.places or second not in self.places:
             return None
         (x, y), (u, v) = self.places[first], self.places[second]
         return (x - u) ** 2 + (y - v) ** 2
 
     def radii_sum(self, first: Size, second: Size) -> Fraction | None:
-        """Return the sum of the pitch radii of two meshing wheels [mm]; None if neither was measured.
+        """Return the sum of the pitch radii of two meshing wheels [mm]; None if neither wheel was measured.
 
-        An unmeasured wheel has the module of its mate.
+        An unmeasured wheel is assumed to have the module of its mate.
         """
         module, other = self.module_of(first), self.module_of(second)
         if module is None and other is None:
@@ -107,7 +116,9 @@ class SurvivingGeometry:
         return (module * first[1] + other * second[1]) / 2
 
     def distance_bounds(self, first: Size, second: Size) -> Bounds | None:
-        """Return the minimum and maximum axis distance between two meshing wheels [mm]; None if unlimited."""
+        """Return the minimum and the maximum axis distance of two meshing wheels [mm]; None if the distance is not
+        limited.
+        """
         own, mate = self.module_bounds(first, second), self.module_bounds(second, first)
         if own is None or mate is None or self.reach is None:
             return None
@@ -115,7 +126,9 @@ class SurvivingGeometry:
         return max(Fraction(0), minimum - self.reach), maximum + self.reach
 
     def module_bounds(self, size: Size, mate: Size) -> Bounds | None:
-        """Return the minimum and maximum module of a wheel with a given mate [mm]; None if neither was measured."""
+        """Return the minimum and the maximum module of a wheel that meshes with `mate` [mm]; None if neither wheel was
+        measured.
+        """
         module = self.module_of(size)
         if module is not None:
             return module, module
@@ -127,7 +140,9 @@ class SurvivingGeometry:
         return module * (1 - spread), module * (1 + spread)
 
     def may_mesh(self, arbor: str | None, wheel: Size, other_arbor: str | None, other: Size) -> bool:
-        """Return whether two wheels can mesh at the distance of their axes; True if the distance is not known."""
+        """Return whether two wheels can mesh at the distance between their axes. Return True if the distance is not
+        known.
+        """
         square, bounds = self.square_distance(arbor, other_arbor), self.distance_bounds(wheel, other)
         if square is None:
             return True
@@ -142,7 +157,7 @@ NO_GEOMETRY = SurvivingGeometry()
 
 @dataclass(frozen=True)
 class SurvivingWheel:
-    """Surviving wheel with its possible tooth counts and their prior weights.
+    """Surviving wheel with its possible tooth counts and the prior weight of each tooth count.
 
     See Also
     --------
@@ -152,9 +167,11 @@ class SurvivingWheel:
     name: str
     """Name of the wheel."""
     counts: tuple[tuple[int, Fraction], ...]
-    """Pairs (tooth count, positive weight) in ascending order of distinct counts; one pair if the count is certain."""
+    """Pairs of a possible tooth count and its positive prior weight, in ascending order of the tooth counts. There is
+    one pair if the tooth count is certain.
+    """
     internal: bool = False
-    """True for a ring, a wheel with internal teeth."""
+    """True for a ring, which is a wheel with internal teeth."""
 
     @property
     def is_sure(self) -> bool:
@@ -179,7 +196,7 @@ class SurvivingArbor(Shown):
 
 @dataclass(frozen=True)
 class SearchedDial(Shown):
-    """Pointer with the required range of its speed, and its arbor if the arbor is known.
+    """Pointer with its required range of speeds, and with its arbor if the arbor is known.
 
     See Also
     --------
@@ -193,21 +210,23 @@ class SearchedDial(Shown):
     maximum: Fraction
     """Maximum speed [turns per unit of the input]."""
     signed: bool = True
-    """True if the sense of rotation is known. Otherwise `minimum` and `maximum` are bounds of the absolute speed."""
+    """True if the sense of rotation is known; False if `minimum` and `maximum` are bounds of the magnitude of the
+    speed.
+    """
     place: str | None = None
-    """Name of the surviving arbor that carries the pointer; "new" if the arbor does not survive; None if the arbor is
-    not known.
+    """Name of the surviving arbor that carries the pointer; "new" if this arbor does not survive; None if it is not
+    known which arbor carries the pointer.
     """
 
     @property
     def is_exact(self) -> bool:
-        """True if only one speed of the pointer is accepted."""
+        """True if the required range of speeds contains only one speed."""
         return self.minimum == self.maximum
 
 
 @dataclass(frozen=True)
 class Additions:
-    """Limits on the number and tooth counts of added wheels, and on the number of added arbors.
+    """Limits on the number of added wheels, on their tooth counts, and on the number of added arbors.
 
     See Also
     --------
@@ -223,14 +242,14 @@ class Additions:
     arbors: int | None = None
     """Maximum number of added arbors; None if it is not limited."""
     on: Literal["any", "new"] = "any"
-    """Arbors that may carry added wheels: "new" for added arbors only, "any" for surviving arbors too. A surviving
-    arbor may have added driving wheels, and an added driven wheel if no wheel of the arbor survives.
+    """Arbors that may carry added wheels: "new" for added arbors only, "any" for added and surviving arbors. On a
+    surviving arbor, driving wheels may be added; a driven wheel may be added only if no wheel of the arbor survives.
     """
 
 
 @dataclass(frozen=True)
 class PriorFactors:
-    """Factors by which each added or unused part divides the prior weight of a candidate reconstruction.
+    """Factors by which the prior weight of a candidate reconstruction is divided for each added or unused part.
 
     See Also
     --------
@@ -242,12 +261,12 @@ class PriorFactors:
     arbor: Fraction = Fraction(10)
     """Factor for each added arbor, at least 1."""
     unused: Fraction = Fraction(100)
-    """Factor for each surviving wheel that is not used, at least 1."""
+    """Factor for each surviving wheel that does not mesh with another wheel, at least 1."""
 
 
 @dataclass(frozen=True)
 class ReconstructionProblem(Shown):
-    """Reconstruction problem: surviving arbors, dials, and rules for added parts.
+    """Reconstruction problem: surviving arbors, dials with speeds, and rules for added parts.
 
     See Also
     --------
@@ -256,31 +275,31 @@ class ReconstructionProblem(Shown):
     """
 
     input: SurvivingArbor
-    """Arbor at which the train begins."""
+    """Input arbor of the train."""
     arbors: tuple[SurvivingArbor, ...]
     """Surviving arbors other than the input arbor."""
     dials: tuple[SearchedDial, ...]
-    """Pointers with the required ranges of their speeds."""
+    """Pointers with their required ranges of speeds."""
     additions: Additions
     """Limits on added wheels and arbors."""
     input_speed: Fraction = Fraction(1)
     """Speed of the input arbor [turns per unit]."""
     meshes: frozenset[frozenset[str]] = field(default_factory=frozenset)
-    """Pairs of wheels, by name, that are known to mesh."""
+    """Pairs of names of wheels that are known to mesh."""
     apart: frozenset[frozenset[str]] = field(default_factory=frozenset)
-    """Pairs of wheels, by name, that are known not to mesh."""
+    """Pairs of names of wheels that are known not to mesh."""
     coaxial: frozenset[frozenset[str]] = field(default_factory=frozenset)
-    """Pairs of arbors, by name, that have the same axis. Wheels on two such arbors, including added wheels, do not
-    mesh.
+    """Pairs of names of arbors that have the same axis. Wheels on two such arbors, including added wheels, do not mesh
+    with each other.
     """
     use: Literal["wheels", "arbors", "some"] = "wheels"
-    """Use of surviving parts: "wheels" if every wheel must mesh, "arbors" if every arbor must be in the train, "some"
-    if neither is required.
+    """Required use of surviving parts: "wheels" if every surviving wheel must mesh, "arbors" if every surviving arbor
+    must be in the train, "some" if neither is required.
     """
     idlers: bool = False
     """True if a driven wheel may also drive (an idler)."""
     factors: PriorFactors = PriorFactors()
-    """Factors that reduce the prior weight of a candidate reconstruction."""
+    """Factors by which the prior weight of a candidate reconstruction is divided."""
     geometry: SurvivingGeometry = NO_GEOMETRY
     """Measurements of surviving wheels and axes. Pairs that these measurements exclude are already in `apart` and
     `coaxial`.
@@ -294,7 +313,7 @@ class ReconstructionProblem(Shown):
 
 @dataclass(frozen=True)
 class PlacedWheel:
-    """Wheel of a candidate reconstruction: a surviving wheel by its name, or an added wheel, with its tooth count.
+    """Wheel of a candidate reconstruction, which is a surviving wheel or an added wheel, with its tooth count.
 
     See Also
     --------
@@ -309,8 +328,8 @@ class PlacedWheel:
 
 @dataclass(frozen=True)
 class Arbor(Shown):
-    """Arbor of a candidate reconstruction with the subtree that it drives, in canonical form: equal trains compare
-    equal.
+    """Arbor of a candidate reconstruction with the subtree that it drives. The form is canonical, so that equal trains
+    compare equal.
 
     See Also
     --------
@@ -323,14 +342,14 @@ class Arbor(Shown):
     driven: PlacedWheel | None
     """Driven wheel of the arbor; None for the input arbor."""
     dials: tuple[str, ...]
-    """Sorted names of the dials whose pointers the arbor carries."""
+    """Sorted names of the dials whose pointers are on the arbor."""
     drives: tuple[tuple[PlacedWheel, tuple[Arbor, ...]], ...]
-    """Driving wheels, each with the arbors that it drives; sorted."""
+    """Driving wheels on the arbor, each with the arbors that it drives, in sorted order."""
     passes: tuple[Arbor, ...] = ()
-    """Arbors that the driven wheel itself drives, as an idler; sorted."""
+    """Arbors that the driven wheel drives as an idler, in sorted order."""
 
     def driven_arbors(self) -> Iterator[tuple[PlacedWheel, Arbor]]:
-        """Yield every arbor that this arbor drives, with the driving wheel."""
+        """Yield each arbor that this arbor drives, preceded by the wheel that drives it."""
         for wheel, children in self.drives:
             yield from ((wheel, child) for child in children)
         for child in self.passes:
@@ -344,14 +363,14 @@ class Arbor(Shown):
             yield from child.arbors()
 
     def wheels(self) -> Iterator[PlacedWheel]:
-        """Yield every meshing wheel of the subtree once."""
+        """Yield each meshing wheel of the subtree once."""
         for each in self.arbors():
             if each.driven is not None:
                 yield each.driven
             yield from (wheel for wheel, _ in each.drives if wheel.name is None or wheel != each.driven)
 
     def meshes(self) -> Iterator[tuple[Arbor, PlacedWheel, Arbor]]:
-        """Yield every mesh of the subtree as (driving arbor, driving wheel, driven arbor)."""
+        """Yield each mesh of the subtree as (driving arbor, driving wheel, driven arbor)."""
         for wheel, child in self.driven_arbors():
             yield self, wheel, child
             yield from child.meshes()
@@ -372,18 +391,18 @@ class Arbor(Shown):
 
 @dataclass(frozen=True, slots=True)
 class RequestedQuestion(Result):
-    """Size of a reconstruction problem: numbers of surviving parts, dials and added wheels, as reported before the
-    search.
+    """Size of a reconstruction problem as reported before the search: numbers of surviving arbors and wheels, of dials,
+    and of added wheels.
     """
 
     arbors: int
-    """Number of surviving arbors, including the input."""
+    """Number of surviving arbors, including the input arbor."""
     wheels: int
     """Number of surviving wheels."""
     readings: int
-    """Number of combinations of uncertain tooth counts; 1 if all are certain."""
+    """Number of combinations of the possible tooth counts of surviving wheels; 1 if all tooth counts are certain."""
     dials: int
-    """Number of pointers with a known speed."""
+    """Number of pointers with a required speed."""
     added: int
     """Maximum number of added wheels."""
     teeth: tuple[int, int]
@@ -391,7 +410,7 @@ class RequestedQuestion(Result):
 
     @classmethod
     def of(cls, problem: ReconstructionProblem) -> RequestedQuestion:
-        """Count the arbors, wheels, combinations of tooth counts, and dials of a problem."""
+        """Return the size of a reconstruction problem."""
         arbors, limits = (problem.input, *problem.arbors), problem.additions
         counts = [len(wheel.counts) for arbor in arbors for wheel in arbor.wheels]
         teeth = (limits.minimum, limits.maximum)
@@ -406,7 +425,9 @@ class RequestedQuestion(Result):
 
 
 def too_wide(problem: ReconstructionProblem, what: str) -> Problem:
-    """Return the error message for a problem that is too large, with its size and suggestions to reduce it."""
+    """Return the error message for a problem that is too large. It contains the size of the problem and suggestions to
+    reduce it.
+    """
     wheels = [wheel for arbor in (problem.input, *problem.arbors) for wheel in arbor.wheels if not wheel.is_sure]
     widest = sorted(wheels, key=lambda wheel: -len(wheel.counts))[:_MOST_UNCERTAINTIES]
     uncertainties = ", ".join(f"{wheel.name} has {len(wheel.counts)}" for wheel in widest)
@@ -418,7 +439,7 @@ def too_wide(problem: ReconstructionProblem, what: str) -> Problem:
 
 
 def question_digest(problem: ReconstructionProblem) -> str:
-    """Return the SHA-256 digest of a problem, which does not depend on the order of unordered facts."""
+    """Return the SHA-256 digest of a problem. The digest does not depend on the order of facts that have no order."""
     return hashlib.sha256(json.dumps(_plain(problem), sort_keys=True).encode("utf-8")).hexdigest()
 
 
@@ -436,10 +457,10 @@ def _plain(value: object) -> object:
 
 
 def read_geometry_evidence(evidence: Train) -> SurvivingGeometry:
-    """Return the measurements of the evidence; `NO_GEOMETRY` if it has no block `geometry`.
+    """Return the measurements in the evidence; `NO_GEOMETRY` if the evidence has no block `geometry`.
 
-    Raise `DeclarationError` for a module that is not greater than 0, and for an arbor with a position if there is a
-    ring.
+    `DeclarationError` is raised if a module is not greater than 0, or if the evidence contains both a ring and an arbor
+    with a position.
     """
     assert evidence.reconstruct is not None, "no evidence"
     requested = evidence.reconstruct.geometry
@@ -457,7 +478,7 @@ def read_geometry_evidence(evidence: Train) -> SurvivingGeometry:
 
 
 def unweighed_geometry(evidence: Train) -> Iterator[str]:
-    """Yield one line for each measurement that the search does not use."""
+    """Yield a one-line description of each measurement that the search does not use."""
     assert evidence.reconstruct is not None, "no evidence"
     if evidence.reconstruct.geometry is None:
         for name, (_, wheel) in evidence.wheels.items():
@@ -471,7 +492,9 @@ def unweighed_geometry(evidence: Train) -> Iterator[str]:
 
 
 def refuse_unreachable(evidence: Train, unreachable: frozenset[frozenset[str]]) -> None:
-    """Raise `DeclarationError` if wheels were seen in mesh whose axes are too close or too far apart."""
+    """Raise `DeclarationError` if the axes of wheels that were seen in mesh are too close together or too far apart for
+    any mesh.
+    """
     for gear in evidence.gears:
         if frozenset(gear.pair) in unreachable:
             what = f"the known mesh '{gear.name}' is impossible at the distance between its axes"
@@ -511,12 +534,14 @@ def _check_no_ring(evidence: Train, link: str, axis: str) -> None:
 
 
 def _millimetres(length: Quantity) -> Fraction:
-    """Convert a length to an exact number of millimetres; a number without a unit is already in mm."""
+    """Convert a length to an exact number of millimetres. A number without a unit is assumed to be in millimetres."""
     return length.base if length.unit is None else length.base * 1000
 
 
 def find_unreachable(arbors: Sequence[SurvivingArbor], geometry: SurvivingGeometry) -> Iterator[frozenset[str]]:
-    """Yield pairs of wheels of different arbors that cannot mesh with any of their possible counts."""
+    """Yield each pair of wheels on different arbors that cannot mesh with any combination of their possible tooth
+    counts.
+    """
     wheels = [(arbor.name, wheel) for arbor in arbors if arbor.name in geometry.places for wheel in arbor.wheels]
     for at, (arbor, wheel) in enumerate(wheels):
         for other_arbor, other in wheels[:at]:

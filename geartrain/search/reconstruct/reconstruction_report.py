@@ -1,6 +1,6 @@
 """Report of a reconstruction: the evidence, the number of trains consistent with it, and the best-ranked trains.
 
-Further sections describe known trains, common facts, facts to look for, and the family tree.
+Further sections describe known trains, facts common to all candidates, facts to observe next, and the family tree.
 """
 
 from __future__ import annotations
@@ -204,7 +204,7 @@ def known_sections(known: Sequence[KnownRank]) -> Iterator[Section]:
 
 
 def _telling(train: str, facts: Sequence[TellingFact], trains: int) -> Section:
-    """Return the section on the facts that distinguish a train."""
+    """Return the section on the facts that distinguish a train from other explanations."""
     line = "Facts that are true of this train but not of all, with the number of trains that each would leave."
     said: dict[int, list[str]] = {}
     for fact in facts:
@@ -241,8 +241,8 @@ def _note_sentences(one: KnownRank) -> Iterator[str]:
 
 
 def shared_sections(marginals: Sequence[FactMarginal]) -> Iterator[Section]:
-    """Yield sections on facts common to all candidates, and on the probabilities of facts in which candidates
-    differ.
+    """Yield sections on facts common to all candidates, and on the probabilities of facts that differ between
+    candidates.
     """
     if not marginals or marginals[0].trains < 2:
         return
@@ -308,7 +308,7 @@ def _answers_text(answers: Sequence[FactAnswer]) -> str:
 
 
 def next_section(facts: Sequence[NextFact]) -> Iterator[Section]:
-    """Yield the section on facts to look for, in descending order of their entropy."""
+    """Yield the section on facts to observe next, in descending order of entropy."""
     if not facts:
         return
     rows = [
@@ -340,8 +340,8 @@ def _equivalent_text(facts: Sequence[Fact]) -> str:
 
 
 def assumptions_section(given: Sequence[int], changes: Sequence[ChangedCount]) -> Iterator[Section]:
-    """Yield the section on the numbers of trains without each hard constraint; `given` are the numbers with all
-    constraints.
+    """Yield the section on the numbers of trains that result without each hard constraint. `given` contains the numbers
+    of trains with all constraints.
     """
     if not changes:
         return
@@ -356,7 +356,7 @@ def assumptions_section(given: Sequence[int], changes: Sequence[ChangedCount]) -
 
 
 def missing_sections(found: MissingExplanation | None, most: int) -> Iterator[Section]:
-    """Yield sections on the reasons why no train explains the evidence; `most` is the maximum number of added
+    """Yield sections on the reasons why no train explains the evidence. `most` is the maximum number of added
     wheels.
     """
     if found is None:
@@ -455,6 +455,6 @@ def teeth_text(wheels: Mapping[str, int]) -> str:
 
 
 def ranks_text(ranks: tuple[int, int]) -> str:
-    """Format a rank: `3`, or `1-4` for equally probable trains."""
+    """Format a range of ranks, such as `3`, or `1-4` if several trains are equally probable."""
     first, last = ranks
     return str(first) if first == last else f"{first}-{last}"

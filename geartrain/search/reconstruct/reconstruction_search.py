@@ -1,5 +1,5 @@
-"""Exact counts and candidates of a reconstruction: topologies are weighted, and the best trains are listed or
-sampled.
+"""Exact number of explanations of a reconstruction problem, and list of its candidates. Topologies are weighted, and
+the most probable trains are listed or sampled.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from geartrain.search.reconstruct.train_topology import Topology
 
 _LISTED = 20_000
-"""Maximum number of candidates that are constructed, unless more are to be listed. Further candidates of the
+"""Maximum number of candidates that are constructed, unless a larger number is to be listed. Further candidates of the
 same weight are omitted.
 """
 _MOST_CLASSIFIED = 300_000
@@ -34,14 +34,15 @@ _MOST_CLASSIFIED = 300_000
 _Weight = TypeVar("_Weight", Fraction, float)
 _Wheel = tuple[str, int]
 _Step = tuple[str, _Wheel, _Wheel]
-"""Arbor on a path: name, driven wheel and driving wheel."""
+"""Arbor on a path: its name, its driven wheel and its driving wheel."""
 
 _NONE: _Wheel = ("", 0)
 
 
 @dataclass(frozen=True, slots=True)
 class ExplanationCount(Result):
-    """Numbers of explanations (trains, and equivalence classes of trains) with a given number of added wheels.
+    """Number of trains, and of equivalence classes of trains, that explain the evidence with a given number of added
+    wheels.
 
     See Also
     --------
@@ -49,19 +50,21 @@ class ExplanationCount(Result):
     """
 
     added: int
-    """Number of added wheels."""
+    """Number of added wheels in each of these trains."""
     solutions: int
-    """Number of different trains."""
+    """Number of different trains that explain the evidence."""
     multisets: int | None
-    """Number of equivalence classes up to the order of arbors on paths; None if there are too many trains."""
+    """Number of classes of trains, where trains that differ only in the order of the arbors along a path are counted
+    once; None if there are too many trains.
+    """
     classes: int | None
-    """Number of classes of trains with equal driving and driven wheels on each path, and therefore with equal ratios;
-    None if there are too many trains.
+    """Number of classes of trains, where trains with the same driving wheels and the same driven wheels on each path,
+    and therefore equal ratios, are counted once; None if there are too many trains.
     """
 
 
 def explanations_text(counts: Sequence[ExplanationCount]) -> str:
-    """Return one line with the number of trains that explain the evidence, by number of added wheels."""
+    """Return one line of text with the number of trains that explain the evidence for each number of added wheels."""
     found = (f"{each.solutions:,} with {plural(each.added, 'added wheel')}" for each in counts if each.solutions)
     return f"explanations: {', '.join(found) or 'none'}"
 
@@ -78,13 +81,15 @@ class Candidate(Result):
     KEYS = ("added", Key("weight", to=float), "ranks")
 
     arbor: Arbor
-    """Input arbor of the train."""
+    """Input arbor of the train, with the subtree that it drives."""
     added: int
-    """Number of added wheels."""
+    """Number of added wheels in the train."""
     weight: float
     """Posterior probability of the train, 0 to 1."""
     ranks: tuple[int, int]
-    """First and last rank by probability, from 1, which differ if several trains are equally probable."""
+    """First and last rank of the train by probability, starting with 1. They differ if several trains are equally
+    probable.
+    """
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,16 +97,16 @@ class WeightClass(Result):
     """Class of explanations with the same number of added wheels and the same weight."""
 
     added: int
-    """Number of added wheels of each explanation."""
+    """Number of added wheels in each explanation."""
     weight: Fraction
-    """Weight of each explanation, up to a common factor."""
+    """Weight of each explanation, up to a factor common to all explanations."""
     solutions: int
-    """Number of explanations with this weight."""
+    """Number of explanations in this class."""
 
 
 @dataclass(frozen=True, slots=True)
 class Reconstructions(Result):
-    """Numbers of all explanations of a problem, and the most probable explanations.
+    """Number of all explanations of a problem, and the most probable explanations.
 
     See Also
     --------
@@ -111,15 +116,15 @@ class Reconstructions(Result):
     KEYS = ("counts", "complete", "candidates")
 
     counts: tuple[ExplanationCount, ...]
-    """Number of explanations with 0, 1, 2, ... added wheels."""
+    """Number of explanations for each number of added wheels, starting with 0."""
     complete: bool
     """True if the search covered all candidates."""
     candidates: tuple[Candidate, ...]
     """Candidates in descending order of probability."""
     topologies: tuple[CountedTopology, ...] = ()
-    """All topologies with the numbers of their trains; empty if trains are weighted individually."""
+    """All topologies, each with the number of its trains; empty if trains are weighted individually."""
     weights: tuple[WeightClass, ...] = ()
-    """Numbers of trains by weight, in ascending order of the number of added wheels, then in descending order of
+    """Number of trains for each weight, in ascending order of the number of added wheels, then in descending order of
     weight.
     """
 
@@ -141,9 +146,9 @@ def find_reconstructions(
     problem : ReconstructionProblem
         Reconstruction problem.
     execution : Execution, optional
-        Executor of the parts of the search. By default the parts run one after the other in this process.
+        Executor of the parts of the search. By default the parts are executed one after the other in this process.
     listed : int
-        Minimum number of candidates to list, if there are that many.
+        Minimum number of candidates to list. If there are fewer candidates, all are listed.
     prior_of : {"solution", "class"}
         Unit of the prior: one weight for every train, or one weight for every ratio class, divided among its trains.
 
@@ -188,7 +193,9 @@ def find_reconstructions(
 
 
 def _weight_classes(weighed: Iterable[tuple[int, Fraction, int]]) -> Iterator[WeightClass]:
-    """Yield the classes of explanations, from triples (added wheels, weight, number of explanations)."""
+    """Yield the classes of explanations with equal weight, computed from triples (number of added wheels, weight,
+    number of explanations).
+    """
     alike = Counter[tuple[int, Fraction]]()
     for added, weight, number in weighed:
         alike[added, weight] += number
@@ -208,7 +215,9 @@ def _count(added: int, topologies: Sequence[CountedTopology], problem: Reconstru
 
 
 def _trains(each: CountedTopology, problem: ReconstructionProblem, one_order: bool = False) -> Iterator[Arbor]:
-    """Yield all trains of a topology; with `one_order`, only one order of arbors for each choice of tooth counts."""
+    """Yield all trains of a topology. If `one_order` is True, yield only one order of arbors for each choice of tooth
+    counts.
+    """
     limits = problem.additions
     facts = MeshFacts() if one_order else MeshFacts.of(problem)
     topology = each.topology
@@ -217,7 +226,9 @@ def _trains(each: CountedTopology, problem: ReconstructionProblem, one_order: bo
 
 
 def _best(problem: ReconstructionProblem, found: dict[int, list[CountedTopology]], listed: int) -> Iterator[Candidate]:
-    """Yield candidates in descending order of probability, then by the number and the sum of teeth of added wheels."""
+    """Yield candidates in descending order of probability. Equally probable candidates are ordered by the number of
+    added wheels, then by the sum of the tooth counts of these wheels.
+    """
     weighed = [(topology_prior(each.topology, problem), added, each) for added, some in found.items() for each in some]
     whole = sum(weight * each.solutions for weight, _, each in weighed)
     # ranks cover all trains, listed or not
@@ -234,14 +245,16 @@ def _best(problem: ReconstructionProblem, found: dict[int, list[CountedTopology]
 
 
 def _order(arbor: Arbor) -> tuple[int, str]:
-    """Return the sort key that orders candidates of equal weight."""
+    """Return the sort key for candidates of equal weight."""
     return sum(wheel.teeth for wheel in arbor.wheels() if wheel.name is None), repr(astuple(arbor))
 
 
 def _weighed_one_by_one(
     problem: ReconstructionProblem, found: dict[int, list[CountedTopology]], complete: bool, prior_of: str
 ) -> Reconstructions:
-    """Weigh every candidate by its likelihood, or as a member of its ratio class, and drop impossible candidates."""
+    """Return the explanations, each with a weight computed from its likelihood. If `prior_of` is "class", the weight
+    also depends on the size of the ratio class. Candidates with likelihood 0 are omitted.
+    """
     number = sum(each.solutions for some in found.values() for each in some)
     if number > _LISTED:
         what = f"{number} trains would have to be weighted individually; the limit is {_LISTED}"
@@ -275,7 +288,7 @@ def _weighed_one_by_one(
 
 
 def rank_of(arbor: Arbor, found: Reconstructions) -> tuple[int, int] | None:
-    """Return the first and last rank by probability of a candidate; None if it is not listed."""
+    """Return the first and last rank by probability of a candidate; None if the candidate is not listed."""
     wanted = train_key(arbor)
     return next((one.ranks for one in found.candidates if train_key(one.arbor) == wanted), None)
 
@@ -289,27 +302,27 @@ def is_all_listed(found: Reconstructions) -> bool:
 
 
 def topology_prior(topology: Topology, problem: ReconstructionProblem) -> Fraction:
-    """Return the prior weight of each train of a topology, up to a common factor."""
+    """Return the prior weight of each train of a topology, up to a factor common to all trains."""
     added = added_prior(problem, topology.added.number, topology.added_arbors)
     return added * survivors_prior(problem, topology.used)
 
 
 def train_prior(arbor: Arbor, problem: ReconstructionProblem) -> Fraction:
-    """Return the prior weight of a candidate, up to a common factor."""
+    """Return the prior weight of a candidate, up to a factor common to all candidates."""
     used = [wheel for wheel in arbor.wheels() if wheel.name is not None]
     return added_prior(problem, arbor.added_wheels, arbor.added_arbors) * survivors_prior(problem, used)
 
 
 def added_prior(problem: ReconstructionProblem, wheels: int, arbors: int) -> Fraction:
-    """Return the factor of the prior weight for given numbers of added wheels and arbors."""
+    """Return the factor of the prior weight that depends on the numbers of added wheels and added arbors."""
     factors, limits = problem.factors, problem.additions
     # the tooth count of an added wheel has a uniform prior
     return 1 / ((factors.wheel * (limits.maximum - limits.minimum + 1)) ** wheels * factors.arbor**arbors)
 
 
 def survivors_prior(problem: ReconstructionProblem, used: Iterable[PlacedWheel]) -> Fraction:
-    """Return the factor of the prior weight for the counts of used surviving wheels and for unused surviving
-    wheels.
+    """Return the factor of the prior weight that depends on the tooth counts of the used surviving wheels and on the
+    number of unused surviving wheels.
     """
     counts = {wheel.name: dict(wheel.counts) for each in (problem.input, *problem.arbors) for wheel in each.wheels}
     weight, unused = Fraction(1), len(counts)
@@ -320,7 +333,7 @@ def survivors_prior(problem: ReconstructionProblem, used: Iterable[PlacedWheel])
 
 
 def weight_ranks(weighed: Iterable[tuple[_Weight, int]]) -> dict[_Weight, tuple[int, int]]:
-    """Return the first and last rank of each weight, from pairs of a weight and a number of candidates."""
+    """Return the first and last rank of each weight, computed from pairs of a weight and a number of candidates."""
     alike = Counter[_Weight]()
     for weight, number in weighed:
         alike[weight] += number
@@ -335,19 +348,19 @@ def weight_ranks(weighed: Iterable[tuple[_Weight, int]]) -> dict[_Weight, tuple[
 
 
 def train_key(arbor: Arbor) -> tuple[object, ...]:
-    """Return a hashable key of a whole candidate that does not depend on the order of its parts."""
+    """Return a hashable key of a complete candidate. The key does not depend on the order of its parts."""
     passed = tuple(sorted(map(train_key, arbor.passes)))
     drives = tuple(sorted((_wheel(wheel), tuple(sorted(map(train_key, below)))) for wheel, below in arbor.drives))
     return arbor.name or "", _wheel(arbor.driven), arbor.dials, drives, passed
 
 
 def arbor_multiset(arbor: Arbor) -> tuple[object, ...]:
-    """Return the multiset of arbors, with their wheels, on the path of each dial."""
+    """Return, for the path to each dial, the multiset of the arbors on this path with their wheels."""
     return tuple(sorted((dial, tuple(sorted(path))) for dial, path in _paths(arbor)))
 
 
 def ratio_class(arbor: Arbor) -> tuple[object, ...]:
-    """Return the multisets of driving and of driven wheels on the path of each dial."""
+    """Return, for the path to each dial, the multiset of driving wheels and the multiset of driven wheels."""
     return tuple(
         sorted(
             (dial, tuple(sorted(step[2] for step in path[:-1])), tuple(sorted(step[1] for step in path[1:])))

@@ -31,10 +31,12 @@ from geartrain.search.reconstruct.reconstruction_problem import (
 from geartrain.search.reconstruct.train_topology import TOPOLOGIES, AddedKind, ArborPass, Topology
 
 _QUICK = 2
-"""Maximum number of added wheels for which a search is not divided into parts."""
+"""Maximum number of added wheels for which the search is not divided into parts."""
 _PARTS = 24  # divides evenly over 2, 3, 4, 6, 8 and 12 processes
 _MOST_CHOICES = 24
-"""Maximum decimal logarithm of the number of choices of added tooth counts; searches of hours have about 20."""
+"""Maximum decimal logarithm of the number of choices of tooth counts for added wheels. For searches that take hours,
+this logarithm is about 20.
+"""
 _MOST_ADDED = 100  # numbers of added wheels are stored in 8 bits
 
 # Backtracking search for one path to every dial, such that all of them are paths of one train.
@@ -47,14 +49,16 @@ _MOST_ADDED = 100  # numbers of added wheels are stored in 8 bits
 
 
 class PathColumns:
-    """Columns of a path list for fast comparison of many paths with a path to another dial.
+    """Columns of a path list, with which many paths can be compared quickly with a path to another dial.
 
     A pass is the pair of a driven and a driving wheel by which a path passes through an arbor.
 
-    codes          code of the pass, 0 if the path avoids the arbor, shape (arbors, rows)
-    driven         identifying number of the driven wheel and its count, 0 if absent, shape (arbors, rows)
-    driver         identifying number of the driving wheel, 0 if absent, shape (arbors, rows)
-    used           bit mask of the used surviving arbors, then wheels, for each row
+    codes          code of the pass; 0 if the path avoids the arbor; shape (arbors, rows)
+    driven         number that identifies the driven wheel and its tooth count; 0 if the path avoids the arbor; shape
+                   (arbors, rows)
+    driver         number that identifies the surviving driving wheel; 0 if there is none; shape (arbors, rows)
+    used           bit mask for each row: bits of the surviving arbors on the path, followed by bits of the surviving
+                   wheels that the path uses
     """
 
     def __init__(self, paths: PathList, problem: ReconstructionProblem) -> None:
@@ -77,10 +81,11 @@ class PathColumns:
             self.used |= np.array(wheels, dtype=np.int64)[taken]
 
     def fit(self, rows: Rows, other: PathColumns, row: int) -> Bools:
-        """Return whether each path can be in one tree with a path to another dial.
+        """Return whether each path can be in the same tree as a given path to another dial.
 
-        Two paths may leave only the arbor at which they separate by different wheels, and must enter every shared arbor
-        by the same wheel. A wheel has one count. Paths that separate at the input share no other arbor.
+        Two paths must enter every common arbor by the same wheel with the same tooth count. They may leave only one
+        common arbor by different wheels, the arbor at which they separate. Paths that separate at the input arbor have
+        no other common arbor.
         """
         both: Rows = np.asarray(self.paths.arbors[rows] & other.paths.arbors[row])
         good = np.ones(len(rows), dtype=bool)
@@ -99,7 +104,7 @@ class PathColumns:
 
 
 def all_to_use(problem: ReconstructionProblem) -> int:
-    """Return the bit mask of surviving arbors and wheels that must be used, as in `PathColumns.used`."""
+    """Return the bit mask of the surviving arbors and wheels that must be used, in the format of `PathColumns.used`."""
     if problem.use == "some":
         return 0
     arbors = (1 << len(problem.arbors)) - 1
@@ -110,7 +115,9 @@ def all_to_use(problem: ReconstructionProblem) -> int:
 
 
 def _bits(each: ArborPass, number: dict[str, int]) -> int:
-    """Return the bit mask of the surviving wheels of a pass, by their numbers from 1."""
+    """Return the bit mask of the surviving wheels of a pass. `number` contains the number of each wheel, starting with
+    1.
+    """
     found = 0
     for wheel in (each.driven, each.driver):
         if wheel is not None and wheel.name in number:
@@ -119,16 +126,16 @@ def _bits(each: ArborPass, number: dict[str, int]) -> int:
 
 
 Choice = dict[str, int]
-"""Choice of one path for each dial, as a row of its path list."""
+"""Chosen path for each dial, given as a row of the path list of the dial."""
 
 _EVEN_SHARES = 50
-"""Minimum number of paths that are distributed in turn over the parts of a search."""
+"""Minimum number of paths to a dial for which these paths are distributed cyclically over the parts of a search."""
 
 
 class PathChoice:
-    """Enumeration of all compatible choices of one path per dial.
+    """Enumeration of all compatible choices of one path for each dial.
 
-    lists   list of the paths to each dial
+    lists   list of the possible paths to each dial
     """
 
     def __init__(self, problem: ReconstructionProblem, lists: Mapping[str, PathList], tables: QuotientTables) -> None:
@@ -137,18 +144,18 @@ class PathChoice:
         self._columns = {dial: PathColumns(paths, problem) for dial, paths in lists.items()}
 
     def choices(self, added: int, part: int = 0, parts: int = 1) -> Iterator[Choice]:
-        """Yield all choices for trains with exactly `added` added wheels that belong to part number `part` of
-        `parts`.
+        """Yield all choices for trains with exactly `added` added wheels that belong to the part with index `part`, of
+        `parts` parts in total.
         """
         self._added = added
         lists = {dial: np.flatnonzero(paths.wheels <= added) for dial, paths in self.lists.items()}
         yield from self._extended({}, lists, cycle(at == part for at in range(parts)))
 
     def _extended(self, chosen: Choice, lists: dict[str, Rows], share: Iterator[bool] | None) -> Iterator[Choice]:
-        """Yield all choices that extend the chosen paths by paths to the other dials.
+        """Yield all choices that consist of the chosen paths and of paths to the remaining dials.
 
         share   iterator that yields, for each path, whether it belongs to this part of the search; None if the paths to
-                an earlier dial were already distributed over the parts
+                an earlier dial were distributed over the parts
         """
         dial = min(lists, key=lambda each: len(lists[each]))  # most constrained dial first
         rows = lists[dial]
@@ -167,8 +174,8 @@ class PathChoice:
                 yield from self._extended({**chosen, dial: row}, kept, None if own else share)
 
     def _fitting(self, dial: str, row: int, lists: Mapping[str, Rows], chosen: Choice) -> dict[str, Rows] | None:
-        """Return the paths to each other dial that are compatible with one more chosen path; None if a dial has
-        none.
+        """Return the paths to each remaining dial that are compatible with the additional path `row` to `dial`; None if
+        there is no such path to one of these dials.
         """
         kept = {}
         for other, rows in sorted(lists.items(), key=lambda each: len(each[1])):
@@ -183,8 +190,8 @@ class PathChoice:
         return kept
 
     def _fork(self, one: tuple[str, int], other: tuple[str, int], dial: str, rows: Rows) -> Bools:
-        """Return whether each path forms a tree with two chosen paths: two of the three paths must separate from the
-        third at the same arbor.
+        """Return, for each path in `rows`, whether it forms a tree with two chosen paths. This requires that two of the
+        three paths separate from the third at the same arbor.
         """
         first, second = (np.int64(self.lists[end].arbors[row]) for end, row in (one, other))
         third = self.lists[dial].arbors[rows]
@@ -193,7 +200,9 @@ class PathChoice:
         return np.asarray((on_first & on_second) | (on_first & apart) | (on_second & apart))
 
     def _distances(self, end: str, row: int, dial: str, rows: Rows) -> Rows:
-        """Return, for each path, a lower bound of the number of added wheels that are not shared with a chosen path."""
+        """Return, for each path in `rows`, a lower bound of the number of added wheels that belong to only one of two
+        paths: this path and the chosen path to the dial `end`.
+        """
         first, second = self.lists[end], self.lists[dial]
         (low, high), (minimum, maximum) = first.bounds, second.bounds
         with np.errstate(divide="ignore", invalid="ignore"):  # the speed of a dial may be 0
@@ -209,24 +218,26 @@ class PathChoice:
 
 
 class OrderPart(NamedTuple):
-    """Orders of the arbors of a topology that have the same choices of added tooth counts.
+    """Orders of the arbors of a topology for which the possible choices of added tooth counts are the same.
 
-    Each order with each choice is one train.
+    Each combination of an order and a choice is one train.
     """
 
     open: OpenCounts
     choices: int
     orders: list[Arbor]
-    """Trains in which negative numbers (tokens) replace the tooth counts of added wheels, one train for each order."""
+    """Trains in which negative numbers (tokens) replace the tooth counts of added wheels. There is one train for each
+    order.
+    """
 
     @property
     def trains(self) -> int:
-        """Number of trains."""
+        """Number of trains: number of choices times number of orders."""
         return self.choices * len(self.orders)
 
 
 class TopologyTrains:
-    """Sums over the trains of the topologies of a problem."""
+    """Numbers of trains of topologies in a reconstruction problem."""
 
     def __init__(self, problem: ReconstructionProblem) -> None:
         limits = problem.additions
@@ -234,11 +245,11 @@ class TopologyTrains:
         self._facts, self._maximum = MeshFacts.of(problem), limits.maximum
 
     def count(self, topology: Topology) -> int:
-        """Count the trains of a topology."""
+        """Return the number of trains of a topology."""
         return sum(part.trains for part in self.parts(topology))
 
     def parts(self, topology: Topology) -> list[OrderPart]:
-        """Partition the trains of a topology by the tooth-count limits that rings impose."""
+        """Return the orders of the arbors of a topology, grouped by the tooth-count limits that rings impose."""
         tokens = CountTokens(topology.added)
         by_limits: dict[OpenCounts, list[Arbor]] = defaultdict(list)
         for arbor in arranged(topology, tokens.counts, tokens.idle, self._facts):
@@ -247,7 +258,7 @@ class TopologyTrains:
         return [OrderPart(requested, self.counts.total(requested), arbors) for requested, arbors in by_limits.items()]
 
     def kinds(self, topology: Topology, arbor: Arbor) -> dict[int, AddedKind]:
-        """Return the kind of each added wheel in one order of the arbors, by the token that replaces its tooth
+        """Return the kind of each added wheel for one order of the arbors, keyed by the token that replaces its tooth
         count.
         """
         return CountTokens(topology.added).kinds(arbor, self._facts.rings, self._maximum)
@@ -258,9 +269,9 @@ class TopologyTrains:
 
 
 class TopologySearch:
-    """Enumeration of all topologies of a problem, with the numbers of their trains.
+    """Enumeration of all topologies of a problem, with the number of trains of each topology.
 
-    paths   list of the paths to each dial
+    paths   list of the possible paths to each dial
     """
 
     def __init__(self, problem: ReconstructionProblem) -> None:
@@ -271,7 +282,7 @@ class TopologySearch:
         self._trains = TopologyTrains(problem)
 
     def counted(self, task: TopologyTask) -> Iterator[CountedTopology]:
-        """Yield the topologies of one part of the search that have trains."""
+        """Yield the topologies of one part of the search that have at least one train."""
         for chosen in self._choice.choices(task.added, task.part, task.parts):
             for topology in self._trees.topologies(chosen, task.added):
                 choices = self._trains.counts.total(OpenCounts(topology.added, topology.wanted))
@@ -284,7 +295,7 @@ class TopologySearch:
 
 @dataclass(frozen=True)
 class CountedTopology:
-    """Topology with its number of choices of added tooth counts and its number of trains, both positive."""
+    """Topology with its number of choices of added tooth counts and its number of trains. Both numbers are positive."""
 
     topology: Topology
     choices: int
@@ -292,7 +303,7 @@ class CountedTopology:
 
 
 class TopologyTask(NamedTuple):
-    """One part of the search with a given number of added wheels."""
+    """One part of the search for the topologies that have a given number of added wheels."""
 
     problem: ReconstructionProblem
     added: int
@@ -305,7 +316,7 @@ def count_topologies(
 ) -> Iterator[tuple[TopologyTask, list[CountedTopology]]]:
     """Yield each part of the search with its topologies, in ascending order of the number of added wheels.
 
-    Raise `QuestionError` if there are more choices of tooth counts than any search can cover.
+    `QuestionError` is raised if there are more choices of tooth counts than a search can cover.
     """
     _refuse_absurd(problem)
     _search(problem)  # built before the tasks, which may seem long enough for further processes otherwise
@@ -321,19 +332,21 @@ def count_topologies(
 
 
 def _counted(task: TopologyTask) -> list[tuple[Any, int, int]]:
-    """Return the topologies of one part of the search as plain data, each with its numbers of choices and of trains."""
+    """Return the topologies of one part of the search as plain data, each with its number of choices of tooth counts
+    and its number of trains.
+    """
     counted = _search(task.problem).counted(task)
     return [(TOPOLOGIES.dump_python(each.topology, mode="json"), each.choices, each.solutions) for each in counted]
 
 
 @lru_cache(maxsize=2)
 def _search(problem: ReconstructionProblem) -> TopologySearch:
-    """Return the search of a problem. Its path lists are built once per process."""
+    """Return the enumeration of the topologies of a problem. The path lists are built once per process."""
     return TopologySearch(problem)
 
 
 def count_choices(problem: ReconstructionProblem) -> float:
-    """Return the decimal logarithm of the number of choices of tooth counts for the maximum number of added wheels."""
+    """Return the decimal logarithm of the number of choices of tooth counts, for the maximum number of added wheels."""
     added = problem.additions
     return added.wheels * log10(max(added.maximum - added.minimum + 1, 1))
 

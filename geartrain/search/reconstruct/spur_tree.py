@@ -1,7 +1,8 @@
-"""Parts of a train that a reconstruction can find: trees of arbors on the frame or on one carrier.
+"""Parts of a train that a reconstruction can find. Each part is a tree of arbors on the frame or on one carrier.
 
-Spur wheels and rings connect the arbors. Links joined by a pin and slot are one arbor. If some arbors of a part are
-treated as lost, the rest is evidence with a known answer, which measures how far the evidence determines the train.
+The arbors are connected by spur wheels and rings. Links that are joined by a pin and a slot form one arbor. If some
+arbors of a part are treated as lost, the remaining arbors are evidence for which the correct train is known. The
+reconstruction then shows to what extent such evidence determines the train.
 """
 
 from __future__ import annotations
@@ -33,7 +34,7 @@ _WHEEL_KEYS = ("internal", "status", "source", "note")
 
 @dataclass(frozen=True)
 class DrivenArbor:
-    """Mesh by which an arbor is driven: parent arbor, driving wheel and driven wheel."""
+    """Mesh that drives an arbor: parent arbor, driving wheel and driven wheel."""
 
     parent: str
     driving: str
@@ -41,7 +42,7 @@ class DrivenArbor:
 
 
 class ArborMesh(NamedTuple):
-    """Mesh as seen from one arbor: number of the gear pair, wheel on the arbor, and its mate."""
+    """Mesh as seen from one arbor: number of the gear pair, wheel on this arbor, and mating wheel."""
 
     gear: int
     own: str
@@ -51,12 +52,13 @@ class ArborMesh(NamedTuple):
 def walk_arbors(
     train: Train, source: str, meshes: Mapping[str, Sequence[ArborMesh]], arbor_of: Callable[[str], str]
 ) -> dict[str, DrivenArbor]:
-    """Return the driving mesh of every arbor that is reached from a source by breadth-first search.
+    """Return the mesh that drives each arbor, keyed by arbor, for all arbors reached from the arbor `source` by
+    breadth-first search.
 
     meshes    meshes of each arbor
-    arbor_of  function that returns the arbor of a wheel
+    arbor_of  function that returns the arbor that carries a wheel
 
-    Raise `QuestionError` if meshes close a loop.
+    `QuestionError` is raised if meshes close a loop.
     """
     driven: dict[str, DrivenArbor] = {}
     waiting, used = deque([source]), set[int]()
@@ -80,10 +82,11 @@ def walk_arbors(
 def walk_meshes(
     train: Train, source: str, arbors: Mapping[str, str], rings: Collection[str] = ()
 ) -> dict[str, DrivenArbor]:
-    """Return the driving mesh of every arbor on the frame that is reached from a source by breadth-first search.
+    """Return the mesh that drives each arbor on the frame, keyed by arbor, for all arbors reached from the arbor
+    `source` by breadth-first search.
 
     arbors  arbor to which each link belongs
-    rings   wheels that may be internal
+    rings   wheels that may have internal teeth
     """
     tree = find_tree(train)
     meshes: dict[str, list[ArborMesh]] = {}
@@ -97,9 +100,9 @@ def walk_meshes(
 
 
 def are_spur_mates(train: Train, tree: Tree, pair: Iterable[str], carrier: str) -> bool:
-    """Return whether two wheels are spur wheels or rings that turn on a carrier about parallel axes.
+    """Return whether two wheels are spur wheels or rings that turn about parallel axes carried by the link `carrier`.
 
-    carrier   link that carries the axes; if it is not the frame, one of the wheels may be fixed to the frame
+    carrier   the frame or a carrier; if it is a carrier, one of the wheels may be fixed to the frame
     """
     still = {train.frame, *train.fixed}
     directions = set()
@@ -119,30 +122,34 @@ def _value(figure: Figure) -> object:
 
 @dataclass(frozen=True)
 class SpurTree:
-    """Arbors of one part of a train, from its first arbor to its pointers."""
+    """Tree of the arbors in one part of a train, from the first arbor to the arbors that carry pointers."""
 
     train: Train
     base: BaseLink
-    """Link that carries the arbors, and the speed of the first arbor."""
+    """Base of the part: the link that carries the arbors, and the speed of the first arbor."""
     driven: Mapping[str, DrivenArbor]
-    """Mesh by which each arbor is driven, in topological order."""
+    """Mesh that drives each arbor, keyed by arbor in topological order."""
     joined: Joined
-    """Links that each arbor represents, the link of the same name first. Arbors with a single link are omitted."""
+    """Links that form each arbor, keyed by arbor; the link with the name of the arbor comes first. Arbors with a single
+    link are omitted.
+    """
     pointers: Mapping[str, str]
-    """Arbor of each output, or of each link whose speed is given."""
+    """Arbor that carries the pointer of each output, keyed by output. A link without output is included under its own
+    name if it serves as a pointer because its speed is known.
+    """
     counts: Mapping[str, int]
-    """Tooth count of each meshing wheel."""
+    """Tooth count of each meshing wheel, keyed by wheel."""
     teeth: tuple[int, int]
     """Minimum and maximum tooth count of an added wheel."""
 
     @property
     def source(self) -> str:
-        """First arbor of the part, which drives all other arbors."""
+        """Name of the first arbor of the part. It drives all other arbors."""
         return self.base.source
 
     @property
     def arbors(self) -> tuple[str, ...]:
-        """All arbors, beginning with the first arbor of the part."""
+        """Names of all arbors, beginning with the first arbor of the part."""
         return self.source, *self.driven
 
     @property
@@ -153,39 +160,41 @@ class SpurTree:
 
     @cached_property
     def able(self) -> tuple[str, ...]:
-        """Arbors that can be treated as lost: all driven arbors without a ring, because rings are never added."""
+        """Names of the arbors that can be treated as lost: all driven arbors that carry no ring, because rings are
+        never added.
+        """
         wheels = self.train.wheels
         return tuple(link for link in self.driven if not any(wheels[name][1].internal for name in self.wheels_of(link)))
 
     @property
     def name(self) -> str:
-        """Label of the part of the train; "" for the part that begins at the input, on the frame."""
+        """Label of the part of the train; empty for the part on the frame that begins at the input."""
         if self.base.is_carrier:
             return f"on {self.base.name}, from {self.source}"
         return "" if self.source in self.train.case(None).inputs else f"from {self.source}"
 
     def links_of(self, arbor: str) -> tuple[str, ...]:
-        """Return the links that an arbor represents. All fixed links belong to the frame."""
+        """Return the links that form an arbor. All fixed links belong to the frame."""
         if arbor == self.train.frame:
             return arbor, *self.train.fixed
         return self.joined.get(arbor, (arbor,))
 
     def arbor_of(self, link: str) -> str:
-        """Return the arbor that represents a link, which is usually the link itself."""
+        """Return the arbor to which a link belongs. Usually, it has the name of the link."""
         return next((arbor for arbor, links in self.joined.items() if link in links), link)
 
     def link_of(self, pointer: str) -> str:
-        """Return the link whose speed a pointer indicates."""
+        """Return the link whose speed is indicated by a pointer."""
         output = self.train.case(None).outputs.get(pointer)
         return pointer if output is None else output.of or pointer
 
     def wheels_of(self, arbor: str) -> tuple[str, ...]:
-        """Return the meshing wheels of an arbor in the order of the declaration."""
+        """Return the meshing wheels on an arbor in the order of declaration."""
         links = self.links_of(arbor)
         return tuple(name for link in links for name in self.train.links[link].wheels if name in self.counts)
 
     def meshes(self, lost: Collection[str] = ()) -> tuple[tuple[str, str], ...]:
-        """Return the meshes as (driving wheel, driven wheel), without the meshes of lost arbors."""
+        """Return the meshes as pairs (driving wheel, driven wheel). Meshes of the arbors in `lost` are omitted."""
         return tuple(
             (mesh.driving, mesh.driven)
             for arbor, mesh in self.driven.items()
@@ -193,7 +202,9 @@ class SpurTree:
         )
 
     def arbor(self, lost: Collection[str] = ()) -> Arbor:
-        """Return the tree as a candidate. The arbors in `lost` do not survive, and so have no names."""
+        """Return the tree as a candidate. The arbors in `lost` do not survive, so they have no names in the
+        candidate.
+        """
         owner = {wheel: arbor for arbor in self.arbors for wheel in self.wheels_of(arbor)}
 
         def placed(wheel: str) -> PlacedWheel:
@@ -210,12 +221,12 @@ def candidate_arbor(
     pointers: Mapping[str, str],
     placed: Callable[[str], PlacedWheel],
 ) -> Arbor:
-    """Return an arbor of a train with the arbors that it drives, as a candidate.
+    """Return the candidate that consists of an arbor of a train and of all arbors that it drives.
 
-    driven    mesh by which each arbor is driven
-    names     name of each surviving arbor in the candidate; None or absent for an added arbor
+    driven    mesh that drives each arbor
+    names     name of each surviving arbor in the candidate; None or no entry for an added arbor
     pointers  arbor of each dial
-    placed    function that returns a wheel of the train as a wheel of the candidate
+    placed    function that converts a wheel of the train to a wheel of the candidate
     """
     own = driven[link].driven if link in driven else None
     below: dict[str, list[Arbor]] = {}
@@ -240,11 +251,12 @@ def candidate_arbor(
 def find_spur_trees(train: Train) -> tuple[SpurTree, ...]:
     """Return all parts of a train that lead to pointers, beginning with the part that starts at the input.
 
-    A pointer is an output with a target whose speed is known by `expect` or by a target with a tolerance. If no pointer
-    follows an arbor of known speed, that arbor is a pointer. Arbors that lead to no pointer belong to no part.
+    A pointer is an output with a target, if its speed is known from `expect` or from a target with a tolerance. An
+    arbor of known speed that leads to no pointer is also treated as a pointer. Arbors that lead to no pointer belong to
+    no part.
 
-    Raise `QuestionError` if the train has no such part, because it has no single input, no pointer is reached, or its
-    meshes close a loop.
+    `QuestionError` is raised if the train has no such part, because it does not have exactly one input, because no
+    pointer is reached, or because its meshes close a loop.
     """
     _check_input(train)
     parts = _Parts(train)
@@ -263,9 +275,9 @@ def find_spur_trees(train: Train) -> tuple[SpurTree, ...]:
 def find_spur_tree(train: Train, arbors: Iterable[str] = (), source: str | None = None) -> SpurTree:
     """Return the first part of a train in which all given arbors are driven.
 
-    source   arbor at which the part begins; the default is any arbor
+    source   arbor at which the part begins; None if it may begin at any arbor
 
-    Raise `QuestionError` if no part has all of these arbors.
+    `QuestionError` is raised if no part has all of these arbors.
     """
     trees = find_spur_trees(train)
     if source is not None:
@@ -282,7 +294,7 @@ def find_spur_tree(train: Train, arbors: Iterable[str] = (), source: str | None 
         return (both or trees)[0]
     said = " and ".join(f"'{link}'" for link in wanted)
     why = f"the train has {len(trees)} parts, and each is reconstructed separately"
-    raise QuestionError(Problem(f"{said} cannot both be lost", why, "name only arbors of one part"))
+    raise QuestionError(Problem(f"{said} belong to different parts", why, "name only arbors of the same part"))
 
 
 def _check_input(train: Train) -> None:
@@ -298,17 +310,21 @@ def _check_input(train: Train) -> None:
 
 @dataclass
 class _Base:
-    """Arbors that turn on the frame or on one carrier: links that form one arbor, and meshes."""
+    """Arbors that turn on the frame or on one carrier: groups of links that form one arbor, and meshes of the
+    arbors.
+    """
 
     joined: dict[str, tuple[str, ...]] = field(default_factory=dict)
-    """Links that couplings connect to each link, including the link itself, in the order of the train."""
+    """Group of links that couplings connect to each link, keyed by link. The group includes this link and is in the
+    order of declaration.
+    """
     meshes: dict[str, list[ArborMesh]] = field(default_factory=dict)
-    """Meshes of each arbor with other arbors of the base."""
+    """Meshes of each arbor with other arbors on the same base."""
 
 
 class _Parts:
-    """Search for the parts of a train. `loop` describes the last closed loop of meshes that was found; a part with such
-    a loop is excluded.
+    """Search for the parts of a train. `loop` describes the last closed loop of meshes that was found; a part with a
+    closed loop is excluded.
     """
 
     def __init__(self, train: Train) -> None:
@@ -317,7 +333,9 @@ class _Parts:
         self._inputs = {link: speed for link, speed in train.case(None).inputs.items() if speed}
 
     def trees(self) -> Iterator[SpurTree]:
-        """Yield the parts in an order in which the speed of the first arbor of a part is known from earlier parts."""
+        """Yield the parts of the train. If the speed of the first arbor of a part follows from another part, the other
+        part comes first.
+        """
         waiting = [(base, arbors) for base in self._bases for arbors in self._connected(base)]
         # the part at the input begins; it determines the speeds at which others begin
         waiting.sort(key=lambda part: not (part[0] == self.train.frame and part[1] & {*self._inputs}))
@@ -355,7 +373,9 @@ class _Parts:
         return {base: own for base, own in found.items() if own.meshes}
 
     def _arbor(self, base: str, wheel: str, bases: dict[str, _Base] | None = None) -> str:
-        """Return the arbor of a wheel: the frame if its link is fixed, or the first of the links joined to its link."""
+        """Return the arbor of a wheel. If the link of the wheel is fixed, this is the frame; if not, it is the first of
+        the links joined to the link of the wheel.
+        """
         return self._arbor_of_link(base, self.train.wheels[wheel][0], bases)
 
     def _arbor_of_link(self, base: str, link: str, bases: dict[str, _Base] | None = None) -> str:
@@ -371,7 +391,7 @@ class _Parts:
     # first arbor of a part
 
     def _start_of(self, base: str, arbors: set[str], known: tuple[str, ...]) -> BaseLink | None:
-        """Return the base and first arbor of a part; None if it has no arbor with a known speed."""
+        """Return the base and the first arbor of a part; None if the part has no arbor with a known speed."""
         frame, speed = self.train.frame, self._speed(base)
         if speed is None or (not speed and base != frame):
             return None
@@ -383,7 +403,7 @@ class _Parts:
         return None
 
     def _speed(self, link: str) -> Fraction | None:
-        """Return the exact speed of a link [turns per unit]; None if it is not determined."""
+        """Return the exact speed of a link [turns per unit]; None if the speed is not determined."""
         if link == self.train.frame or link in self.train.fixed:
             return Fraction(0)
         if link in self._inputs:
@@ -423,9 +443,10 @@ class _Parts:
         return _renamed(SpurTree(train, start, driven, joined, pointers, counts, teeth))
 
     def _known_outputs(self, base: str) -> Iterator[tuple[str, str, bool]]:
-        """Yield (output, link, has a target) for outputs of known speed relative to the frame or the base.
+        """Yield, for each output of known speed relative to the frame or the base, its name, its link, and whether it
+        has a target.
 
-        On a carrier the driven links are also outputs.
+        If the base is a carrier, the inputs of the train are also treated as outputs.
         """
         train = self.train
         for name, output in train.case(None).outputs.items():
@@ -437,7 +458,9 @@ class _Parts:
 
 
 def _renamed(tree: SpurTree) -> SpurTree:
-    """Return the tree with joined arbors named as in a problem, after their first link with meshing wheels."""
+    """Return the tree with joined arbors named as in a reconstruction problem, that is, after their first link with
+    meshing wheels.
+    """
     names = {}
     for arbor, links in tree.joined.items():
         names[arbor] = min(
@@ -462,7 +485,7 @@ def _renamed(tree: SpurTree) -> SpurTree:
 
 
 def why_not(train: Train, link: str) -> str:
-    """Return the reason why a link is in none of the parts of a train that a reconstruction can find."""
+    """Return the reason why a link belongs to none of the parts of a train that a reconstruction can find."""
     wheels = train.links[link].wheels
     if link == train.frame or link in train.fixed:
         return "the link does not turn"
@@ -484,7 +507,7 @@ def why_not(train: Train, link: str) -> str:
 
 
 def _unsupported_features(train: Train) -> Iterator[str]:
-    """Yield the features of a train that a reconstruction does not support."""
+    """Yield descriptions of the features of a train that a reconstruction does not support."""
     kinds = {wheel.kind for _, wheel in train.wheels.values()} - {"spur"}
     yield from (f"{kind} wheels" for kind in sorted(kinds))
     if any(one.kind != "pin_and_slot" for one in train.pin_couplings):
@@ -501,22 +524,23 @@ def _joined(parts: Sequence[str]) -> str:
 
 
 def lost_evidence(tree: SpurTree, lost: Sequence[str], seen: bool = False) -> Train:
-    """Return the evidence that remains of a tree if some arbors are lost.
+    """Return the evidence that remains of a tree after the loss of some arbors.
 
-    The other arbors survive with their meshing wheels, with certain tooth counts, and with couplings between them.
-    Every pointer has its speed, on its arbor or on a lost arbor. As many wheels may be added as are lost. Their tooth
-    counts have the range of the first part, or for a later part the range of all parts.
+    The other arbors survive with their meshing wheels, whose tooth counts are certain, and with the couplings between
+    them. The speed of every pointer is known, and its arbor is known unless it is lost. As many wheels may be added as
+    are lost. Their tooth counts must be within the range of tooth counts in the first part or, for a later part, in all
+    parts.
 
-    lost   links; `QuestionError` is raised for the first arbor, for a link that is not in the tree, and for an arbor
-           with a ring
-    seen   True if meshes of surviving wheels are known and no more arbors may be added than are lost; otherwise meshes
-           are unknown
+    lost   names of lost links; `QuestionError` is raised if this includes the first arbor, a link that is not in the
+           tree, or an arbor with a ring
+    seen   True if the meshes of surviving wheels are known and no more arbors may be added than are lost; False if the
+           meshes are unknown
     """
     return declare(lost_evidence_data(tree, lost, seen))
 
 
 def lost_evidence_data(tree: SpurTree, lost: Sequence[str], seen: bool = False) -> dict[str, Any]:
-    """Return the evidence that remains of a tree, with the keys of a declaration."""
+    """Return the evidence that remains of a tree after the loss of some arbors, in the format of a declaration."""
     _check(tree, lost)
     train = tree.train
     arbors = lost_arbors(tree, lost)
@@ -549,7 +573,7 @@ def lost_evidence_data(tree: SpurTree, lost: Sequence[str], seen: bool = False) 
 
 
 def lost_arbors(tree: SpurTree, links: Sequence[str]) -> tuple[str, ...]:
-    """Return the arbors of the tree that represent the given links, without duplicates."""
+    """Return the arbors of the tree to which the given links belong, without duplicates."""
     return tuple(dict.fromkeys(map(tree.arbor_of, links)))
 
 
@@ -573,7 +597,7 @@ def _requested(tree: SpurTree, lost: Sequence[str], seen: bool) -> dict[str, Any
 
 
 def _inputs(tree: SpurTree, given: dict[str, Any]) -> dict[str, Any]:
-    """Return the speeds of the base and of the first arbor as declared inputs."""
+    """Return the speeds of the base and of the first arbor in the format of declared inputs."""
     base, frame = tree.base, tree.train.frame
     speeds = {base.name: base.speed, base.source: base.driven + base.speed}
     return {link: given["inputs"].get(link, str(speed)) for link, speed in speeds.items() if link != frame}
@@ -601,7 +625,9 @@ def _check(tree: SpurTree, lost: Sequence[str]) -> None:
 
 
 def _wheels(tree: SpurTree, given: dict[str, Any], link: str) -> dict[str, Any]:
-    """Return the meshing wheels of a surviving link as plain data, with counts, kinds, statuses and sources."""
+    """Return the meshing wheels on a surviving link as plain data, each with its tooth count, kind, status and
+    source.
+    """
     found: dict[str, Any] = {}
     for name in (name for name in tree.train.links[link].wheels if name in tree.counts):
         wheel = given["links"][link]["wheels"][name]
@@ -611,7 +637,7 @@ def _wheels(tree: SpurTree, given: dict[str, Any], link: str) -> dict[str, Any]:
 
 
 def _shown(tree: SpurTree, given: dict[str, Any], pointer: str) -> dict[str, Any]:
-    """Return the speed of a pointer as plain data: its `expect`, otherwise its targets with a tolerance."""
+    """Return the speed of a pointer as plain data: its `expect` or, if it has none, its targets with a tolerance."""
     output = given["outputs"].get(pointer)
     if output is None:
         return {"expect": given["inputs"][pointer]}

@@ -1,6 +1,6 @@
 """Conversion of a candidate to a complete declaration, in which added parts are marked as hypothetical.
 
-Names depend only on the evidence and the candidate, so equal candidates give equal declarations.
+The names of parts depend only on the evidence and the candidate, so equal candidates give equal declarations.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ from geartrain.train.yaml_nodes import as_yaml
 
 
 def fit_modules(train: NamedArbor, geometry: SurvivingGeometry) -> dict[str, float | None]:
-    """Return the modules [mm] to declare for measured wheels whose measured module does not apply.
+    """Return the module [mm] to be declared for each measured wheel for which the measured module cannot be declared.
 
-    Wheels that mesh share one module. The first measured wheel of a group has the geometric mean of the measured
-    modules, and its mates have None, because their modules follow from it. All wheels of a group have None if the
-    positions of two axes determine the module.
+    Wheels that mesh share one module. In a group of such wheels, the first measured wheel receives the geometric mean
+    of the measured modules, and the others receive None, because their modules follow from the first. All wheels of a
+    group receive None if the positions of two axes determine their module.
     """
     mates = _meshing(train)
     placed = {
@@ -50,7 +50,9 @@ def fit_modules(train: NamedArbor, geometry: SurvivingGeometry) -> dict[str, flo
 
 
 def _meshing(train: NamedArbor) -> dict[str, str]:
-    """Return for each wheel the first wheel of the group that shares its module."""
+    """Return, for each wheel, the first wheel of its group. Wheels of a group have the same module because they
+    mesh.
+    """
     first: dict[str, str] = {}
     for _, wheel, arbor in train.meshes():
         assert arbor.driven is not None
@@ -75,7 +77,7 @@ _LEFT_OUT = {
 
 
 def named_candidate(evidence: Train, arbor: Arbor) -> NamedArbor:
-    """Return a candidate with the names that its declaration gives to arbors and wheels."""
+    """Return a candidate with the names of arbors and wheels that are used in its declaration."""
     return name_train(arbor, tuple(evidence.outputs), {*evidence.links, evidence.frame}, evidence.wheels)
 
 
@@ -108,7 +110,7 @@ def candidate_train(evidence: Train, arbor: Arbor, name: str) -> Train:
 
 
 def candidate_text(evidence: Train, arbor: Arbor, name: str) -> str:
-    """Return the declaration of a candidate as YAML; equal candidates give equal strings."""
+    """Return the declaration of a candidate as YAML text. Equal candidates give equal texts."""
     return as_yaml(candidate_data(evidence, arbor, name))
 
 
@@ -128,15 +130,15 @@ def candidate_data(evidence: Train, arbor: Arbor, name: str) -> dict[str, Any]:
 
 @dataclass
 class TrainConstruction:
-    """Declaration of a candidate, built arbor by arbor.
+    """Builder of the declaration of a candidate, which adds the parts arbor by arbor.
 
     given    evidence as plain data
     links, revolutes, gears, couplings   parts of the candidate, as plain data
     shown    link of each pointer, and its speed relative to the base
-    meshes   pairs of wheels, the driving wheel first
+    meshes   pairs of meshing wheels, the driving wheel first
     added    tooth count of each added wheel
     doubtful tooth count in this candidate of each surviving wheel with an uncertain tooth count
-    modules  new module [mm] of each measured wheel whose module changes; None if it follows from other wheels
+    modules  new module [mm] of each measured wheel whose module changes; None if the module follows from other wheels
     """
 
     evidence: Train
@@ -178,7 +180,9 @@ class TrainConstruction:
         return not wheel.added and self.evidence.wheels[wheel.name][1].internal
 
     def _put(self, arbor: NamedArbor, speed: Fraction) -> None:
-        """Add an arbor, or the links that couplings connect to it, with its wheels and pointers."""
+        """Add an arbor with its wheels and pointers. If couplings connect several links to form the arbor, add all of
+        these links.
+        """
         links = joined_arbors(self.evidence).get(arbor.name, (arbor.name,))
         for link in links:
             self._link(link, arbor.added)
@@ -190,7 +194,7 @@ class TrainConstruction:
             self.shown[dial] = (of if of in links else links[0], speed)
 
     def parts(self) -> dict[str, Any]:
-        """Return the keys of the declaration that differ from the evidence."""
+        """Return the entries of the declaration that differ from the evidence."""
         frame = self.evidence.frame
         links = {frame: self.given["links"].get(frame, {})}
         links |= {link: self.links[link] for link in (*self.evidence.links, *self.links) if link in self.links}
@@ -202,7 +206,7 @@ class TrainConstruction:
         return {"axes": axes, **found} if axes else found
 
     def _carrier(self) -> None:
-        """Add the carrier, if there is one, and its joint with the frame."""
+        """Add the carrier, if there is one, and its turning pair with the frame."""
         if self.base.is_carrier:
             self.links[self.base.name] = dict(self.given["links"][self.base.name] or {})
             self._joint(self.evidence.frame, self.base.name)
@@ -217,7 +221,9 @@ class TrainConstruction:
             self._joint(self.evidence.frame, link, self.revolutes[0]["axis"])
 
     def _joint(self, bearing: str, link: str, axis: str | None = None) -> None:
-        """Add the declared joint of a link, otherwise a joint with its bearing about a given or a new axis."""
+        """Add the declared turning pair of a link or, if there is none, a turning pair with `bearing` about a given or
+        a new axis.
+        """
         joints = self.given.get("revolutes", ())
         bearings = {bearing, self.evidence.frame, self.base.name} - {link}
         joint = next((joint for joint in joints if link in joint["pair"] and bearings & set(joint["pair"])), None)
@@ -241,7 +247,9 @@ class TrainConstruction:
         self.links[link]["wheels"] = wheels
 
     def _with_module(self, name: str, wheel: Mapping[str, Any]) -> dict[str, Any]:
-        """Return a declared wheel with its new module, and a note of the measured value if it differs."""
+        """Return a declared wheel with its new module. If the new module differs from the measured value, a note with
+        this value is added.
+        """
         requested, module = self.evidence.reconstruct, self.modules[name]
         assert requested is not None
         assert requested.geometry is not None
@@ -274,7 +282,9 @@ class TrainConstruction:
 
 
 def _with_count(teeth: Any, count: int) -> Any:
-    """Return a declared tooth count with the value of a candidate. Its range or choices remain."""
+    """Return a declared tooth count with its value replaced by the tooth count in a candidate. Its range or choices are
+    preserved.
+    """
     if not isinstance(teeth, Mapping):
         return count
     found = {"value": count, **{key: part for key, part in teeth.items() if key not in ("value", "search")}}

@@ -1,7 +1,7 @@
 """Topology of a train: a rooted tree of arbors without the tooth counts of added wheels.
 
-The arbors between two branchings form a chain and have no order. A topology is therefore an equivalence class of
-trains, up to the order of arbors on chains and the counts of added wheels.
+The arbors between two branchings form a chain and have no order. A topology is therefore an equivalence class of trains
+that differ only in the order of arbors on chains and in the tooth counts of added wheels.
 """
 
 from __future__ import annotations
@@ -31,30 +31,34 @@ ADDED = PlacedWheel(None, 0)
 
 @dataclass(frozen=True)
 class ArborPass:
-    """Driven and driving wheel by which a path passes through one arbor."""
+    """Pair of the driven and the driving wheel by which a path passes through one arbor."""
 
     driven: PlacedWheel | None
-    """Driven wheel, by which the path enters; None on the input arbor."""
+    """Driven wheel, by which the path enters the arbor; None on the input arbor."""
     driver: PlacedWheel | None
-    """Driving wheel, by which the path leaves; None if the path ends here. In an idler it is the driven wheel."""
+    """Driving wheel, by which the path leaves the arbor; None if the path ends at this arbor. In an idler, it is the
+    driven wheel.
+    """
     idle: int
-    """Number of surviving wheels of the arbor that the path does not use."""
+    """Number of surviving wheels on the arbor that the path does not use."""
     idler: bool = False
 
     @property
     def added_drivers(self) -> int:
-        """Number of added driving wheels that change the speed, 0 or 1. An idler does not change the speed."""
+        """Number of added driving wheels on this arbor that affect the speed, 0 or 1. An idler does not affect the
+        speed.
+        """
         return int(self.driver == ADDED and not self.idler)
 
     @property
     def added_driven(self) -> int:
-        """Number of added driven wheels that change the speed, 0 or 1."""
+        """Number of added driven wheels on this arbor that affect the speed, 0 or 1."""
         return int(self.driven == ADDED and not self.idler)
 
     def meshes_with(self, rings: frozenset[str]) -> int:
-        """Return the number of meshes of the path on this arbor in which the arbor's wheel is one of `rings`.
+        """Return the number of meshes of the path in which the wheel on this arbor is one of `rings`.
 
-        An idler has two meshes.
+        An idler takes part in two meshes.
         """
         return sum(wheel is not None and wheel.name in rings for wheel in (self.driven, self.driver))
 
@@ -65,10 +69,10 @@ class ArborPass:
 
 
 def arbor_passes(arbor: SurvivingArbor, problem: ReconstructionProblem) -> Iterator[ArborPass]:
-    """Yield all pairs of wheels by which a path can pass through a surviving arbor or end at it.
+    """Yield all pairs of a driven and a driving wheel by which a path can pass through a surviving arbor or end at it.
 
-    An added wheel on an arbor with surviving wheels can only drive. On an arbor without surviving wheels the driven
-    wheel is added.
+    On an arbor with surviving wheels, an added wheel can only be a driving wheel. On an arbor without surviving wheels,
+    the driven wheel is added.
     """
     beside = problem.additions.on == "any" and problem.additions.wheels > 0
     is_input = arbor is problem.input
@@ -104,7 +108,7 @@ def readings(wheel: SurvivingWheel) -> Iterator[PlacedWheel]:
 
 
 Dials = tuple[str, ...]
-"""Names of dials, sorted."""
+"""Sorted names of dials."""
 
 
 @dataclass(frozen=True)
@@ -114,17 +118,17 @@ class Branching:
     name: str | None
     """Name of the surviving arbor; None for an added arbor."""
     driven: PlacedWheel | None
-    """Driven wheel: `ADDED` for an added wheel, None on the input arbor."""
+    """Driven wheel; `ADDED` if it is an added wheel, None on the input arbor."""
     here: Dials
-    """Dials whose pointers the arbor carries."""
+    """Names of the dials whose pointers are on the arbor."""
     drives: tuple[tuple[PlacedWheel, tuple[Chain, ...]], ...] = ()
-    """Driving wheels, each with the chains that it drives."""
+    """Driving wheels on the arbor, each with the chains that it drives."""
     passes: tuple[Chain, ...] = ()
-    """Chains that the driven wheel itself drives as an idler."""
+    """Chains that the driven wheel also drives, as an idler."""
 
     @property
     def chains(self) -> Iterator[Chain]:
-        """All chains that the arbor drives."""
+        """Chains of arbors that this arbor drives."""
         for _, chains in self.drives:
             yield from chains
         yield from self.passes
@@ -132,18 +136,18 @@ class Branching:
 
 @dataclass(frozen=True)
 class Chain:
-    """Arbors in series on the path to some dials, without a branching between them, and the end of the chain."""
+    """Arbors in series on the path to one or more dials, without a branching between them, and the end of the chain."""
 
     dials: Dials
     """Dials to which the chain leads."""
     through: tuple[tuple[str, ArborPass], ...]
-    """Names of the surviving arbors, each with its driven and driving wheel."""
+    """Names of the surviving arbors on the chain, each with its driven and driving wheel."""
     compounds: int
-    """Number of added arbors with two wheels."""
+    """Number of added arbors with two wheels on the chain."""
     idlers: int
-    """Number of added arbors with one wheel that is both driven and driving."""
+    """Number of added arbors on the chain with one wheel that is both driven and driving (idlers)."""
     end: Branching | tuple[Chain, ...]
-    """Arbor at which the chain ends, or the chains that its last driving wheel drives."""
+    """Branching at which the chain ends, or the chains that the last driving wheel of the chain drives."""
 
     @property
     def arbors(self) -> int:
@@ -158,16 +162,16 @@ class Chain:
 
 @dataclass(frozen=True)
 class Topology:
-    """Train without tooth counts of added wheels, with the quotients that these counts must have for each dial."""
+    """Train without tooth counts of added wheels, with the quotient of these tooth counts that each dial requires."""
 
     root: Branching
-    """Input arbor."""
+    """Input arbor of the train."""
     wanted: tuple[tuple[str, Quotients], ...]
-    """Pairs of a dial and the bounds (minimum, maximum) of the quotient of the added wheels on its path."""
+    """Pairs of a dial and the minimum and maximum quotient of the added wheels on its path."""
 
     @cached_property
     def chains(self) -> tuple[Chain, ...]:
-        """All chains in depth-first order from the input."""
+        """All chains in depth-first order from the input arbor."""
         found: list[Chain] = []
         waiting = list(self.root.chains)[::-1]
         while waiting:
@@ -177,12 +181,12 @@ class Topology:
 
     @cached_property
     def branchings(self) -> tuple[Branching, ...]:
-        """All arbors at which paths to dials end or separate, in depth-first order from the input."""
+        """All arbors at which paths to dials end or separate, in depth-first order from the input arbor."""
         return self.root, *(chain.end for chain in self.chains if isinstance(chain.end, Branching))
 
     @cached_property
     def added(self) -> AddedWheels:
-        """Added wheels, grouped by the dials whose speed they change."""
+        """Numbers of added wheels, grouped by the dials whose speeds they affect."""
         drivers, driven, idle = Counter[Dials](), Counter[Dials](), 0
         for chain in self.chains:
             drivers[chain.dials] += chain.compounds + sum(each.added_drivers for _, each in chain.through)
@@ -212,31 +216,31 @@ class Topology:
 
 
 Quotients = tuple[Fraction, Fraction]
-"""Minimum and maximum quotient of products of tooth counts, equal if the quotient is exact."""
+"""Minimum and maximum quotient of products of tooth counts. The two are equal if the quotient is exact."""
 
 
 class AddedKind(NamedTuple):
-    """Kind of added wheels, which have the same effect on the speeds of dials and are interchangeable."""
+    """Kind of added wheels. Wheels of one kind have the same effect on the speeds of dials and are interchangeable."""
 
     dials: Dials
-    """Dials whose speed the wheels change; empty for wheels that change no speed."""
+    """Dials whose speeds the wheels affect; empty for wheels that affect no speed."""
     drives: bool
-    """True for driving wheels on the path to these dials, False for driven wheels."""
+    """True for driving wheels on the path to these dials; False for driven wheels."""
     most: int | None = None
-    """Maximum tooth count in a mesh with a ring; None if only the general limit applies."""
+    """Maximum tooth count due to a mesh with a ring; None if only the general limit applies."""
 
 
 @dataclass(frozen=True)
 class AddedWheels:
-    """Number of added wheels, grouped by the dials whose speed they change."""
+    """Numbers of added wheels, grouped by the dials whose speeds they affect."""
 
     groups: tuple[tuple[Dials, int, int], ...]
     """Triples (dials, number of driving wheels, number of driven wheels)."""
     idle: int
-    """Number of added wheels that change no speed."""
+    """Number of added wheels that affect no speed."""
 
     def without(self, kind: AddedKind) -> AddedWheels:
-        """Return the added wheels with one wheel of a kind removed."""
+        """Return the numbers of added wheels after removal of one wheel of the given kind."""
         if not kind.dials:
             return AddedWheels(self.groups, self.idle - 1)
         left = [
@@ -253,7 +257,9 @@ class AddedWheels:
 
 
 def _count_end(end: Branching, dials: Dials, drivers: Counter[Dials], driven: Counter[Dials]) -> int:
-    """Add the wheels of a branching to `drivers` and `driven`, and return the number of wheels that change no speed."""
+    """Add the numbers of added wheels of a branching to `drivers` and `driven`, and return the number of added wheels
+    that affect no speed.
+    """
     for wheel, chains in end.drives:
         drivers[_dials_of(chains)] += wheel == ADDED
     if end.driven != ADDED:
@@ -274,4 +280,4 @@ def _wheels_of(each: ArborPass) -> tuple[PlacedWheel | None, PlacedWheel | None]
 
 
 TOPOLOGIES = TypeAdapter(Topology)
-"""Conversion of topologies to plain data and back, for transfer between processes and for journals."""
+"""Converter of topologies to plain data and back, for transfer between processes and for journals."""

@@ -1,4 +1,4 @@
-"""Command `geartrain reconstruct`: every train that explains surviving wheels and pointers."""
+"""Command `geartrain reconstruct`: search for all trains that explain surviving wheels and pointers."""
 
 from __future__ import annotations
 
@@ -139,7 +139,8 @@ def run(
     json: Json = False,
     force: Force = False,
 ) -> None:
-    """Find every train that explains surviving wheels and pointers; exit code 0 if any train does, else 1.
+    """Find all trains that explain surviving wheels and pointers. The exit code is 0 if there is such a train, and 1 if
+    there is none.
 
     Example: `geartrain reconstruct metonic-l-m --best 5`.
     """
@@ -186,7 +187,7 @@ def run(
 
 
 def _name_pair(text: str) -> tuple[str, str]:
-    """Parse a pair of names such as `E4=e3`."""
+    """Parse a pair of names such as `E4=e3`: the name in a known train and the name in the evidence."""
     own, _, called = map(str.strip, text.partition("="))
     if not own or not called:
         raise option_error("--same", f"'{text}' is not a pair of names", "write it as ITS=OURS, such as E4=e3")
@@ -194,7 +195,9 @@ def _name_pair(text: str) -> tuple[str, str]:
 
 
 def _write(found: ReconstructionAnswer, folder: Path, force: bool, with_evidence: bool) -> None:
-    """Write a declaration of each listed candidate, the family tree, and the evidence if `with_evidence` is True."""
+    """Write a declaration of each listed candidate and the family tree. If `with_evidence` is True, also write the
+    evidence.
+    """
     from geartrain.numerics.files import check_folder, write_folder
     from geartrain.search.reconstruct.train_construction import candidate_text
     from geartrain.train.declaration_files import write_declaration
@@ -216,7 +219,7 @@ def _write(found: ReconstructionAnswer, folder: Path, force: bool, with_evidence
 
 
 def _family_text(found: ReconstructionAnswer) -> str:
-    """Return the family tree, a digest of the problem and the counts of trains as JSON."""
+    """Return the family tree, the digest of the problem and the numbers of trains as JSON text."""
     from geartrain.search.reconstruct.reconstruction_problem import question_digest
 
     requested = {"name": found.name, "question": question_digest(found.problem), "counts": found.counts}
@@ -232,8 +235,8 @@ _PATIENCE = 2.0  # seconds before a progress bar is shown
 
 
 class CommandRun(ReconstructionRun):
-    """Execution with progress bars on standard error and journals in a folder. Ctrl-C interrupts one stage at a
-    time.
+    """Execution of a reconstruction with progress bars on standard error and journals in a folder. Ctrl-C interrupts
+    only the current stage.
     """
 
     def __init__(self, folder: Path | None, options: RunOptions) -> None:
@@ -248,7 +251,7 @@ class CommandRun(ReconstructionRun):
 
     @contextmanager
     def search(self, problem: ReconstructionProblem) -> Iterator[Execution]:
-        """Yield an executor with a journal, which `searched` closes."""
+        """Yield an executor that writes a journal. The method `searched` closes the journal."""
         # tasks do not depend on the listing or on the unit of the prior
         requested = {"question": question_digest(problem)}
         with long_run("reconstruct", requested, self._folder, self._options) as given:
@@ -256,13 +259,13 @@ class CommandRun(ReconstructionRun):
             yield given
 
     def searched(self, complete: bool) -> None:
-        """Remove the journal of a complete search, or report how to resume it."""
+        """Remove the journal if the search is complete, or report how to resume the search if it is not."""
         close_journal(self._journal, not complete)
 
     @contextmanager
     def part(self, what: str) -> Iterator[Execution]:
-        """Yield an executor with a progress bar for another part of the work. An interruption omits its rest from the
-        answer.
+        """Yield an executor with a progress bar for another part of the work. After an interruption, the results of
+        this part that are not yet computed are missing in the answer.
         """
         try:
             with self._options.executor(what) as executor, progress(what, patience=_PATIENCE) as bar:
@@ -272,7 +275,7 @@ class CommandRun(ReconstructionRun):
 
 
 def write_page(to: Sink, found: ReconstructionAnswer, turning: int) -> None:
-    """Write the HTML page, in which the first `turning` candidates are animated."""
+    """Write the HTML page of the reconstruction, in which the first `turning` candidates are animated."""
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.report.html_page import to_html
     from geartrain.scene import build_scene

@@ -1,4 +1,4 @@
-"""Requirements of a train on its output speeds, as exact intervals, and the errors of speeds."""
+"""Requirements of a train on its output speeds as exact intervals, and the errors of output speeds."""
 
 from __future__ import annotations
 
@@ -29,12 +29,12 @@ class SpeedRequirement:
     """One requirement on the speed of an output.
 
     label       description, such as "period 583.92 d" or "expect 2/7"
-    wanted      requested speed in the unit of the train; positive if only the magnitude is required
+    wanted      requested speed [unit of the train]; positive if only the magnitude is required
     signed      False if only the magnitude is required
-    allowed     closed disjoint intervals of admissible speeds, in the unit of the train; None if all are admissible
+    allowed     closed disjoint intervals of admissible speeds [unit of the train]; None if all speeds are admissible
     graded      True if the error of the output is computed from this requirement
     approached  True if no tolerance is given, so that the error is minimised
-    target      True for a target, False for an expected or published value
+    target      True for a target; False for an expected or published value
     """
 
     label: str
@@ -49,7 +49,7 @@ class SpeedRequirement:
     def of(cls, goal: RatioGoal, share: Fraction | None) -> SpeedRequirement:
         """Return the speed requirement of a declared target.
 
-        share   relative tolerance of the speed; if it is None, the error is minimised
+        share   relative tolerance of the speed; None if the error is minimised
         """
         said = "" if share is None else f" within {decimal(share, 3)}"
         demand = cls(goal.words + said, goal.speed, goal.signed, None, True, True, True)
@@ -58,8 +58,8 @@ class SpeedRequirement:
         return replace(demand, allowed=demand.within(share), approached=False)
 
     def loosened(self) -> SpeedRequirement:
-        """Return the requirement without its tolerance. Its error is minimised, and only the sense of rotation is
-        required.
+        """Return the requirement without its tolerance, so that its error is minimised. Only the sense of rotation is
+        still required.
         """
         allowed: tuple[Interval, ...] | None = None
         if self.signed and self.wanted:
@@ -67,13 +67,16 @@ class SpeedRequirement:
         return replace(self, allowed=allowed, approached=True)
 
     def error(self, speed: Fraction) -> Fraction:
-        """Return the relative error of a speed; if the requested speed is 0, return the speed itself."""
+        """Return the relative error of a speed with respect to the requested speed. If the requested speed is 0, return
+        the speed itself.
+        """
         return Fraction(error_against(speed, self.wanted, self.signed))
 
     def within(self, share: Fraction | None) -> tuple[Interval, ...] | None:
-        """Return the admissible speeds, or None if all speeds are admissible.
+        """Return the intervals of admissible speeds; None if all speeds are admissible.
 
-        With a `share`, a graded requirement admits only speeds within this relative tolerance.
+        If `share` is not None, a requirement that grades speeds admits only speeds whose relative deviation from the
+        required speed is at most `share`.
         """
         if share is None or not self.graded:
             return self.allowed
@@ -88,12 +91,12 @@ class SpeedRequirement:
 
     @property
     def exact(self) -> bool:
-        """True if exactly one speed, or one magnitude, is admissible."""
+        """True if exactly one speed, or one magnitude of the speed, is admissible."""
         return self.allowed is not None and all(low == high for low, high in self.allowed)
 
     def half(self, above: bool) -> Fraction | None:
-        """Return the tolerance above or below the requested speed, in the unit of the train; None if it is unlimited,
-        or if the requested speed is not admissible.
+        """Return the tolerance above the requested speed (if `above` is True) or below it [unit of the train]. None if
+        the tolerance is unlimited, or if the requested speed is not admissible.
         """
         around = [interval for interval in self.allowed or () if is_within(self.wanted, (interval,))]
         # a magnitude has equal tolerances, even if its interval extends to negative speeds
@@ -114,7 +117,7 @@ class SpeedRequirement:
         return None if end is None else self.wanted + factor * (end - self.wanted)
 
     def misfit(self, speed: Fraction) -> Fraction:
-        """Return (error / tolerance)^2; 0 for an unlimited tolerance and for an exact requirement."""
+        """Return (error / tolerance)^2. Return 0 if the tolerance is unlimited or 0."""
         value = speed if self.signed else abs(speed)
         half = self.half(value > self.wanted)
         return ((value - self.wanted) / half) ** 2 if half else Fraction(0)
@@ -125,13 +128,13 @@ def _around(middle: Fraction, half: Fraction) -> tuple[Fraction, Fraction]:
 
 
 def _magnitudes(wanted: Fraction, half: Fraction) -> tuple[Interval, ...]:
-    """Return the intervals of speeds, of either sense, whose magnitude is within `half` of `wanted`."""
+    """Return the intervals of positive and negative speeds whose magnitude differs from `wanted` by at most `half`."""
     low, high = _around(wanted, half)
     return ((-high, high),) if low <= 0 else ((-high, -low), (low, high))
 
 
 def meet(left: Sequence[Interval], right: Sequence[Interval]) -> tuple[Interval, ...]:
-    """Return the intersection of two unions of intervals of speeds."""
+    """Return the intersection of two unions of intervals."""
     found = []
     for a, b in left:
         for c, d in right:
@@ -146,14 +149,14 @@ def meet(left: Sequence[Interval], right: Sequence[Interval]) -> tuple[Interval,
 
 @dataclass(frozen=True, slots=True)
 class OutputRequirement:
-    """Output of a train with its speed as a function of tooth counts, and all requirements on this speed."""
+    """Output of a train: its speed as a function of tooth counts, and all requirements on this speed."""
 
     name: str
-    """Name of the output; "state: output" if several states are searched at once."""
+    """Name of the output, in the format "state: output" if several states are searched together."""
     function: Function
-    """Speed as a function of the tooth counts that are varied."""
+    """Speed of the output as a function of the tooth counts of the varied wheels."""
     demands: tuple[SpeedRequirement, ...]
-    """Requirements that must all be satisfied, at least one."""
+    """Requirements on the speed, at least one. All of them must be satisfied."""
 
     @property
     def approached(self) -> bool:
@@ -162,20 +165,20 @@ class OutputRequirement:
 
     @property
     def exact(self) -> bool:
-        """True if every admissible interval is a single speed, so that no solution has an error."""
+        """True if every admissible interval contains a single speed, so that no solution has an error."""
         common = self.requested(None)
         return common is not None and all(low == high for low, high in common.intervals)
 
     @property
     def text(self) -> str:
-        """Name of the output and descriptions of its requirements."""
+        """Name of the output, followed by descriptions of its requirements."""
         return f"{self.name}: {', '.join(demand.label for demand in self.demands)}"
 
     def requested(self, share: Fraction | None, strict: bool = False) -> IntervalConstraint | None:
         """Return the interval constraint on the speed of the output; None if every speed is admissible.
 
-        share    relative tolerance of graded requirements
-        strict   True to exclude the ends of the intervals
+        share    relative tolerance of graded requirements; None if there is no common tolerance
+        strict   True to exclude the end points of the intervals
         """
         common: tuple[Interval, ...] = ((None, None),)  # all speeds
         for demand in self.demands:
@@ -184,21 +187,25 @@ class OutputRequirement:
         return None if common == ((None, None),) else IntervalConstraint(self.text, self.function, common, strict)
 
     def reached(self, speed: Fraction) -> ReachedSpeed:
-        """Return a speed with its error with respect to the graded requirement that has the largest absolute error."""
+        """Return a speed with its error. The error is that with respect to the graded requirement with the largest
+        absolute error.
+        """
         graded = [demand for demand in self.demands if demand.graded] or self.demands
         worst = max(graded, key=lambda demand: abs(demand.error(speed)))
         return ReachedSpeed(speed, worst.label, worst.error(speed), self.fits(speed))
 
     def scaled(self, factor: Fraction) -> OutputRequirement:
-        """Return the output with all tolerances multiplied by a factor."""
+        """Return the output requirement with all tolerances multiplied by a factor."""
         return replace(self, demands=tuple(demand.scaled(factor) for demand in self.demands))
 
     def fits(self, speed: Fraction | None) -> bool:
-        """Return whether a speed satisfies all requirements; False if the speed is undetermined (None)."""
+        """Return whether a speed satisfies all requirements. Return False if the speed is None, that is,
+        undetermined.
+        """
         return speed is not None and all(demand.met(speed) for demand in self.demands)
 
     def misfit(self, speed: Fraction) -> Fraction:
-        """Return the sum of (error / tolerance)^2 over the requirements."""
+        """Return the sum of (error / tolerance)^2 over all requirements."""
         return sum((demand.misfit(speed) for demand in self.demands), Fraction(0))
 
 
@@ -206,7 +213,7 @@ def find_turning_conditions(train: Train, formulas: Formulas) -> Iterator[Interv
     """Yield the conditions for a train to turn: loops must close, inputs must be consistent, and the train must be
     neither locked nor free.
 
-    Raise `QuestionError` if the train cannot turn with any counts.
+    `QuestionError` is raised if the train cannot turn with any tooth counts.
     """
     for condition in formulas.conditions:
         if not condition.wheels:
@@ -222,8 +229,8 @@ def find_turning_conditions(train: Train, formulas: Formulas) -> Iterator[Interv
 def find_output_requirements(
     train: Train, case: StateCase, functions: Mapping[str, Function], tolerance: Fraction | None
 ) -> list[OutputRequirement]:
-    """Return the requirements of each output whose speed is determined by `functions`; outputs without
-    requirements are omitted.
+    """Return the requirements of each output whose speed is given in `functions`. Outputs without requirements are
+    omitted.
     """
     moving = [speed for speed in case.inputs.values() if speed]
     found = []
@@ -264,9 +271,9 @@ def _half(value: Figure, tolerance: Figure | None) -> Fraction:
 
 
 def _printed(train: Train, published: Published, drive: Fraction | None, graded: bool) -> SpeedRequirement:
-    """Return the requirement of a published value.
+    """Return the speed requirement that corresponds to a published value.
 
-    drive   speed of the only input that turns, for a published ratio
+    drive   speed of the only turning input, with which a published ratio is compared; None if there is no such input
     """
     label, unit, signed = f"published {published.value} {published.as_}", unit_seconds(train), not published.unsigned
     printed = in_plain_units(published.value, unit)
@@ -290,13 +297,13 @@ def _printed(train: Train, published: Published, drive: Fraction | None, graded:
 
 
 def _mirrored(interval: Interval) -> Interval:
-    """Return the interval of the opposite speeds."""
+    """Return the interval of the speeds with opposite sign."""
     low, high = interval
     return None if high is None else -high, None if low is None else -low
 
 
 def _inverse(low: Fraction, high: Fraction, drive: Fraction) -> Iterator[Interval]:
-    """Yield the intervals of speeds for which `drive` divided by the speed is from `low` to `high`."""
+    """Yield the intervals of speeds for which `drive` divided by the speed is between `low` and `high`."""
     if low > 0 or high < 0:
         ends = sorted((drive / low, drive / high))
         yield ends[0], ends[1]
@@ -314,14 +321,14 @@ _MOST_COUNTS = 10**6  # counts of one wheel that are listed
 
 @dataclass(frozen=True, slots=True)
 class SearchPart:
-    """Varied wheels that are connected by outputs or constraints, with their requirements."""
+    """Varied wheels that are connected by outputs or constraints, and the requirements on them."""
 
     domains: Domains
-    """Admissible tooth counts of each wheel, ascending, in the order of declaration."""
+    """Admissible tooth counts of each wheel in ascending order, keyed by wheel in the order of declaration."""
     requirements: tuple[OutputRequirement, ...]
-    """Requirements on the outputs that the wheels influence."""
+    """Requirements on the outputs that depend on the wheels."""
     conditions: tuple[IntervalConstraint, ...]
-    """Conditions on loops and links for the train to turn."""
+    """Conditions on loops and links that must be satisfied so that the train can turn."""
     rules: tuple[CountConstraint, ...]
     """Constraints on the tooth counts of the wheels."""
 
@@ -338,14 +345,17 @@ class TrainRequirements:
     requirements: tuple[OutputRequirement, ...]
     conditions: tuple[IntervalConstraint, ...]
     remarks: tuple[str, ...]
-    """Remarks on outputs that are undetermined, or that violate their requirements and depend on no varied wheel."""
+    """Remarks on outputs whose speeds are undetermined, and on outputs that depend on no varied wheel and violate their
+    requirements.
+    """
 
 
 def find_domains(train: Train, free: str | Sequence[str]) -> dict[str, tuple[int, ...]]:
-    """Return the admissible counts of each varied wheel, ascending, in the order of declaration.
+    """Return the admissible tooth counts of each varied wheel in ascending order, keyed by wheel in the order of
+    declaration.
 
-    `free` has the same meaning as in `search_train`. Raise `QuestionError` if no wheel is varied, or if a wheel named
-    in `free` has no range of counts.
+    `free` has the same meaning as in `search_train`. `QuestionError` is raised if no wheel is varied, or if a wheel
+    named in `free` has no range of tooth counts.
     """
     if isinstance(free, str) and free not in ("search", "uncertain"):
         free = [free]
@@ -390,8 +400,8 @@ def find_domains(train: Train, free: str | Sequence[str]) -> dict[str, tuple[int
 
 
 def _counts(train: Train, wheel: str, link: str, teeth: Teeth) -> Iterable[int]:
-    """Return the admissible counts of a wheel: its `search`, otherwise its `choices`, otherwise its `range`; empty
-    if it has none.
+    """Return the admissible tooth counts of a wheel. They are given by the first declared key among `search`, `choices`
+    and `range`; the result is empty if none of these is declared.
     """
     counts = teeth.searched or sorted(set(teeth.choices or ()))
     if not counts and teeth.range is not None:
@@ -406,7 +416,7 @@ def _counts(train: Train, wheel: str, link: str, teeth: Teeth) -> Iterable[int]:
 def find_requirements(
     train: Train, state: str | None, domains: Domains, tolerance: Fraction | None
 ) -> TrainRequirements:
-    """Return all requirements on the outputs, in one state, or in all states if `state` is None."""
+    """Return all requirements on the outputs in one state; in all states if `state` is None."""
     train.check_state(state)
     states: Sequence[str | None] = tuple(train.states) or (None,) if state is None else (state,)
     requirements: list[OutputRequirement] = []
@@ -437,7 +447,9 @@ def _idle(requirement: OutputRequirement) -> Iterator[str]:
 
 
 def find_parts(demands: TrainRequirements, domains: Domains, rules: Sequence[CountConstraint]) -> Iterator[SearchPart]:
-    """Yield the connected components of the varied wheels in the order of declaration, including isolated wheels."""
+    """Yield the connected components of the varied wheels in the order of declaration. A wheel without connection to
+    other varied wheels is a component by itself.
+    """
     scopes = chain(
         (requirement.function.wheels for requirement in demands.requirements),
         (condition.function.wheels for condition in demands.conditions),

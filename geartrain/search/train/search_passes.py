@@ -1,6 +1,7 @@
-"""One pass of a search over a part of a train: it is formulated as a join, divided into tasks, and run.
+"""One pass of a search over a part of a train. The pass is formulated as a join, which is divided into tasks and
+executed.
 
-If there are very many assignments, only the best are kept; their errors are compared exactly.
+If there are very many assignments, only the best assignments are kept. Their errors are compared exactly.
 """
 
 from __future__ import annotations
@@ -31,23 +32,23 @@ from geartrain.search.train.output_requirements import OutputRequirement, Search
 from geartrain.search.train.train_findings import Assignment, By
 
 _SMALL = 3e6
-"""Number of steps below which a pass is one task; it takes about a second."""
+"""Number of steps up to which a pass is not divided into tasks. This number of steps takes about a second."""
 _MOST_TASKS = 100_000  # maximum number of tasks of a pass
 _SAMPLED = 16
-"""Number of tasks of a random sample."""
+"""Number of tasks in a random sample of the tasks of a pass."""
 _POOL = 20_000
-"""Number of stored assignments above which all but the best are discarded."""
+"""Number of stored assignments above which all but the best assignments are discarded."""
 
 Task = dict[str, Any]
-"""One task of a pass, the argument of `do_task`, as plain data."""
+"""One task of a pass as plain data. It is the argument of `do_task`."""
 
 
 def cut(question: JoinProblem, limit: float) -> tuple[list[Task], float]:
-    """Return the tasks of a pass, and the fraction of the pass that they cover, which is below 1 if the limit of steps
-    is exceeded.
+    """Return the tasks of a pass, and the fraction of the pass that they cover. The fraction is below 1 if the limit of
+    steps is exceeded.
 
-    Tasks are runs of the values of the first variable, and of its child in the plan if the first has few values. If the
-    limit is exceeded, the tasks are a random sample with a fixed seed.
+    A task covers an interval of the values of the first variable and, if this variable has few values, of its child in
+    the plan. If the limit is exceeded, the tasks are a random sample with a fixed seed.
     """
     if question.steps <= _SMALL <= limit:
         return [{"parts": [[question.plan.item, 0, 1]], "budget": limit, "pieces": 1}], 1.0
@@ -66,7 +67,8 @@ def cut(question: JoinProblem, limit: float) -> tuple[list[Task], float]:
 
 
 def _chain(question: JoinProblem, wanted: float) -> list[tuple[int, int]]:
-    """Return variables from the root downwards, each with the number of runs into which its values are divided.
+    """Return variables from the root of the plan downwards, each with the number of intervals into which its values are
+    divided.
 
     The product of these numbers is about `wanted`.
     """
@@ -96,15 +98,17 @@ def _unpacked(packed: bytes) -> tuple[ExactJoin, AssignmentOrder, int]:
 
 
 def do_task(packed: bytes, task: Mapping[str, Any]) -> dict[str, Any]:
-    """Run one task of a pass, which covers a part of the values of some variables.
+    """Run one task of a pass. A task covers a part of the values of one or two variables.
 
-    packed   pickled join problem, order of the solutions, and maximum number of assignments to enumerate for the list
-    task     `parts`: [[item, number, of], ...], part `number` of `of` equal parts of the values of a variable;
-             `budget`: maximum number of steps; `pieces`: number of pieces, so that the results of finished pieces
-             remain if the budget is exceeded
+    packed   pickled join problem, order of the solutions, and maximum number of assignments that are enumerated for the
+             list
+    task     mapping with three keys. `parts`: list of [item, number, of], which selects part `number` of `of` equal
+             parts of the values of variable `item`; `budget`: maximum number of steps; `pieces`: number of pieces into
+             which the task is divided, so that results of finished pieces are kept if the budget is exceeded
 
-    The result has the keys `count`, `removed` (number of rejected assignments by constraint), `listed` (True if `best`
-    is complete), `best` (counts in the order of the wheels), `steps`, and `cut` (True if the budget was exceeded).
+    The result has the keys `count` (number of solutions), `removed` (number of rejected assignments for each
+    constraint), `listed` (True if `best` is complete), `best` (tooth counts in the order of the wheels), `steps`, and
+    `cut` (True if the budget was exceeded).
     """
     join, order, most = _unpacked(packed)
     count, spent, listed, cut = 0, 0, True, False
@@ -127,7 +131,9 @@ def do_task(packed: bytes, task: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _slices(join: ExactJoin, parts: Sequence[Sequence[int]], pieces: int) -> Iterator[dict[int, tuple[int, int]]]:
-    """Yield the runs of values of a task, with the run of the first variable divided into pieces."""
+    """Yield, for each piece of a task, the half-open range of values of each variable. The range of the first variable
+    is divided into pieces.
+    """
     runs = {item: (len(join.items[item]) * at // of, len(join.items[item]) * (at + 1) // of) for item, at, of in parts}
     item = parts[0][0]
     first, last = runs[item]
@@ -138,10 +144,10 @@ def _slices(join: ExactJoin, parts: Sequence[Sequence[int]], pieces: int) -> Ite
 
 
 def _do_piece(join: ExactJoin, pool: BestAssignments, most: int) -> tuple[int, Counter[str], bool]:
-    """Return the number of assignments of a piece, the numbers rejected by constraint, and whether the assignments were
-    added to the pool.
+    """Return the number of assignments in a piece of a task that satisfy all constraints, the number rejected by each
+    constraint, and whether the assignments were added to the pool.
 
-    They are enumerated only if there are at most `most`, or if late constraints must be tested on them.
+    The assignments are enumerated only if there are at most `most`, or if they must be tested against late constraints.
     """
     question = join.question
     counts, gone = join.count(question.plan, join.start())
@@ -165,7 +171,7 @@ def _do_piece(join: ExactJoin, pool: BestAssignments, most: int) -> tuple[int, C
 
 @dataclass
 class PassRunner:
-    """Execution of the tasks of all passes: executor, journal of finished tasks, progress function.
+    """Execution of the tasks of all passes, with an executor, a journal of finished tasks, and a progress function.
 
     Several passes share a journal, in which their tasks are numbered consecutively.
     """
@@ -197,13 +203,15 @@ class PassRunner:
             self.stopped = True
 
     def release(self) -> None:
-        """Remove executor, journal and progress function, so that later computations run in this process."""
+        """Remove the executor, the journal and the progress function, so that later computations are executed in this
+        process.
+        """
         self.executor = self.journal = self.tell = None
         self.stopped = False
 
 
 class _Section:
-    """View of a journal in which task numbers are shifted by an offset."""
+    """View of a journal in which the numbers of the tasks are shifted by an offset."""
 
     def __init__(self, journal: Journal, offset: int) -> None:
         self._journal, self._offset = journal, offset
@@ -221,30 +229,34 @@ class _Section:
 
 @dataclass(slots=True)
 class PassResult:
-    """Result of one pass of a search: sums over its tasks, and the best assignments."""
+    """Result of one pass of a search: sums over its tasks, and the best assignments of tooth counts."""
 
     share: Fraction | None = None
-    """Common relative tolerance of the pass; None if there is no common tolerance."""
+    """Common relative tolerance of the outputs in this pass; None if there is no common tolerance."""
     searched: float = 1.0
-    """Fraction of the assignments that the tasks cover: below 1 for a random sample."""
+    """Fraction of the assignments covered by the tasks. It is below 1 for a random sample of tasks."""
     steps: float = 0.0
-    """Estimated number of partial assignments to examine."""
+    """Estimated number of partial assignments that are examined."""
     count: int = 0
     """Number of assignments that satisfy all requirements."""
     removed: dict[str, int] = field(default_factory=dict)
-    """Number of assignments that each constraint rejected, by its name, in the order of evaluation."""
+    """Number of assignments rejected by each constraint, keyed by the name of the constraint in the order of
+    evaluation.
+    """
     best: tuple[Assignment, ...] = ()
     """Best assignments in the order of the search criterion."""
     listed: bool = True
-    """False if there were too many assignments to enumerate; `best` is then empty."""
+    """True if the assignments were enumerated; False if there were too many assignments, in which case `best` is
+    empty.
+    """
     cut: bool = False
     """True if a task exceeded its maximum number of steps."""
     stopped: bool = False
-    """True if the run was interrupted; the sums then include only finished tasks."""
+    """True if the pass was interrupted, so that the sums include only finished tasks."""
 
     @property
     def complete(self) -> bool:
-        """True if every assignment was considered."""
+        """True if every assignment was examined."""
         return self.searched == 1 and not self.cut and not self.stopped
 
 
@@ -262,7 +274,7 @@ class PartSearch:
     rules: tuple[CountConstraint, ...] = field(init=False)
 
     def __post_init__(self) -> None:
-        """Apply the constraints on single wheels to their counts."""
+        """Apply the constraints on single wheels to the admissible tooth counts of these wheels."""
         domains: Domains = self.part.domains
         alone = []
         for rule in self.part.rules:
@@ -274,7 +286,9 @@ class PartSearch:
         self.rules = tuple(rule for rule in self.part.rules if len(rule.wheels) > 1)
 
     def without(self, *, rule: str = "", requirement: OutputRequirement | None = None) -> PartSearch:
-        """Return the search without the constraints of this name, or without this requirement on an output."""
+        """Return the search without the constraints that have the name `rule`, or without the given requirement on an
+        output.
+        """
         part = replace(
             self.part,
             rules=tuple(one for one in self.part.rules if one.name != rule),
@@ -283,21 +297,26 @@ class PartSearch:
         return PartSearch(part, self.order, self.runner, self.limit)
 
     def requested(self, share: Fraction | None, strict: bool = False) -> tuple[IntervalConstraint, ...]:
-        """Return all interval constraints of a pass with relative tolerance `share`."""
+        """Return all interval constraints of a pass with the relative tolerance `share`; None means that there is no
+        common tolerance.
+        """
         found = [requirement.requested(share, strict) for requirement in self.part.requirements]
         return (*self.part.conditions, *(one for one in found if one is not None))
 
     def probabilities(self, requested: Sequence[IntervalConstraint]) -> dict[str, float]:
-        """Estimate the fraction of assignments that satisfies each constraint and each requirement."""
+        """Return an estimate of the fraction of assignments that satisfy each constraint or requirement, keyed by its
+        name.
+        """
         sample = SelectivitySample.of(self.domains)
         probabilities = {rule.name: sample.of_rule(rule) for rule in self.rules}
         return probabilities | {one.name: sample.of_demand(one) for one in requested}
 
     def run(self, share: Fraction | None, most: float, *, strict: bool = False) -> PassResult:
-        """Run one pass: count all solutions, and list the best if there are at most `most`.
+        """Run one pass. All solutions are counted, and the best solutions are listed if there are at most `most`
+        solutions.
 
-        share    common relative tolerance of graded requirements
-        strict   True to exclude the ends of intervals
+        share    common relative tolerance of graded requirements; None if there is no common tolerance
+        strict   True to exclude the end points of intervals
         """
         if not size_of(self.domains):
             return PassResult(share)
@@ -323,14 +342,14 @@ class PartSearch:
 
 
 def size_of(domains: Domains) -> int:
-    """Return the number of assignments of tooth counts: the product of the numbers of admissible counts of all
-    wheels.
+    """Return the number of assignments of tooth counts, which is the product of the numbers of admissible tooth counts
+    of all wheels.
     """
     return prod(len(counts) for counts in domains.values())
 
 
 def narrow(domains: Domains, rule: CountConstraint) -> Domains:
-    """Return the domains of all wheels, with the counts of one wheel restricted by a constraint on this wheel."""
+    """Return the admissible tooth counts of all wheels after application of a constraint on one wheel."""
     (wheel,) = rule.wheels
     counts = domains[wheel]
     if not counts:
@@ -344,26 +363,30 @@ def narrow(domains: Domains, rule: CountConstraint) -> Domains:
 
 @dataclass(frozen=True, slots=True)
 class AssignmentOrder:
-    """Total order of the assignments of tooth counts, by a criterion and then by error, total, largest count and
-    counts.
+    """Total order of assignments of tooth counts: by a primary criterion, then by error, sum of tooth counts, largest
+    tooth count and tooth counts.
     """
 
     by: By
-    """Primary criterion; ties are broken by error, total, largest count, and the counts in the order of the wheels."""
+    """Primary criterion. Ties are broken by error, sum of tooth counts, largest tooth count, and the tooth counts in
+    the order of the wheels.
+    """
     best: int
-    """Number of assignments to keep."""
+    """Number of assignments to be kept."""
     requirements: tuple[OutputRequirement, ...]
     """Outputs whose errors are compared."""
     declared: Mapping[str, int]
-    """Declared tooth count of each wheel that has one."""
+    """Declared tooth count of each wheel for which a tooth count is declared."""
 
     @property
     def level(self) -> bool:
-        """True if all solutions have error 0, because every admissible interval of every output is a single speed."""
+        """True if all solutions have the error 0, because every admissible interval of every output contains a single
+        speed.
+        """
         return all(requirement.exact for requirement in self.requirements)
 
     def assignment(self, teeth: Mapping[str, int]) -> Assignment | None:
-        """Return the assignment with the speeds of all outputs; None if an output has no speed."""
+        """Return the assignment with the speeds of all outputs; None if the speed of an output is undetermined."""
         outputs = {}
         for requirement in self.requirements:
             speed = requirement.function.value(teeth)
@@ -374,8 +397,8 @@ class AssignmentOrder:
         return Assignment(dict(teeth), outputs, changed)
 
     def first(self, columns: AssignmentColumns) -> Ints:
-        """Return the primary criterion of each assignment (smaller is better), shape (n,); 0 for the error, which
-        `ranks` compares.
+        """Return the primary criterion of n assignments (smaller is better), shape (n,). It is 0 if the criterion is
+        the error, which the method `ranks` compares.
         """
         table = np.stack(list(columns.values()))
         if self.by == "total":
@@ -391,7 +414,9 @@ class AssignmentOrder:
         return np.zeros(table.shape[1], dtype=np.int64)
 
     def ranks(self, columns: AssignmentColumns) -> Ints:
-        """Return integer ranks by the maximum absolute error, compared exactly. Equal errors have equal ranks."""
+        """Return integer ranks of assignments by their maximum absolute error, by exact comparison. Equal errors have
+        equal ranks.
+        """
         found = np.zeros(len(next(iter(columns.values()))), dtype=np.int64)
         if self.level:
             return found
@@ -403,7 +428,9 @@ class AssignmentOrder:
 
 
 def _exact_errors(requirement: OutputRequirement, columns: AssignmentColumns) -> tuple[list[Fraction], Ints]:
-    """Return the exact absolute error at each distinct speed of an output, and the index of each assignment's speed."""
+    """Return the exact absolute error for each distinct speed of an output, and the index of the speed of each
+    assignment.
+    """
     function = requirement.function
     above, below = (_whole(function.wheels, terms, columns) for terms in (function.numerator, function.denominator))
     speeds, which = distinct_quotients(above, below)
@@ -411,7 +438,9 @@ def _exact_errors(requirement: OutputRequirement, columns: AssignmentColumns) ->
 
 
 def _whole(wheels: Sequence[str], terms: Sequence[WholeTerm], columns: AssignmentColumns) -> Tallies:
-    """Return the exact sum of some terms, as int64 if it fits, otherwise as Python integers."""
+    """Return the exact sum of some terms for each assignment, as int64 if all sums fit, or as Python integers if they
+    do not.
+    """
     most = {wheel: int(columns[wheel].max()) for wheel in wheels}
     bound = sum(
         abs(coefficient) * prod(most[wheel] ** power for wheel, power in zip(wheels, powers, strict=True))
@@ -430,7 +459,7 @@ def _whole(wheels: Sequence[str], terms: Sequence[WholeTerm], columns: Assignmen
 
 
 class BestAssignments:
-    """List of the best of all assignments that are added, in bounded memory."""
+    """List of the best assignments among all assignments that are added, in bounded memory."""
 
     def __init__(self, order: AssignmentOrder, wheels: Sequence[str]) -> None:
         self.order, self.wheels = order, tuple(wheels)
@@ -438,19 +467,19 @@ class BestAssignments:
         self._new: list[Ints] = []
 
     def add(self, columns: AssignmentColumns) -> None:
-        """Add candidate assignments to the list."""
+        """Add candidate assignments of tooth counts to the list."""
         self._new.append(np.stack([columns[wheel] for wheel in self.wheels]))
         if sum(table.shape[1] for table in self._new) > _POOL:
             self._gather()
 
     def best(self) -> list[list[int]]:
-        """Return the counts of the best assignments, best first."""
+        """Return the tooth counts of the best assignments, with the best assignment first."""
         self._gather()
         found: list[list[int]] = self._table.T.tolist()
         return found
 
     def _gather(self) -> None:
-        """Sort all candidates exactly, and discard all but the best."""
+        """Sort all stored assignments exactly, and discard all but the best."""
         table = np.concatenate([self._table, *self._new], axis=1)
         self._new = []
         if table.shape[1] > self.order.best:

@@ -1,4 +1,4 @@
-"""Results of a search for the tooth counts of a train, part by part, and the ranks of given assignments."""
+"""Results of a search for the tooth counts of a train for each independent part, and the ranks of given assignments."""
 
 from __future__ import annotations
 
@@ -32,12 +32,12 @@ class ReachedSpeed(Result):
     )
 
     speed: Fraction
-    """Exact speed in the unit of the train."""
+    """Exact speed of the output [unit of the train]."""
     label: str
     """Description of the requirement with the maximum error, such as "period 583.92 d"."""
     error: Fraction
-    """Relative error with respect to the requirement `label`: |speed| / requested - 1 for a target, speed /
-    expected - 1 for an `expect`, or the speed itself if 0 is expected.
+    """Relative error with respect to the requirement `label`: |speed| / requested speed - 1 for a target, or speed /
+    expected speed - 1 for an `expect` value. If the expected speed is 0, the value is the speed itself.
     """
     met: bool
     """True if the output satisfies all its requirements."""
@@ -52,9 +52,11 @@ class Assignment(CountSizes, Result):
     teeth: Mapping[str, int]
     """Tooth count of each wheel, in the order of declaration."""
     outputs: Mapping[str, ReachedSpeed]
-    """Speed and error of each output. If the train has several states, the names have the form "state: output"."""
+    """Speed and error of each output, keyed by name. If the train has several states, the names have the format "state:
+    output".
+    """
     changed: tuple[str, ...] = ()
-    """Wheels whose tooth count differs from the declared count."""
+    """Names of the wheels whose tooth count differs from the declared tooth count."""
 
     @property
     def counts(self) -> Collection[int]:
@@ -67,9 +69,10 @@ class Assignment(CountSizes, Result):
         return max((abs(reached.error) for reached in self.outputs.values()), default=Fraction(0))
 
     def measure(self, by: By) -> tuple[Fraction | int, ...]:
-        """Return the sort key of the assignment: the requested criterion, then error, total and largest count.
+        """Return the sort key of the assignment: primary criterion, error, sum of tooth counts, and largest tooth
+        count.
 
-        by   primary criterion
+        by   name of the primary criterion
         """
         total, largest = self.total, self.largest
         first: dict[By, Fraction | int] = {
@@ -84,7 +87,9 @@ class Assignment(CountSizes, Result):
 
 @dataclass(frozen=True, slots=True)
 class PartFindings(Result):
-    """Solutions for one part: varied wheels that are connected by outputs or constraints."""
+    """Solutions for one part of a train. A part consists of varied wheels that are connected by outputs or
+    constraints.
+    """
 
     KEYS = (
         "wheels",
@@ -102,47 +107,51 @@ class PartFindings(Result):
     )
 
     wheels: tuple[str, ...]
-    """Wheels in the order of declaration; no wheel is in two parts."""
+    """Names of the wheels in the order of declaration. No wheel belongs to two parts."""
     outputs: tuple[str, ...]
-    """Outputs with requirements that the wheels influence; empty if there are none."""
+    """Names of the outputs with requirements that depend on the wheels; empty if there are none."""
     demands: tuple[str, ...]
     """Descriptions of the requirements on the outputs."""
     rules: tuple[str, ...]
-    """Names of the constraints on counts."""
+    """Names of the constraints on tooth counts."""
     considered: int
     """Number of all assignments of admissible tooth counts to the wheels."""
     count: int
-    """Number of assignments that satisfy all requirements, within `tolerance` if that is not None."""
+    """Number of assignments that satisfy all requirements and, if `tolerance` is not None, this tolerance."""
     tolerance: Fraction | None
-    """Relative tolerance of outputs without a declared tolerance, chosen to include enough assignments; None if not
-    used.
+    """Relative tolerance of outputs without a declared tolerance. It is chosen so that enough assignments are included.
+    None if it is not used.
     """
     complete: bool
-    """True if every assignment was considered, so that `count` is exact."""
+    """True if every assignment was examined, so that `count` is exact."""
     ranked: bool
-    """True if it is proved that `solutions` are the best."""
+    """True if the assignments in `solutions` are proved to be the best."""
     reason: str
-    """Reason why the search is not complete or the solutions are not ranked; "" otherwise."""
+    """Reason why the search is not complete or the solutions are not ranked; empty if the search is complete and the
+    solutions are ranked.
+    """
     solutions: tuple[Assignment, ...]
     """Best assignments in the order of the search criterion."""
     shortfall: Shortfall
-    """Number of rejected assignments by constraint, in the order of evaluation.
+    """Number of assignments rejected by each constraint, in the order of evaluation.
 
-    Each assignment is counted under the constraint at which the search rejected it.
+    Each assignment is counted under the first constraint that rejected it.
     """
 
 
 @dataclass(frozen=True, slots=True)
 class Standing(Result):
-    """Rank of one assignment of tooth counts to the wheels of a part."""
+    """Rank of one assignment of tooth counts to the wheels of one part."""
 
     wheels: tuple[str, ...]
     """Names of the wheels of the part."""
     assignment: Assignment | None
-    """Counts, outputs and errors of the assignment; None if it locks the train or leaves outputs undetermined."""
+    """Tooth counts, output speeds and errors of the assignment; None if the train is locked or if output speeds are
+    undetermined.
+    """
     rank: int | None
-    """Rank by error, 1 for the best; None if the assignment is rejected, or if the count of better assignments is
-    not complete.
+    """Rank of the assignment by error, where 1 is the best. None if the assignment is rejected, or if the number of
+    better assignments is not completely known.
     """
     refused: tuple[str, ...]
     """Descriptions of all constraints that the assignment violates; empty for a solution."""
@@ -150,8 +159,8 @@ class Standing(Result):
 
 @dataclass(frozen=True, slots=True)
 class TrainFindings(Tabular, Result):
-    """Results of a search for the tooth counts of a train: the best solutions of each independent part, and the number
-    of solutions.
+    """Results of a search for the tooth counts of a train: the best solutions and the number of solutions for each
+    independent part.
 
     See Also
     --------
@@ -180,11 +189,9 @@ class TrainFindings(Tabular, Result):
     parts: tuple[PartFindings, ...]
     """Results of the independent parts, whose solutions can be combined freely."""
     links: Mapping[str, str]
-    """Name of the link of each varied wheel."""
+    """Name of the link that carries each varied wheel, keyed by wheel."""
     remarks: tuple[str, ...] = ()
-    """Remarks on the search, for example on outputs that violate their requirements and that no varied wheel
-    influences.
-    """
+    """Remarks on the search, for example on outputs that depend on no varied wheel and violate their requirements."""
     where: tuple[Standing, ...] = ()
     """Ranks of the assignments for which a rank was requested."""
     _stand: Callable[[int, Mapping[str, int]], Standing] | None = field(default=None, repr=False, compare=False)
@@ -196,7 +203,7 @@ class TrainFindings(Tabular, Result):
 
     @property
     def wheels(self) -> tuple[str, ...]:
-        """Names of all varied wheels, part by part."""
+        """Names of all varied wheels, listed part by part."""
         return tuple(wheel for part in self.parts for wheel in part.wheels)
 
     @property
@@ -206,7 +213,9 @@ class TrainFindings(Tabular, Result):
 
     @property
     def ended(self) -> Literal["whole", "interrupted"]:
-        """Outcome of the search: "interrupted" or "whole". A completed search of a random sample is also "whole"."""
+        """Outcome of the search: "interrupted" or "whole". A search of a random sample that was completed is also
+        "whole".
+        """
         return "interrupted" if any(part.reason.startswith("interrupted") for part in self.parts) else "whole"
 
     @property
@@ -216,8 +225,8 @@ class TrainFindings(Tabular, Result):
 
     @property
     def count(self) -> int:
-        """Number of assignments of all varied wheels that satisfy all requirements: the product of the numbers for the
-        independent parts.
+        """Number of assignments of all varied wheels that satisfy all requirements. It is the product of the numbers
+        for the independent parts.
         """
         return prod(part.count for part in self.parts)  # parts are independent
 
@@ -238,8 +247,8 @@ class TrainFindings(Tabular, Result):
         Parameters
         ----------
         teeth : mapping of str to int
-            Tooth count by wheel. `QuestionError` is raised for wheels that were not varied, and if the counts of every
-            part are incomplete.
+            Tooth count of each wheel. `QuestionError` is raised if a wheel was not varied, or if the tooth counts of
+            every part are incomplete.
         """
         self._check(teeth)
         whole = [at for at, part in enumerate(self.parts) if all(wheel in teeth for wheel in part.wheels)]
@@ -259,7 +268,7 @@ class TrainFindings(Tabular, Result):
         Parameters
         ----------
         solution : Assignment or mapping of str to int
-            Solution of the whole train or of one part. `QuestionError` is raised for wheels that were not varied.
+            Solution of the whole train or of one part. `QuestionError` is raised if a wheel was not varied.
         parent : str
             Train to extend: the name of a bundled example, or a path relative to the file to be written.
         name : str
@@ -282,11 +291,12 @@ class TrainFindings(Tabular, Result):
 
 
 def _together(parts: Sequence[Sequence[Assignment]], by: By, best: int) -> Iterator[Assignment]:
-    """Yield the best combinations of one solution from each part, best first, by a search with a priority queue.
+    """Yield the best combinations of one solution from each part, with the best combination first, by a search with a
+    priority queue.
 
-    The solutions of every part are sorted, so the next best combination is one step in one part from a
-    combination that was already visited. Numbers of distinct counts do not add over parts, so the order by
-    distinct counts is approximate.
+    The solutions of every part are sorted. The next best combination therefore differs from a combination that was
+    already visited by one step in the list of one part. The number of distinct tooth counts is not the sum of the
+    numbers for the parts, so the order by distinct tooth counts is approximate.
     """
     if not parts or not all(parts):
         return

@@ -1,4 +1,4 @@
-"""Search for tooth counts in a train: all assignments of its varied wheels that satisfy all requirements."""
+"""Search for tooth counts of a train: find all tooth counts of its varied wheels that satisfy all requirements."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ from geartrain.train import Train
 
 
 _LISTED = 100_000
-"""Maximum number of assignments that are enumerated to find the best by error. If there are more, the tolerance is
-reduced.
+"""Maximum number of assignments that are enumerated to find the assignments with the smallest errors. If there are more
+assignments, the tolerance is reduced.
 """
 _FIRST = Fraction(1, 10**6)  # first tolerance, which is changed by factors of ten
 _MINIMUM = Fraction(1, 10**40)  # smaller tolerances include nothing, tolerances above `_WIDEST` include everything
@@ -39,7 +39,7 @@ _WIDEST = Fraction(10**6)
 
 
 def solve(search: PartSearch) -> tuple[PassResult, tuple[Assignment, ...], bool]:
-    """Return the pass that counts the solutions of a part, the best assignments, and whether they are proved to be the
+    """Return the pass that counts the solutions of a part, the best assignments, and whether these are proved to be the
     best.
     """
     if any(requirement.approached for requirement in search.part.requirements):
@@ -56,11 +56,11 @@ def solve(search: PartSearch) -> tuple[PassResult, tuple[Assignment, ...], bool]
 
 
 def widened(search: PartSearch) -> PassResult:
-    """Return a pass that lists all assignments within its tolerance, which includes at least the requested number of
-    assignments, or all of them.
+    """Return a pass that lists all assignments within its tolerance. The tolerance includes at least the requested
+    number of assignments or, if there are fewer, all assignments.
 
-    If no tolerance is suitable, because too many assignments have the same error, the pass lists those that it can
-    enumerate within its limit.
+    If no tolerance is suitable, because too many assignments have the same error, the pass lists the assignments that
+    it can enumerate within its limit of steps.
     """
     share, short = _FIRST, Fraction(0)
     long: Fraction | None = None  # a tolerance that includes too many to list
@@ -90,7 +90,9 @@ def _list_limit(search: PartSearch) -> int:
 
 
 def relaxed_search(search: PartSearch) -> PartSearch:
-    """Return the search in which graded requirements are replaced by the minimisation of their errors."""
+    """Return a search in which the tolerances of graded requirements are removed and the errors are minimised
+    instead.
+    """
     requirements = tuple(
         replace(requirement, demands=tuple(one.loosened() if one.graded else one for one in requirement.demands))
         for requirement in search.part.requirements
@@ -104,8 +106,8 @@ def relaxed_search(search: PartSearch) -> PartSearch:
 
 
 def find_shortfall(search: PartSearch, passed: PassResult) -> Shortfall:
-    """Return the rejected assignments of a pass by reason; if there is no solution, also the nearest miss and
-    suggestions.
+    """Return the number of assignments of a pass that were rejected for each reason. If there is no solution, the
+    result also contains the nearest miss and suggestions.
     """
     found = tallied(search, passed)
     if passed.count or not passed.complete:
@@ -124,7 +126,9 @@ def tallied(search: PartSearch, passed: PassResult) -> Shortfall:
 
 
 def _explain(search: PartSearch) -> tuple[str, str]:
-    """Return the nearest miss and suggestions of constraints to relax, as text."""
+    """Return a description of the nearest miss, and suggestions of constraints to be relaxed. Either text is empty if
+    there is none.
+    """
     wrong = [requirement for requirement in search.part.requirements if _has_wrong_sense(search, requirement)]
     if wrong:
         names = ", ".join(f"'{requirement.name}'" for requirement in wrong)
@@ -141,7 +145,7 @@ def _explain(search: PartSearch) -> tuple[str, str]:
 
 
 def _has_wrong_sense(search: PartSearch, requirement: OutputRequirement) -> bool:
-    """Return whether no tooth counts give the required sense of rotation of an output."""
+    """Return whether the required sense of rotation of an output is impossible with all admissible tooth counts."""
     loose = replace(requirement, demands=tuple(demand.loosened() for demand in requirement.demands))
     part = replace(search.part, requirements=(loose,), conditions=(), rules=())
     passed = PartSearch(part, replace(search.order, requirements=(loose,)), search.runner, search.limit).run(None, 0)
@@ -149,9 +153,9 @@ def _has_wrong_sense(search: PartSearch, requirement: OutputRequirement) -> bool
 
 
 def _nearest(search: PartSearch) -> Assignment | None:
-    """Return the assignment with the minimum error that satisfies all constraints on counts.
+    """Return the assignment with the minimum error among the assignments that satisfy all constraints on tooth counts.
 
-    Return None if none was found within the limit of steps.
+    Return None if no such assignment was found within the limit of steps.
     """
     if not search.part.requirements or not size_of(search.domains):
         return None
@@ -160,7 +164,7 @@ def _nearest(search: PartSearch) -> Assignment | None:
 
 
 def _individual_errors(search: PartSearch) -> Iterator[str]:
-    """Yield the minimum error of each output if the requirements on the other outputs are dropped."""
+    """Yield a description of the minimum error of each output without the requirements on the other outputs."""
     for requirement in search.part.requirements:
         part = replace(search.part, requirements=(requirement,))
         order = replace(search.order, requirements=(requirement,))
@@ -170,8 +174,8 @@ def _individual_errors(search: PartSearch) -> Iterator[str]:
 
 
 def _relaxations(search: PartSearch) -> Iterator[str]:
-    """Yield the number of solutions without each constraint, and without the requirement on each output. Nothing
-    is yielded if there is only one constraint or requirement.
+    """Yield descriptions of the number of solutions without each constraint, and without the requirement on each
+    output. Nothing is yielded if there is only one constraint or requirement.
     """
     names = dict.fromkeys(rule.name for rule in search.part.rules)
     if len(names) + len(search.part.requirements) < 2:
@@ -205,7 +209,7 @@ def _errors(assignment: Assignment) -> str:
 
 
 def _rounded_up(error: Fraction) -> str:
-    """Return a positive number rounded up to two significant digits, as text."""
+    """Round a positive number up to two significant digits, and return it as text."""
     if not error:
         return "0"
     unit = Fraction(10) ** (floor(log10(error)) - 1)
@@ -213,8 +217,8 @@ def _rounded_up(error: Fraction) -> str:
 
 
 LIMIT = 10**9
-"""Default maximum number of steps (partial assignments examined) of a pass, about a few minutes of computing
-time.
+"""Default maximum number of steps of a pass, where a step is a partial assignment that is examined. A pass with this
+number of steps takes a few minutes.
 """
 
 
@@ -234,12 +238,12 @@ def search_train(
 ) -> TrainFindings:
     """Find, count and rank all tooth counts of the varied wheels of a train that satisfy all requirements.
 
-    The algorithm is an exact join of lists of products of counts, along the factors that the outputs share. The join
-    can count many more assignments than it can list. All comparisons use integers. The requirements on an output are
-    its `expect` and `published` values, to the precision of their written digits and with their signs, and every target
-    with a tolerance. If no target has a tolerance and `tolerance` is given, the first target is a requirement. The
-    error of an output that has targets but none of these requirements is minimised: the `best` assignments by error are
-    found, and proved to be the best by increasing a common tolerance.
+    The algorithm is an exact join of lists of products of tooth counts, on the factors that several outputs have in
+    common. The join can count many more assignments than it can list. All comparisons use integers. The requirements on
+    an output are its `expect` and `published` values, to the precision of their written digits and with their signs,
+    and every target with a tolerance. If no target has a tolerance and `tolerance` is given, the first target is a
+    requirement. If an output has targets but none of these requirements, its error is minimised. The `best` assignments
+    with the smallest errors are found by increasing a common tolerance, which proves that they are the best.
 
     Parameters
     ----------
@@ -248,24 +252,24 @@ def search_train(
     state : str, optional
         State of a train with states; by default the requirements of all states apply.
     free : str or sequence of str
-        Wheels to vary. "search": wheels with `teeth: {search: [15, 80]}`. "uncertain": these wheels, and all wheels
-        whose count has a `range` or `choices`. Otherwise names of wheels, each with a `search`, `range` or `choices`.
-        Wheels without a count are always varied.
+        Wheels to vary. "search" selects wheels with `teeth: {search: [15, 80]}`, and "uncertain" selects these wheels
+        and all wheels whose tooth count has a `range` or `choices`. A sequence contains names of wheels, each with a
+        `search`, `range` or `choices`. Wheels without a tooth count are always varied.
     rules : ConstraintOptions or sequence of constraints, optional
-        Further constraints on the counts; by default `ConstraintOptions()`.
+        Further constraints on the tooth counts; by default `ConstraintOptions()`.
     tolerance : Fraction, optional
         Relative tolerance for the first target of an output if none of its targets has a tolerance.
     best : int
         Maximum number of solutions to list.
     by : {"error", "total", "largest", "distinct", "change"}
-        Primary criterion of the order: maximum error of an output, sum of counts, largest count, number of distinct
-        counts, or number of wheels whose count differs from the declared count. Ties are broken by error, total,
-        largest count, and the counts.
+        Primary criterion of the order: maximum error of an output, sum of tooth counts, largest tooth count, number of
+        distinct tooth counts, or number of wheels whose tooth count differs from the declared one. Ties are broken by
+        error, sum of tooth counts, largest tooth count, and the tooth counts.
     limit : int
         Maximum number of steps (examined partial assignments) of one pass. If it is exceeded, only a random sample is
         searched, and `complete` is False.
     executor : concurrent.futures.Executor, optional
-        Executor of the tasks; this process by default. It does not change the result.
+        Executor of the tasks; by default they run in this process. The executor does not change the result.
     journal : Journal, optional
         Journal of finished tasks, with which an interrupted run can be resumed.
     tell : callable, optional
@@ -274,7 +278,7 @@ def search_train(
     Returns
     -------
     TrainFindings
-        Results of each independent part. After a keyboard interrupt the results are from the finished tasks, and
+        Results for each independent part. After a keyboard interrupt, the results are based on the finished tasks, and
         `complete` is False.
 
     Raises
@@ -282,7 +286,7 @@ def search_train(
     QuestionError
         If no wheel is varied, if no requirement depends on the varied wheels, or if the order or state does not exist.
     RangeError
-        If a range of counts is too large to list.
+        If a range of tooth counts is too large to list.
 
     References
     ----------
@@ -366,8 +370,8 @@ def _shortfall(search: PartSearch, passed: PassResult) -> Shortfall:
 
 
 def _reason(search: PartSearch, passed: PassResult, ranked: bool) -> str:
-    """Return the reason why the search of a part is not complete or its solutions are not ranked; "" if neither
-    applies.
+    """Return the reason why the search of a part is not complete or its solutions are not ranked; empty if it is
+    complete and the solutions are ranked.
     """
     if passed.stopped:
         return "interrupted: the count covers only the finished part"
@@ -384,12 +388,14 @@ def _reason(search: PartSearch, passed: PassResult, ranked: bool) -> str:
 
 @dataclass(frozen=True, slots=True)
 class _Standings:
-    """Calculator of the rank of an assignment, by counting the assignments with smaller errors."""
+    """Calculator of the rank of an assignment. It counts the assignments with smaller errors."""
 
     searches: tuple[PartSearch, ...]
 
     def find(self, part: int, teeth: Mapping[str, int]) -> Standing:
-        """Return the rank of an assignment in one part; `teeth` must include all wheels of the part."""
+        """Return the rank of an assignment in the part with index `part`. `teeth` must include all wheels of this
+        part.
+        """
         search = self.searches[part]
         own = {wheel: teeth[wheel] for wheel in search.part.domains}
         assignment = search.order.assignment(own)
@@ -423,7 +429,7 @@ def _refusals(part: SearchPart, teeth: Mapping[str, int], assignment: Assignment
 
 
 def _rank(search: PartSearch, assignment: Assignment) -> int | None:
-    """Return one plus the number of assignments with a smaller error; None if the count is not complete."""
+    """Return 1 plus the number of assignments with a smaller error; None if this number is not completely known."""
     if not assignment.error or not search.part.requirements:
         return 1
     # strict: assignments with an equal error are not counted

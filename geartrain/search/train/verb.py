@@ -1,4 +1,4 @@
-"""Command `geartrain teeth train FILE`: search for the tooth counts of the varied wheels of a train."""
+"""Command `geartrain teeth train FILE`: search for tooth counts of the varied wheels of a train."""
 
 from __future__ import annotations
 
@@ -74,7 +74,8 @@ def run(
     out: Out = None,
     force: Force = False,
 ) -> None:
-    """Find tooth counts of the varied wheels of a train that satisfy all its targets and the given constraints.
+    """Find tooth counts of the varied wheels of a train that satisfy all targets of the train and the given
+    constraints.
 
     Example: `geartrain teeth train pennestri-2002-missing --best 5`.
     """
@@ -124,7 +125,7 @@ def run(
 
 
 def _assignment(text: str) -> dict[str, int]:
-    """Parse an assignment such as `o1=32,o2=50`."""
+    """Parse an assignment of tooth counts such as `o1=32,o2=50`."""
     try:
         pairs = (part.split("=") for part in text.split(","))
         return {name.strip(): int(count) for name, count in pairs}
@@ -135,14 +136,16 @@ def _assignment(text: str) -> dict[str, int]:
 
 
 def _check_kept(file: str, out: Path | None) -> None:
-    """Raise `QuestionError` if the output file is the declaration of the train, which the solution extends."""
+    """Raise `QuestionError` if the output file is the file of the train, because the solution extends the declaration
+    in this file.
+    """
     if out is not None and out.exists() and Path(file).exists() and out.samefile(file):
         raise option_error("-o", f"'{out}' is the input file", "write to another file")
 
 
 def _parent(file: str, out: Path | None) -> str:
-    """Return the train that a solution extends: the name of a bundled example, or a path relative to the output
-    file.
+    """Return a reference to the train that a solution extends: the name of a bundled example, or a path relative to the
+    folder of the output file.
     """
     import os
 

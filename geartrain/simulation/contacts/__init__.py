@@ -4,7 +4,7 @@
 link_inertia        moments of inertia of links, declared or by Green's theorem from the outlines of wheels
 inertial_contacts   torques that pairs carry due to inertia, loads and friction (d'Alembert's principle)
 separation_rate     input speed at which teeth first separate (`find_separation`), and impacts of teeth
-time_case           inertia, drag, restitution and the drive of a train in one state
+time_case           inertia, drag, restitution and drive of a train in one state
 train_model         train as coordinates and contacts, with ideal pairs eliminated exactly
 compliant_train     train model with stiffness and damping of teeth
 contact_model       coordinates, contacts, bearings, stops and springs, and their arrays for the kernels

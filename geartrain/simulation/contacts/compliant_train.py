@@ -1,8 +1,10 @@
-"""Train with compliant teeth: the contacts of `TrainModel`, each with stiffness and damping, and the vibration modes.
+"""Train with compliant teeth: the contacts of `TrainModel` with stiffness and damping of each contact, and the
+vibration modes.
 
-Small vibrations about closed contacts satisfy M x'' + C x' + K x = 0, docs/dynamics.md (19), with the mass matrix M,
-the damping matrix C, and the stiffness matrix K = sum k r^T r over all pairs and the springs of drives. The row vector
-r gives the opening speed of a pair of stiffness k, at its mean speed ratio, from the speeds of the coordinates.
+Small vibrations about closed contacts satisfy M x'' + C x' + K x = 0, equation (19) of docs/dynamics.md, with the mass
+matrix M, the damping matrix C, and the stiffness matrix K = sum k r^T r over all pairs and the springs of drives. The
+row vector r gives the opening speed of a pair of stiffness k, at its mean speed ratio, from the speeds of the
+coordinates.
 
 Stiffness and damping are declared or estimated. A stiffness k along the line of action is k r^2 about the driven
 wheel's axis, where r is the lever arm of that line: the base radius of involute teeth, the pitch radius of others.
@@ -34,12 +36,14 @@ if TYPE_CHECKING:
 
 
 DAMPING_RATIO = 0.05
-"""Damping ratio [1] of a pair that declares neither damping nor restitution; typical of measurements on spur gears."""
+"""Damping ratio [1] of a pair for which neither damping nor restitution is declared. It is typical of measurements on
+spur gears.
+"""
 
 # minimum restitution: at large damping it falls with the square of the damping ratio and never reaches 0
 _MINIMUM = 0.05
 _SINGLE = 14e9
-"""Stiffness of a single pair of steel teeth per unit of face width [N/m2]: ISO 6336-1, method B, simplified."""
+"""Stiffness of a single pair of steel teeth per unit of face width [N/m2], from ISO 6336-1, method B, simplified."""
 
 _STEEL, _BRONZE = 206e9, 110e9  # Young's moduli [N/m2]
 _DENSITIES = ((7600.0, 8000.0, _STEEL), (8200.0, 9000.0, _BRONZE))  # ranges of density [kg/m3]; brass counts as bronze
@@ -47,7 +51,7 @@ _DENSITIES = ((7600.0, 8000.0, _STEEL), (8200.0, 9000.0, _BRONZE))  # ranges of 
 
 @dataclass(frozen=True)
 class CompliantTrain(TrainModel):
-    """Contact model of a train with compliant teeth in one state; `restitution` overrides the declared coefficients."""
+    """Contact model of a train with compliant teeth in one state. `restitution` replaces the declared coefficients."""
 
     restitution: float | None = None
 
@@ -57,7 +61,7 @@ class CompliantTrain(TrainModel):
 
     @property
     def assumed(self) -> tuple[str, ...]:
-        """Notes on the estimates that replace undeclared stiffness and damping."""
+        """Notes on the estimates that are used for undeclared stiffness and damping."""
         found = {pair.name: self.compliances[pair.name] for pair in self.model.pairs}
         notes = [each.note for each in found.values() if each.note]
         if assumed := [name for name, each in found.items() if each.assumes_ratio]:
@@ -69,7 +73,7 @@ class CompliantTrain(TrainModel):
 
     @cached_property
     def yields(self) -> ToothCompliance:
-        """Stiffness [N m/rad] and damping [N m s/rad] of each pair of the contact model, as arrays.
+        """Stiffness [N m/rad] and damping [N m s/rad] of each pair in the contact model, as arrays.
 
         Raises `QuestionError` if a stiffness is unknown, or if the train has an escapement.
         """
@@ -103,12 +107,14 @@ class CompliantTrain(TrainModel):
         return [at for at in range(len(self.coordinates)) if at not in self.model.given]
 
     def _row(self, pair: ContactPair) -> Floats:
-        """Return the coefficients of the coordinate speeds in the opening speed of a pair, at its mean speed ratio."""
+        """Return the coefficients by which the opening speed of a pair depends on the coordinate speeds, at its mean
+        speed ratio.
+        """
         return pair.opening_row(len(self.coordinates), pair.front.slope)
 
     def _inertia(self, row: Floats) -> float:
-        """Return the effective inertia of a pair [kg m2], 1/(r M^-1 r^T), where r is its `_row` and M is the mass
-        matrix.
+        """Return the effective inertia of a pair [kg m2], 1/(r M^-1 r^T), where r is the row returned by `_row` and M
+        is the mass matrix.
 
         The result is 0 if all speeds in the row are prescribed.
         """
@@ -118,7 +124,7 @@ class CompliantTrain(TrainModel):
 
     @cached_property
     def matrices(self) -> tuple[Floats, Floats, Floats]:
-        """Mass [kg m2], damping [N m s/rad] and stiffness matrix [N m/rad] of the free coordinates."""
+        """Mass matrix [kg m2], damping matrix [N m s/rad] and stiffness matrix [N m/rad] of the free coordinates."""
         stiffness, damping = np.zeros_like(self.mass), np.array(self.model.viscous)
         for pair, k, c in zip(self.model.pairs, *self.yields, strict=True):
             row = self._row(pair)
@@ -134,8 +140,8 @@ class CompliantTrain(TrainModel):
 
     @cached_property
     def vibration(self) -> tuple[Floats, Floats]:
-        """Squared angular frequencies in ascending order [rad2/s2], and mode shapes phi of the free coordinates,
-        normalised by the mass matrix: phi^T M phi = 1.
+        """Squared angular frequencies of the modes in ascending order [rad2/s2], and mode shapes phi of the free
+        coordinates, normalised by the mass matrix M: phi^T M phi = 1.
         """
         from scipy.linalg import eigh
 
@@ -155,7 +161,7 @@ class CompliantTrain(TrainModel):
     def fastest(self) -> float:
         """Maximum angular frequency that time steps must resolve [rad/s].
 
-        It is the frequency of the fastest mode or half the decay rate of the most damped pair, whichever is larger.
+        It is the larger of the frequency of the fastest mode and half the decay rate of the most damped pair.
         """
         rates = [0.0]
         for pair, c in zip(self.model.pairs, self.yields.damping, strict=True):
@@ -168,7 +174,9 @@ class CompliantTrain(TrainModel):
 
     @cached_property
     def compliances(self) -> Mapping[str, PairCompliance]:
-        """Stiffness and damping by pair or coupling, where the stiffness is declared or can be estimated."""
+        """Stiffness and damping of each pair or coupling whose stiffness is declared or can be estimated, keyed by
+        name.
+        """
         found = {}
         for gear in self.train.gears:
             stiffness, damping = self.train.stiffness_of(gear), self.train.damping_of(gear)
@@ -195,7 +203,7 @@ class CompliantTrain(TrainModel):
         return PairCompliance(stiffness, damping, ratio, damping is None and restitution is None, note)
 
     def _about_driven(self, gear: GearPair, quantity: Quantity, key: str) -> float:
-        """Convert a stiffness or damping to the driven wheel's axis [N m/rad or N m s/rad]."""
+        """Return a declared stiffness or damping, converted to the axis of the driven wheel [N m/rad or N m s/rad]."""
         if quantity.dimension in ("torsional stiffness", "torsional damping"):
             return quantity.si
         arm = self._arm(gear)
@@ -208,7 +216,7 @@ class CompliantTrain(TrainModel):
         return quantity.si * arm**2
 
     def _arm(self, gear: GearPair) -> float | None:
-        """Return the lever arm of the line of action about the driven wheel's axis [m]; None if it is not known."""
+        """Return the lever arm of the line of action about the driven wheel's axis [m], or None if it is not known."""
         first, second = gear.pair
         driver = self.problem.drivers.get(gear.name)
         wheel = first if driver is not None and driver.wheel == second else second
@@ -226,7 +234,7 @@ class CompliantTrain(TrainModel):
 
     def _estimate(self, gear: GearPair) -> tuple[float, str] | None:
         """Return the estimated stiffness of involute teeth of known width and metal [N m/rad], and a note on the
-        method; None for other teeth.
+        method, or None for other teeth.
         """
         mesh, arm = self._meshes.get(gear.name), self._arm(gear)
         if mesh is None or arm is None or not isinstance(mesh.tooth_form, Involute):
@@ -250,20 +258,23 @@ class CompliantTrain(TrainModel):
 
 @dataclass(frozen=True)
 class PairCompliance:
-    """Torsional stiffness [N m/rad] and damping of one pair about its driven wheel's axis, with the driver fixed."""
+    """Torsional stiffness [N m/rad] and damping of one pair about the axis of its driven wheel, with the
+    driver fixed.
+    """
 
     stiffness: float
     damping: float | None
-    """Damping [N m s/rad]; None if it is computed from the damping ratio `ratio`."""
+    """Damping coefficient [N m s/rad]; None if it is computed from the damping ratio `ratio`."""
     ratio: float
     assumes_ratio: bool
-    """True if neither damping nor restitution is declared, so that `ratio` is the default."""
+    """True if neither damping nor restitution is declared, so that `ratio` has its default value."""
     note: str
-    """Description of the estimate of the stiffness; empty if the stiffness is declared."""
+    """Note on the estimate of the stiffness; empty if the stiffness is declared."""
 
 
 def restitution_at(ratio: float) -> float:
-    """Return the coefficient of restitution of an impact on a spring and a damper that cannot pull.
+    """Return the coefficient of restitution of an impact against a spring and a damper that cannot exert a tensile
+    force.
 
     The damping ratio is 0 or more. The bodies separate where the contact force -k g - c dg/dt vanishes (stiffness k,
     damping c, gap g), before the spring is fully extended (Schwager and Poeschel 2007). At a damping ratio of 1 the
@@ -283,7 +294,7 @@ def restitution_at(ratio: float) -> float:
 
 
 def damping_ratio(restitution: float) -> float:
-    """Return the damping ratio that gives a coefficient of restitution; coefficients below 0.05 are raised to 0.05.
+    """Return the damping ratio that gives a coefficient of restitution. Coefficients below 0.05 are replaced by 0.05.
 
     >>> round(damping_ratio(0.3), 4), damping_ratio(1.0)
     (0.4972, 0.0)
@@ -296,7 +307,9 @@ def damping_ratio(restitution: float) -> float:
 
 
 def _youngs_modulus(density: Quantity | None) -> float | None:
-    """Return Young's modulus of the metal with this density [N/m2]; None for a density outside the known ranges."""
+    """Return Young's modulus of the metal with the given density [N/m2], or None if the density is outside the known
+    ranges.
+    """
     if density is None:
         return None
     return next((modulus for low, high, modulus in _DENSITIES if low <= density.si <= high), None)

@@ -1,7 +1,7 @@
 """Contact model of a train for the time-stepping kernels: coordinates, contacts, bearings, stops and springs.
 
-The coordinates are the independent motions while all contacts are open. For each pair, two rows of coefficients give
-the forward speeds of its driver and of its driven side from the speeds of the coordinates.
+The coordinates describe the independent motions while all contacts are open. For each pair, two rows of coefficients
+relate the forward speeds of its driver and of its driven side to the speeds of the coordinates.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 Form = Mapping[int, float]
-"""Linear form of the coordinates: coefficient by index of the coordinate."""
+"""Linear form of the coordinates: a mapping from the index of a coordinate to its coefficient."""
 
 _STIFF = 1e6  # inverse compliance of a contact between prescribed coordinates, relative to the inertia of the train
 
@@ -31,27 +31,28 @@ class ContactPair:
 
     name: str
     driver: Form
-    """Forward speed of the driver as a linear form of the coordinates' speeds."""
+    """Forward speed of the driver as a linear form of the coordinate speeds."""
     driven: Form
-    """Forward speed of the driven side as a linear form of the coordinates' speeds."""
+    """Forward speed of the driven side as a linear form of the coordinate speeds."""
     start: tuple[float, float]
-    """Forward angles of driver and driven side where all coordinates are 0 [rad]."""
+    """Forward angles of the driver and of the driven side if all coordinates are 0 [rad]."""
     front: TabledFunction
-    """Driven angle as a function of the driver's angle, in contact on the drive flank [rad]."""
+    """Driven angle as a function of the driver angle, in contact on the drive flank [rad]."""
     back: TabledFunction
-    """Driven angle as a function of the driver's angle, in contact on the coast flank [rad]; the same object as `front`
-    for a pair without backlash.
+    """Driven angle as a function of the driver angle, in contact on the coast flank [rad]. For a pair without backlash,
+    this is the same object as `front`.
     """
     rubbing: tuple[TabledFunction, TabledFunction, TabledFunction, TabledFunction] | None = None
-    """Friction terms of the driver's lever arm, which is its torque divided by the driven side's torque.
+    """Friction terms of the driver's lever arm, which is the driver's torque divided by the driven side's torque; None
+    without friction.
 
-    The order is front flank turning forward and backward, then back flank turning forward and backward. The value is
-    None without friction.
+    The terms are ordered as follows: front flank in forward and in backward rotation, then back flank in forward and in
+    backward rotation.
     """
     restitution: float = 0.0
-    """Coefficient of restitution."""
+    """Coefficient of restitution of impacts in this contact [1]."""
     has_no_dwell: bool = False
-    """True if the transmission function has no dwell, so that the driven side could also drive."""
+    """True if the transmission function has no dwell, so that the driven side could also be the driver."""
 
     @property
     def two_sided(self) -> bool:
@@ -59,44 +60,48 @@ class ContactPair:
         return self.front is self.back
 
     def opening_row(self, n: int, ratio: float) -> Floats:
-        """Return the coefficients of the n coordinate speeds in the opening speed of the pair, at a speed ratio."""
+        """Return the coefficients by which the opening speed of the pair depends on the n coordinate speeds, at a given
+        speed ratio.
+        """
         return _dense(self.driven, n) - ratio * _dense(self.driver, n)
 
 
 @dataclass(frozen=True)
 class Bearing:
-    """Dry friction in a bearing: sliding torque and maximum sticking torque [N m], which oppose its relative speed."""
+    """Dry friction in a bearing: sliding torque and maximum sticking torque [N m], which oppose the relative speed."""
 
     name: str
     speed: Form
     sliding: float
     sticking: float
     radii: Mapping[str, float] = field(default_factory=dict)
-    """Radius of the friction circle of each link whose friction also depends on its load [m]."""
+    """Radius of the friction circle [m] for each link whose friction also depends on the load, keyed by link."""
 
 
 class LoadedBearings(NamedTuple):
-    """Forces of pairs on bearings whose friction depends on their load, in SI units."""
+    """Forces of pairs on bearings with load-dependent friction, in SI units."""
 
     pair: Ints
     """Index of the pair of each force."""
     forces: Floats
     """Torque on the carrier per unit torque on the driver and per unit torque on the driven side, and the components
-    `along` and `apart` of `AxisForce` for a torque of 1 on the carrier, shape (forces, 8).
+    `along` and `apart` of `AxisForce` for a unit torque on the carrier, shape (forces, 8).
     """
     turn: Floats
-    """Speed of the carrier of each force per unit speed of the coordinates, shape (forces, n)."""
+    """Speed of the carrier of each force per unit speed of each coordinate, shape (forces, n)."""
     about: Floats
-    """Direction of the axis of that carrier, shape (forces, 3)."""
+    """Direction of the axis of the carrier of each force, shape (forces, 3)."""
     bearing: Ints
-    """Index of the bearing of each support. Its part of each force is `share`, shape (supports, forces)."""
+    """Index of the bearing of each support. `share`, shape (supports, forces), contains the share of each force on the
+    support.
+    """
     share: Floats
     supports: Floats
-    """Constant force on each support, direction of its axis, and radius of its friction circle, shape (supports, 7)."""
+    """Constant force on each support, direction of its axis and radius of its friction circle, shape (supports, 7)."""
 
     @classmethod
     def none(cls, n: int) -> LoadedBearings:
-        """Return the arrays of a train with `n` coordinates in which no friction depends on loads."""
+        """Return empty arrays for a train with `n` coordinates in which no friction depends on loads."""
         no = np.zeros(0, dtype=np.int64)
         return cls(no, np.zeros((0, 8)), np.zeros((0, n)), np.zeros((0, 3)), no, np.zeros((0, 0)), np.zeros((0, 7)))
 
@@ -114,9 +119,10 @@ class Stop:
 
 @dataclass(frozen=True)
 class Spring:
-    """Spring with the torque stiffness (rest + rate t - angle) at time t; `angle` is a linear form of the coordinates.
+    """Spring that exerts the torque stiffness (rest + rate t - angle) at time t, where `angle` is a linear form of the
+    coordinates.
 
-    Units are N m/rad, rad and rad/s.
+    The units of `stiffness`, `rest` and `rate` are N m/rad, rad and rad/s.
     """
 
     name: str
@@ -131,29 +137,29 @@ class ContactModel:
     """Contact model of a train for time-domain simulation: matrices, torques, contacts, bearings, stops and springs."""
 
     mass: Floats
-    """Mass matrix over the coordinates [kg m2]."""
+    """Mass matrix of the coordinates [kg m2]."""
     viscous: Floats
-    """Viscous damping matrix over the coordinates [N m s]."""
+    """Viscous damping matrix of the coordinates [N m s]."""
     torque: Floats
     """Constant torques on the coordinates [N m]."""
     given: Mapping[int, float]
-    """Prescribed speeds by coordinate [rad/s]."""
+    """Prescribed speeds of coordinates [rad/s], keyed by the index of the coordinate."""
     typical: Floats
-    """Speeds of all coordinates in mean motion, used as scales [rad/s]."""
+    """Speeds of all coordinates in the mean motion, which are used as scales [rad/s]."""
     pairs: Sequence[ContactPair] = ()
     bearings: Sequence[Bearing] = ()
     stops: Sequence[Stop] = ()
     springs: Sequence[Spring] = ()
     loaded: LoadedBearings | None = None
-    """Forces on bearings whose friction depends on them; None if there are none."""
+    """Forces on the bearings whose friction depends on these forces; None if there are no such bearings."""
     start: Floats | None = field(default=None)
 
     @property
     def fall_times(self) -> list[float]:
-        """Time that each stopped link takes from one stop to the next [s], if all coordinates move in their mean
-        ratios.
+        """Time that each stopped link takes to move from one stop to the next [s], if all coordinates move in their
+        mean ratios.
 
-        It follows from the driving torque at the start, without resistance.
+        The time follows from the driving torque at the start, without resistance.
         """
         # generalised torque and inertia of the mean motion, which has one degree of freedom
         torque = float(self.typical @ self.torque)
@@ -175,7 +181,9 @@ class ContactModel:
 
     @cached_property
     def _functions(self) -> tuple[list[TabledFunction], list[list[int]], list[list[int]]]:
-        """Distinct tabulated functions, and for each pair the indices of its transmission and friction functions."""
+        """Distinct tabulated functions, and for each pair the indices of its transmission functions and of its friction
+        functions.
+        """
         # functions shared by several pairs are tabulated once, by identity
         known: dict[int, int] = {}
         functions: list[TabledFunction] = []
@@ -191,7 +199,7 @@ class ContactModel:
         return functions, transmissions, rubbing
 
     def system(self, step: float, yields: ToothCompliance | None = None) -> ContactSystem:
-        """Return the arrays that the kernels need for the time step `step` [s].
+        """Return the arrays of the model that the kernels need for the time step `step` [s].
 
         yields   stiffness and damping of compliant teeth, for the midpoint rule; None for rigid teeth
         """
@@ -248,8 +256,8 @@ class ContactModel:
     def _compliance(self, row: Floats) -> float:
         """Return the compliance of a contact with rigid flanks [1/(kg m2)].
 
-        It is 0 if a free coordinate moves the contact, and otherwise a small value, without which the equations would
-        be singular.
+        The compliance is 0 if a free coordinate moves the contact. If not, it is a small value that keeps the equations
+        from being singular.
         """
         if any(value and at not in self.given for at, value in enumerate(row)):
             return 0.0
@@ -264,7 +272,7 @@ def _dense(form: Form, n: int) -> Floats:
 
 
 def _sparse(rows: Sequence[Mapping[int, float]]) -> tuple[Ints, Ints, Floats]:
-    """Return rows in compressed sparse row format: row starts, columns, coefficients."""
+    """Return rows in compressed sparse row format: row starts, column indices and coefficients."""
     at = np.cumsum([0, *(len(row) for row in rows)]).astype(np.int64)
     of = np.array([each for row in rows for each in row], dtype=np.int64)
     return at, of, np.array([value for row in rows for value in row.values()], dtype=np.float64)
@@ -274,11 +282,12 @@ def _sparse(rows: Sequence[Mapping[int, float]]) -> tuple[Ints, Ints, Floats]:
 
 
 class ContactSystem(NamedTuple):
-    """Arrays of a train with its coordinates and contacts, in SI units.
+    """Arrays that describe the coordinates and contacts of a train, in SI units.
 
-    mass, viscous, matrix   M, D, and M + h D + h^2 K, (n, n)
+    mass, viscous, matrix   mass matrix M, damping matrix D, and M + h D + h^2 K with the time step h and the stiffness
+                            matrix K, (n, n)
     torque                  constant torque on each coordinate
-    given                   1 if the speed is prescribed
+    given                   1 if the speed of a coordinate is prescribed, 0 if it is free
     pair_of                 coordinates of the rows of pairs, then of stops; `pair_driver`, `pair_driven`: coefficients
                             of the speeds of both sides, 0 for the driver of a stop
     start_driver, start_driven   angles of both sides where all coordinates are 0
@@ -325,7 +334,7 @@ class ContactSystem(NamedTuple):
 
 
 class ToothCompliance(NamedTuple):
-    """Stiffness [N m/rad] and damping [N m s/rad] of each pair about its driven side."""
+    """Stiffness [N m/rad] and damping [N m s/rad] of each pair about the axis of its driven side."""
 
     stiffness: Floats
     damping: Floats

@@ -1,16 +1,17 @@
-"""Torques that each pair must transmit to keep its flanks in contact at speed: docs/dynamics.md, equations (1) to (6).
+"""Torques that each pair must transmit to keep its flanks in contact during motion: docs/dynamics.md, equations (1) to
+(6).
 
-While all drive flanks touch, links follow `motion`. Let pair m, with driver angle S_m and speed ratio tau of mean value
-`mean`, be displaced virtually: its driven side moves ahead by p_m, the input is fixed, and every other pair keeps
-touching. Its error is then delta_m = sense (tau - mean) dS_m + p_m, so that links move by e = R J^-1 p. R is the
-response of the links to pair errors, and J = I - diag(sense (tau - mean)) G the matrix of (5) in docs/motion.md. By
+While all drive flanks are in contact, the links follow `motion`. Let pair m, with driver angle S_m and speed ratio tau
+of mean value `mean`, be displaced virtually: its driven side moves ahead by p_m, the input is fixed, and every other
+pair keeps touching. Its error is then delta_m = sense (tau - mean) dS_m + p_m, so that links move by e = R J^-1 p. R is
+the response of the links to pair errors, and J = I - diag(sense (tau - mean)) G the matrix of (5) in docs/motion.md. By
 d'Alembert's principle the total virtual work is zero. The torque that the flanks must carry, lambda = -sum (T - J_l
 theta'') e over all links with torque T, inertia J_l and acceleration theta'', is
 
     lambda_m(x, w) = D_m(x) + V_m(x) w + A_m(x) w^2
 
 at position x and input speed w, with loads and dry friction of bearings in D, viscous drag in V, and inertia in A. The
-separation speed is the minimum w > 0 at which it vanishes, over all positions.
+separation speed is the minimum w > 0, over all positions, at which lambda_m vanishes.
 """
 
 from __future__ import annotations
@@ -50,7 +51,8 @@ _NUMBERS = 1 << 22  # maximum number of matrix entries in one batch
 
 
 class CarriedTorques(NamedTuple):
-    """Terms D [N m], V [N m s] and A [N m s2] of the torque D + V w + A w^2 that each pair must transmit forwards.
+    """Terms D [N m], V [N m s] and A [N m s2] of the torque D + V w + A w^2 that each pair must transmit in the forward
+    direction.
 
     Here w is the input speed [rad/s]. Arrays have shape (pairs, n).
     """
@@ -61,22 +63,24 @@ class CarriedTorques(NamedTuple):
 
 
 class _State(NamedTuple):
-    """Speeds and accelerations of all links at n positions for an input speed of 1 rad/s, and coupling of the pairs."""
+    """Speeds and accelerations of all links at n positions for an input speed of 1 rad/s, and the coupling between the
+    pairs.
+    """
 
     speed: Floats
     acceleration: Floats
     inverse: Floats
-    """Inverse of the matrix that couples pair errors, with friction in each driver's lever arm, shape (n, pairs,
-    pairs).
+    """Inverse of the matrix that couples the transmission errors of the pairs, with friction in each driver's lever
+    arm, shape (n, pairs, pairs).
 
-    It is used for virtual work.
+    The inverse is used to compute virtual work.
     """
     virtual: Floats
-    """Virtual speeds of the links, with friction in each driver's lever arm, shape (links, n)."""
+    """Virtual speeds of the links, computed with friction in each driver's lever arm, shape (links, n)."""
 
 
 class InertialContacts:
-    """Computation of the torque that each pair of a moving train must transmit at every position."""
+    """Computation of the torques that the pairs of a moving train must transmit at given positions."""
 
     def __init__(
         self,
@@ -98,13 +102,16 @@ class InertialContacts:
 
     @cached_property
     def _response(self) -> Floats:
-        """Response matrix R: angles of the links per error of each pair [rad/rad], shape (links, pairs)."""
+        """Response matrix R: angle of each link per unit transmission error of each pair [rad/rad], shape (links,
+        pairs).
+        """
         return self.motion._propagation.response
 
     def _inverse(self, slope: Floats) -> Floats:
-        """Return the inverse of the matrix J = I - diag(slope) G that couples pair errors, shape (n, pairs, pairs).
+        """Return the inverse of the matrix J = I - diag(slope) G, which couples the transmission errors of the pairs,
+        shape (n, pairs, pairs).
 
-        The gains G are the angles of the drivers per error of each pair.
+        The gains G are the angles of the drivers per unit transmission error of each pair.
         """
         found = np.tile(np.eye(len(self.pairs)), (slope.shape[1], 1, 1))
         found[:, [source.pair for source in self.sources]] -= slope.T[:, :, None] * self.motion._forward.gains
@@ -117,7 +124,7 @@ class InertialContacts:
 
     @cached_property
     def _senses(self) -> Floats:
-        """Sense of rotation of the driven side of each pair in mean motion: 1 forwards, -1 backwards."""
+        """Sense of rotation of the driven side of each pair in the mean motion: 1 forwards, -1 backwards."""
         circuits: dict[str, Circuit] = {circuit.id: circuit for circuit in self.moving.circuits}
         errors = PairErrors(self.moving, ())
         return np.array([errors.sense(circuits[name]) for name in self.pairs], dtype=float)
@@ -127,7 +134,7 @@ class InertialContacts:
 
     @cached_property
     def _joints(self) -> tuple[Ints, Floats]:
-        """Index of the link that bears each link, and 1 or -1 if their axes have the same or opposite directions."""
+        """Index of the link that bears each link, and relative direction of the axes of the two links (1 or -1)."""
         at = {link: number for number, link in enumerate(self.moving.system.links)}
         bearers = [self.acting.bearer.get(link, self.moving.frame) for link in at]
         signs = self.moving.signs
@@ -168,7 +175,7 @@ class InertialContacts:
         return _State(speed, acceleration, inverse, virtual)
 
     def torques(self, turns: Floats) -> CarriedTorques:
-        """Return the torque terms that each pair must transmit at positions of the input [revolutions]."""
+        """Return the torque terms of all pairs at positions of the input [revolutions]."""
         # batches bound the memory of the dense matrices
         size = max(64, _NUMBERS // (len(self.pairs) ** 2 + 4 * len(self.moving.system.links)))
         parts = [self._torques(turns[at : at + size]) for at in range(0, len(turns), size)]
@@ -190,16 +197,18 @@ class InertialContacts:
         return CarriedTorques(*self._carried(state, forces))
 
     def _carried(self, state: _State, forces: Sequence[Floats]) -> Iterator[Floats]:
-        """Yield the torques that the pairs carry under torques f on the links: sense J^-T R^T f.
+        """Yield the torques that the pairs transmit under the torques `forces` (f) on the links: sense J^-T R^T f.
 
-        J is the matrix that couples pair errors, and R the response of the links.
+        J is the matrix that couples the transmission errors of the pairs, and R is the response matrix of the links.
         """
         for requested in forces:
             force = self._without_crank_power(requested, state.virtual)
             yield self._senses[:, None] * np.einsum("nji,jn->in", state.inverse, self._response.T @ force)
 
     def _without_crank_power(self, requested: Floats, speed: Floats) -> Floats:
-        """Return the torques minus the driving torque of the crank, such that the total virtual power is 0."""
+        """Return the torques on the links minus the driving torque of the crank, such that the total virtual power is
+        0.
+        """
         # a prescribed input absorbs any torque, so no correction is needed
         if self.acting.crank is None:
             return requested
@@ -210,13 +219,14 @@ class InertialContacts:
         return force
 
     def rates(self, turns: Floats) -> Floats:
-        """Return the speed of the input at which each pair separates at each position [rad/s], shape (pairs, n)."""
+        """Return the input speed at which each pair separates at each position [rad/s], shape (pairs, n)."""
         return minimum_rate(*self.torques(turns))
 
     def impulses(self, kinks: Floats, width: float) -> Floats:
         """Return the impulse of each pair at kinks of the transmission functions, per unit of input speed [N m s2].
 
-        Pairs with a negative impulse separate at any input speed. The impulse is 0 where no speed jumps.
+        Pairs with a negative impulse separate at any input speed. The impulse is 0 at positions where no speed ratio
+        jumps.
 
         width   distance of the evaluated positions from a kink [revolutions of the input]
         """
@@ -247,7 +257,7 @@ def minimum_rate(D: Floats, V: Floats, A: Floats) -> Floats:
 def speed_slope(transmission: TransmissionFunction) -> CellTable:
     """Return a table of the derivative of the speed ratio tau with respect to the driver angle S [1/rad].
 
-    It is computed from a table of tau.
+    The table is computed from a table of tau.
     """
     maximum = max(abs(each) for each in transmission.speed_range())
     return fit(
@@ -260,23 +270,23 @@ def speed_slope(transmission: TransmissionFunction) -> CellTable:
 
 @dataclass(frozen=True)
 class InertialLoads:
-    """Inertia, external torques and friction by link, about each link's own axis, in SI units.
+    """Inertia, external torques and friction of each link about its own axis, in SI units.
 
-    Torques that pairs transmit are not included.
+    The mappings are keyed by link. Torques that pairs transmit are not included.
     """
 
     inertia: Mapping[str, float]
-    """Moment of inertia [kg m2], including the planets that the link carries."""
+    """Moment of inertia of each link [kg m2], including the planets that it carries."""
     load: Mapping[str, float]
-    """Constant torque [N m], positive about the link's axis."""
+    """Constant external torque on each link [N m], positive about the link's axis."""
     friction: Mapping[str, float]
-    """Dry friction torque of the link's bearing while it turns [N m], 0 or more.
+    """Dry friction torque in the bearing of each link while it turns [N m], 0 or more.
 
-    `drag` has the viscous coefficients [N m s].
+    `drag` contains the viscous coefficients [N m s].
     """
     drag: Mapping[str, float]
     bearer: Mapping[str, str]
-    """Name of the link in which each link turns."""
+    """Name of the link that bears each link."""
     crank: str | None = None
     """Name of the link whose torque keeps the input turning uniformly; None if the input itself is driven."""
 
@@ -284,7 +294,7 @@ class InertialLoads:
 def find_inertial_loads(
     train: Train, case: StateCase, tree: Tree, inertias: Sequence[LinkInertia], speeds: Mapping[str, Fraction]
 ) -> InertialLoads:
-    """Return the loads of one state. Raises `QuestionError` if no link has an inertia, or a torque has no unit.
+    """Return the loads of one state. Raises `QuestionError` if no link has an inertia, or if a torque has no unit.
 
     speeds   mean speeds of the links, which give the sense in which a driving weight or torque acts
     """
@@ -317,7 +327,9 @@ def find_inertial_loads(
 
 
 def _is_cranked(train: Train, case: StateCase) -> bool:
-    """Return True if a crank other than the only input drives the train, and no steady driving torque is declared."""
+    """Return True if a crank that is not the only input drives the train, and no constant driving torque is
+    declared.
+    """
     steady = case.drive is not None and case.drive.steady_torque is not None
     return train.crank is not None and train.crank not in case.inputs and len(case.inputs) == 1 and not steady
 
@@ -328,7 +340,7 @@ def torques_have_units(train: Train, case: StateCase) -> bool:
 
 
 def _torques(train: Train, case: StateCase) -> tuple[dict[str, Quantity], dict[str, Quantity]]:
-    """Return the declared load torques and bearing friction torques by link.
+    """Return the declared load torques and the bearing friction torques, each keyed by link.
 
     Loads on inputs do no virtual work unless a crank drives the train, so they are omitted.
     """

@@ -1,9 +1,9 @@
-"""Moments of inertia of links, declared or computed from the plates that their wheels are cut from.
+"""Moments of inertia of links, which are declared or computed from the plates from which their wheels are cut.
 
 A wheel of density rho and thickness t has the moment of inertia rho t (integral of r^2 dA) over its outline, computed
-exactly by Green's theorem. The outline has the teeth that are drawn and cut, and the wheel is a plate without spokes. A
-planet of mass m at a distance r from its carrier's axis adds m r^2 to the inertia of the carrier; its own inertia
-counts about its own axis.
+exactly by Green's theorem. The outline includes the teeth that are drawn and cut. The wheel is a plate without spokes.
+A planet of mass m at a distance r from its carrier's axis adds m r^2 to the inertia of the carrier; the planet's own
+moment of inertia refers to its own axis.
 """
 
 from __future__ import annotations
@@ -26,20 +26,22 @@ _MILLIMETRES = 1e-3
 
 @dataclass(frozen=True)
 class LinkInertia(Result):
-    """Moment of inertia of a link, with the source of its value."""
+    """Moment of inertia of a link, and the source of this value."""
 
     link: str
     """Name of the link."""
     value: float
-    """Moment of inertia about the link's axis, including the planets that the link carries [kg m2]; 0 if unknown. For a
-    sliding link, it is the value that gives the same kinetic energy if a travel of 1 mm is counted as one turn.
+    """Moment of inertia about the link's axis, including the planets that the link carries [kg m2]; 0 if it is unknown.
+    For a sliding link, it gives the same kinetic energy if a travel of 1 mm is treated as one turn.
     """
     source: Literal["declared", "outlines", "unknown"]
-    """Source of the inertia of the link without its planets: declaration, outlines of its wheels, or unknown."""
+    """Source of the moment of inertia of the link without its planets: declaration, outlines of its wheels,
+    or unknown.
+    """
     carried: float = 0.0
-    """Part of `value` due to the masses of planets [kg m2]."""
+    """Part of `value` that is due to the masses of carried planets [kg m2]."""
     missing: tuple[str, ...] = ()
-    """Reasons why the inertia, or a part of it, is unknown; empty if it is complete."""
+    """Reasons why the inertia, or a part of it, is unknown; empty if the inertia is complete."""
 
 
 class PlateMoments(NamedTuple):
@@ -50,7 +52,8 @@ class PlateMoments(NamedTuple):
 
 
 def plate_moments(teeth: WheelTeeth, module: float, thickness: float, density: float) -> PlateMoments:
-    """Return mass and moment of inertia of a wheel cut from a plate, solid except for its pin holes.
+    """Return the mass and the moment of inertia of a wheel cut from a plate. The wheel is solid except for its pin
+    holes.
 
     `module` and `thickness` are in m, `density` in kg/m3.
     """
@@ -107,13 +110,13 @@ def find_link_inertias(
 
 
 class _Bodies:
-    """Links of a train as rigid bodies."""
+    """Links of a train as rigid bodies with masses and moments of inertia."""
 
     def __init__(self, train: TrainMechanics) -> None:
         self.train, self.declared = train, train.declaration
 
     def total_inertia(self, link: str) -> LinkInertia:
-        """Return the inertia of a link including the planets that it carries."""
+        """Return the moment of inertia of a link, including the planets that it carries."""
         if link in self.train.tree.lines:
             return self._sliding(link)
         own = self._own_inertia(link)
@@ -131,7 +134,9 @@ class _Bodies:
         return replace(own, value=own.value + carried, carried=carried, missing=tuple(missing))
 
     def _sliding(self, link: str) -> LinkInertia:
-        """Return the moment of inertia equivalent to the mass of a slide and of the links that it carries."""
+        """Return the moment of inertia that is equivalent to the mass of a sliding link and of the links that it
+        carries.
+        """
         tree, line = self.train.tree, self.train.tree.lines[link]
         masses = {each: self._mass(each) for each in self.declared.links if tree.moving(each, line) == link}
         missing = tuple(f"the mass of '{each}' is not known" for each, mass in masses.items() if mass is None)
@@ -178,18 +183,18 @@ class _Bodies:
 
     @cached_property
     def modules(self) -> Mapping[str, float]:
-        """Transverse module by wheel [m]."""
+        """Transverse module of each wheel [m], keyed by wheel."""
         return find_modules(self.declared)
 
     @cached_property
     def teeth(self) -> Mapping[str, WheelTeeth]:
-        """Tooth geometry of all planar wheels, by wheel."""
+        """Tooth geometry of each planar wheel, keyed by wheel."""
         return find_cut_teeth(self.train).wheels
 
     def _orbit(self, carrier: str, planet: str) -> float | None:
-        """Return the distance of a planet's axis from its carrier's axis [m]; None if it is not known.
+        """Return the distance of a planet's axis from the carrier's axis [m], or None if it is not known.
 
-        It is the centre distance of a pair of the planet and a wheel about the carrier's axis.
+        It is the centre distance of a pair that consists of a wheel of the planet and a wheel about the carrier's axis.
         """
         from geartrain.dynamics.gear_meshes import find_sizes
 

@@ -1,8 +1,8 @@
-"""Forces on the bearings whose friction grows with their load, as arrays for time steps.
+"""Forces on the bearings whose friction increases with their load, as arrays for time steps.
 
-The directions of the forces and their shares on two bearings are those of `BearingLoads`, which has each equal planet
-as a separate link. A pair of the simulated train, in which equal planets are one link, has an equal part in the pair of
-each planet.
+The directions of the forces and their shares on two bearings are those of `BearingLoads`, which treats equal planets as
+separate links. In the simulated train, equal planets are one link; the torque of its pair is divided equally among the
+pairs of these planets.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class BearingForces:
-    """Forces on the loaded bearings of a simulated train."""
+    """Forces on the bearings with load-dependent friction in a simulated train."""
 
     train: Train
     problem: MotionProblem
@@ -39,7 +39,7 @@ class BearingForces:
 
     @cached_property
     def pairs(self) -> Mapping[str, str]:
-        """Pair of the simulated train for each gear pair with separate planets.
+        """Mapping from each gear pair with separate planets to the corresponding pair of the simulated train.
 
         Redundant pairs, whose shares of the torque are unknown, are omitted.
         """
@@ -54,17 +54,19 @@ class BearingForces:
 
     @cached_property
     def forces(self) -> Mapping[int, AxisForce]:
-        """Forces of gear pairs by their index in `BearingLoads.forces`."""
+        """Forces of gear pairs, keyed by their index in `BearingLoads.forces`."""
         return {at: force for at, force in enumerate(self.loads.forces) if force.name in self.pairs}
 
     @cached_property
     def names(self) -> set[str]:
-        """Names of the pairs of the simulated train that press on loaded bearings."""
+        """Names of the pairs of the simulated train that exert forces on loaded bearings."""
         return {self.pairs[force.name] for force in self.forces.values()}
 
     @cached_property
     def thrust(self) -> Mapping[str, float]:
-        """Friction torque of shoulders by the weights along their axes [N m], by link; equal planets add up."""
+        """Friction torque of shoulders due to weights along their axes [N m], keyed by link. The torques of equal
+        planets are added.
+        """
         found: Counter[str] = Counter()
         for link, torque in zip(self.loads.links, self.loads.thrust[:, 0].tolist(), strict=True):
             found[self._declared(link)] += torque
@@ -72,7 +74,7 @@ class BearingForces:
 
     @property
     def notes(self) -> list[str]:
-        """Notes on forces that are not included."""
+        """Notes on forces that the simulation neglects."""
         known = {self.loads.forces[at].name for at in self.forces}
         loose = [force.name for force in self.loads.forces if force.links[0] is not None and force.name not in known]
         found = [f"{each}: {each.why}" for each in unknown_forces(self.loads, loose=loose)]
@@ -84,9 +86,10 @@ class BearingForces:
     def arrays(
         self, bearings: Sequence[Bearing], sides: Mapping[str, tuple[int, int]], speeds: Floats
     ) -> LoadedBearings:
-        """Return the arrays for time steps.
+        """Return the forces on the loaded bearings as arrays for time steps.
 
-        sides    senses in which driver and driven side of each contact turn forwards, about the reference direction
+        sides    senses (1 or -1) of the forward rotation of the driver and of the driven side about the reference
+                 direction, by contact
         speeds   speeds of all links per unit speed of each coordinate, shape (links, n)
         """
         loads, forces = self.loads, [*self.forces.values()]
@@ -123,7 +126,7 @@ class BearingForces:
 
     @cached_property
     def constant(self) -> Floats:
-        """Weights on each support, and the pull of the line of a driving weight [N], shape (supports, 3)."""
+        """Weights on each support plus the pull of the line of a driving weight [N], shape (supports, 3)."""
         found = self.loads.weights[:, :, 0].copy()
         for at, force in enumerate(self.loads.forces):
             if force.links[0] is None and self.drive.kind == "torque":

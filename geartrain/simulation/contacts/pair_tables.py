@@ -1,11 +1,11 @@
-"""Transmission functions as tables for the kernels: polynomials on cells, divided at the kinks of the function.
+"""Tables of transmission functions for the kernels: piecewise polynomials whose cells end at the kinks of the function.
 
 An impact is a jump of the speed ratio. A table interpolated across a jump would replace it by many small impacts that
-lose less energy. Therefore cells end at `transmission.kinks()`, and each side of a kink follows only that side. Angle
-and speed ratio come from one polynomial and its derivative, so the constraint that keeps two flanks in contact is the
-exact gradient of their gap.
+lose less energy. Therefore cells end at `transmission.kinks()`, and the polynomial on each side of a kink is fitted to
+that side only. The angle is computed from a polynomial, and the speed ratio from its derivative, so the constraint that
+keeps two flanks in contact is the exact gradient of their gap.
 
-The kernels evaluate many functions in turn at one angle.
+The kernels evaluate many functions one after another, each at one angle.
 """
 
 from __future__ import annotations
@@ -28,32 +28,34 @@ _SAME = 1e-6  # relative to the mean ratio: a smaller jump of the speed ratio do
 
 
 class PairTables(NamedTuple):
-    """Tables of many periodic functions of a driver's angle, concatenated."""
+    """Concatenated tables of many functions of a driver angle, each with a periodic part."""
 
     period: Floats
-    """Period of each function [rad]."""
+    """Period of each function in the driver angle [rad]."""
     slope: Floats
-    """Mean slope of each function, the factor of the driver angle besides the periodic part; 0 if the function is not
+    """Mean slope of each function, which is the factor of the driver angle in its linear part; 0 if the function is not
     an angle.
     """
     cells: Ints
-    """Number of uniform cells in the period of each function; `start` has the index in `first` of its first cell."""
+    """Number of uniform cells in the period of each function. `start` contains the index in `first` of its
+    first cell.
+    """
     start: Ints
     first: Ints
-    """Index of the piece in which each uniform cell begins; pieces are in ascending order."""
+    """Index of the piece in which each uniform cell begins. Pieces are in ascending order of driver angle."""
     ends: Floats
-    """Ends of the pieces [rad from the start of the period]; the last end of each function is infinite."""
+    """Upper limits of the pieces [rad from the start of the period]. The last limit of each function is infinite."""
     middles: Floats
-    """Middles of the pieces [rad from the start of the period]."""
+    """Midpoints of the pieces [rad from the start of the period]."""
     coefficients: Floats
-    """Polynomial coefficients of the pieces about their middles, shape (pieces, DEGREE + 1)."""
+    """Coefficients of the polynomial of each piece about its midpoint, shape (pieces, DEGREE + 1)."""
     jump: Floats
-    """Minimum jump of the derivative at a kink of each function; infinite if there are no jumps."""
+    """Minimum jump of the derivative of each function at its kinks; infinite if there are no jumps."""
 
 
 class TabledFunction(NamedTuple):
-    """Function slope S + p(S) of a driver angle S [rad], with a table of its periodic part p and its minimum slope
-    jump.
+    """Function slope S + p(S) of a driver angle S [rad], with a table of its periodic part p and the minimum jump of
+    its slope.
     """
 
     slope: float
@@ -67,7 +69,7 @@ class TabledFunction(NamedTuple):
 
 
 def tabled_angle(transmission: TransmissionFunction) -> TabledFunction:
-    """Return a table of the driven angle q(S) of a transmission function; its derivative is the speed ratio."""
+    """Return a table of the driven angle q(S) of a transmission function. The derivative of q is the speed ratio."""
     ratio = float(transmission.ratio)
     cuts = folded_kinks(transmission)
     table = fit(transmission.error, transmission.period, cuts, TOLERANCE * (ratio or 1.0) * transmission.period)
@@ -81,12 +83,14 @@ def tabled_angle(transmission: TransmissionFunction) -> TabledFunction:
 def tabled_function(
     function: Callable[[Floats], Floats], transmission: TransmissionFunction, tolerance: float = 1e-8
 ) -> TabledFunction:
-    """Return a table of a function of the driver angle, such as a friction term, with a transmission's kinks."""
+    """Return a table of a function of the driver angle, such as a friction term, with pieces that end at the kinks of a
+    transmission function.
+    """
     return TabledFunction(0.0, fit(function, transmission.period, folded_kinks(transmission), tolerance), inf)
 
 
 def join_tables(functions: Sequence[TabledFunction]) -> PairTables:
-    """Return the tables of several functions, joined in the given order into the arrays that the kernels need."""
+    """Return the tables of several functions, concatenated in the given order into the arrays that the kernels need."""
     first, ends, middles, coefficients, start = [], [], [], [], []
     pieces = cells = 0
     for each in functions:

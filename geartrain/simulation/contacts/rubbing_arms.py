@@ -1,11 +1,11 @@
-"""Friction terms a_f of the driver's lever arm of a pair: T_1 = (tau + a_f) T_2, docs/dynamics.md (10).
+"""Friction terms a_f of the driver's lever arm of a pair: T_1 = (tau + a_f) T_2, equation (10) of docs/dynamics.md.
 
-T_1 and T_2 are the torques of the driver and of the driven wheel, and tau is the speed ratio. There are four cases: two
-flanks, each with two senses of rotation. On one flank the sliding velocity changes its sign with the sense of rotation.
-With the friction coefficient f, and the coefficients `out` and `into` of the contact geometry, a contact transmits the
-fraction eta(f) = (1 + f out)/(1 + f into) of its power forwards. The driver's torque is then tau/eta(f) times the
-driven torque for turning forwards, and tau/eta(-f) times the driven torque for turning backwards, whichever wheel is
-the power input.
+T_1 and T_2 are the torques of the driver and of the driven wheel, and tau is the speed ratio. There are four cases:
+each of the two flanks with two senses of rotation. On one flank the sliding velocity changes its sign with the sense of
+rotation. With the friction coefficient f, and the coefficients `out` and `into` of the contact geometry, a contact
+transmits the fraction eta(f) = (1 + f out)/(1 + f into) of its power forwards. The driver's torque is then tau/eta(f)
+times the driven torque in forward rotation, and tau/eta(-f) times the driven torque in backward rotation, whichever
+wheel is the power input.
 """
 
 from __future__ import annotations
@@ -31,18 +31,20 @@ if TYPE_CHECKING:
 
 _ROUGH = 1e-4  # relative tolerance of friction terms that are interpolated between nodes
 Arms = tuple[TabledFunction, TabledFunction, TabledFunction, TabledFunction]
-"""Friction terms as tables: drive flank turning forward and backward, coast flank turning forward and backward."""
+"""Tables of the friction terms: drive flank in forward and in backward rotation, then coast flank in forward and in
+backward rotation.
+"""
 
 
 def tooth_arms(mesh: GearMesh) -> Arms | None:
-    """Return the friction terms of the driver's lever arm of two toothed wheels; None if no friction is known."""
+    """Return the friction terms of the driver's lever arm of two toothed wheels, or None if no friction is known."""
     ahead, back = _flank_arms(mesh, mesh.transmission), _flank_arms(mesh, mesh.coast)
     # the coast flank drives in the opposite sense, so its terms are swapped
     return None if ahead is None or back is None else (ahead[0], ahead[1], back[1], back[0])
 
 
 def _flank_arms(mesh: GearMesh, transmission: TransmissionFunction) -> tuple[TabledFunction, TabledFunction] | None:
-    """Return the friction terms on one flank for its driving sense and the opposite sense; None if there is no
+    """Return the friction terms of one flank for its driving sense and for the opposite sense, or None if there is no
     friction.
     """
     if not mesh.computes_losses or not mesh.has_friction:
@@ -71,8 +73,8 @@ def _friction_term(
 ) -> Floats:
     """Return the friction term tau (1/eta - 1) from the speed ratio tau and efficiency eta at each driver angle.
 
-    It is 0 during a dwell, in which nothing slides. A `way` of -1 reverses the sliding. Raises `GearTrainError` if
-    friction locks the teeth.
+    The term is 0 during a dwell, in which nothing slides. A `way` of -1 reverses the sliding. Raises `GearTrainError`
+    if friction locks the teeth.
     """
     sliding, into, out = rubbing
     # NaN marks tooth pairs that do not touch at this angle
@@ -89,10 +91,11 @@ def _friction_term(
 def separate_rubbing(
     moving: MotionProblem, declared: Sequence[GearPair | Coupling] = ()
 ) -> tuple[dict[str, tuple[TabledFunction, TabledFunction]], tuple[str, ...]]:
-    """Return friction terms of the drive flanks by pair, and the names of pairs and pins whose friction is neglected.
+    """Return the friction terms of the drive flanks keyed by pair, and the names of pairs and pins whose friction is
+    neglected.
 
-    Teeth with a variable ratio have friction terms. Pins, teeth with a constant ratio, teeth that friction locks at
-    some angle, and pairs and couplings with a declared efficiency below 1 have none.
+    Teeth with a variable ratio have friction terms. Friction is neglected for pins, for teeth with a constant ratio,
+    for teeth that friction locks at some angle, and for pairs and couplings with a declared efficiency below 1.
     """
     found: dict[str, tuple[TabledFunction, TabledFunction]] = {}
     left = []
@@ -113,9 +116,9 @@ def separate_rubbing(
 
 
 def pin_arms(transmission: PinToSlotTransmission) -> Arms | None:
-    """Return the friction terms (r/rho) f |sin d| of a pin that drives a slot; None if there is no friction.
+    """Return the friction terms (r/rho) f |sin d| of a pin that drives a slot, or None if there is no friction.
 
-    The pin has the distances r from its own axis and rho from the slot's axis, f is the friction coefficient, and d is
+    The distance of the pin is r from its own axis and rho from the slot's axis; f is the friction coefficient, and d is
     the angle between the pin's arm and the slot. The sign depends on the slot's torque and on the sense of rotation.
     """
     if not transmission.friction:
@@ -130,7 +133,7 @@ def pin_arms(transmission: PinToSlotTransmission) -> Arms | None:
 
 
 def efficiency_arms(transmission: TransmissionFunction, forward: float, backward: float, label: str) -> Arms | None:
-    """Return the friction terms of a pair with a declared efficiency for each driving direction.
+    """Return the friction terms of a pair that has a declared efficiency for each driving direction.
 
     None means that the pair has no loss. Raises `GearTrainError` if the pair is self-locking forwards.
     """

@@ -1,8 +1,8 @@
-"""Input speed at which teeth first separate, searched over all positions including kinks and jumps.
+"""Input speed at which teeth first separate, searched over all positions of the input, including kinks and jumps.
 
-Between kinks of the transmission functions, the torque that each pair must carry is smooth. Every interval is sampled
-up to one-sided limits at its ends, and the best intervals are refined. Where a speed jumps, the teeth separate if the
-impulse is negative.
+Between kinks of the transmission functions, the torque that each pair must transmit is smooth. Every interval is
+sampled up to the one-sided limits at its ends, and the intervals with the lowest speeds are refined. Where a speed
+jumps, the teeth separate if the impulse is negative.
 """
 
 from __future__ import annotations
@@ -63,7 +63,7 @@ def find_separation(
     Returns
     -------
     SeparationRates
-        Input speeds by pair, in ascending order.
+        Input speed of each pair, in ascending order.
 
     Raises
     ------
@@ -120,8 +120,8 @@ def find_separation(
 
 
 def has_separation(train: TrainMechanics, state: str | None = None) -> bool:
-    """Return True if `find_separation` has a result: all torques have units, a link that can move has inertia, no
-    coupling moves instantaneously, and one-way clutches do not drive any link in steps.
+    """Return True if `find_separation` has a result. This requires that all torques have units, a link that can move
+    has inertia, no coupling moves instantaneously, and one-way clutches do not drive any link in steps.
     """
     declared, case = train.declaration, train.kinematics.case(state)
     if any(each.transmission.at_once for each in train.couplings) or case.stepped is not None:
@@ -134,10 +134,10 @@ def has_separation(train: TrainMechanics, state: str | None = None) -> bool:
 
 
 def find_tooth_impacts(train: TrainMechanics, state: str | None = None) -> Mapping[str, ToothImpact]:
-    """Return the impacts of triangular teeth by pair, with the power that the impacts dissipate (docs/motion.md,
+    """Return the impacts of triangular teeth, keyed by pair, with the power that the impacts dissipate (docs/motion.md,
     equation 7).
 
-    The result is empty unless inertias and a `rate` are declared.
+    The mapping is empty unless inertias and a `rate` are declared.
     """
     train = train.planets_as_one
     case = train.kinematics.case(state)
@@ -171,7 +171,7 @@ class PairSeparation(Result):
     at: float
     """Position of the input at which the flanks first separate [turn]."""
     leap: bool = False
-    """True if the contact would need a tensile impulse to follow a jump of the speed ratio at the position `at`."""
+    """True if, at the position `at`, the contact would need a tensile impulse to follow a jump of the speed ratio."""
 
 
 @dataclass(frozen=True)
@@ -247,7 +247,9 @@ def separation_section(found: SeparationRates) -> Section:
 
 
 def separation_text(found: SeparationRates) -> Iterator[str]:
-    """Yield sentences on the first pair that separates, the searched input range, and links of unknown inertia."""
+    """Yield sentences about the first pair that separates, the searched range of the input, and links of unknown
+    inertia.
+    """
     yield _first_separation(found)
     if found.uncounted:
         yield f"Parts whose friction is not included: {', '.join(found.uncounted)}."
@@ -258,7 +260,7 @@ def separation_text(found: SeparationRates) -> Iterator[str]:
 
 
 def separation_words(pair: PairSeparation) -> tuple[str, str]:
-    """Return the input speed above which a pair separates [turn/s] and the input position [turn], as strings."""
+    """Return the input speed above which a pair separates [turn/s], and the position of the input [turn], as texts."""
     if pair.rate is None:
         return "never", "-"
     return f"{pair.rate:.5g}" if pair.rate else "any rate", f"{round(pair.at, _PLACES):.6g}"
@@ -286,10 +288,10 @@ def _first_separation(found: SeparationRates) -> str:
 
 
 def _minimum_rates(contacts: InertialContacts, kinks: Floats, turns: float) -> tuple[Floats, Floats, float]:
-    """Return the minimum input speed at which each pair separates between kinks [rad/s], the position of each minimum,
-    and the width of the narrowest interval between kinks [revolutions of the input].
+    """Return the minimum input speed at which each pair separates between kinks [rad/s], the position of each minimum
+    [revolutions of the input], and the width of the narrowest interval between kinks [revolutions of the input].
 
-    The best intervals of each pair are refined with ever finer samples.
+    For each pair, the intervals with the lowest speeds are refined with increasingly fine samples.
     """
     ends = np.unique(np.concatenate([[0.0], kinks, [turns]]))
     low, high = ends[:-1], ends[1:]
@@ -320,7 +322,8 @@ def _minimum_rates(contacts: InertialContacts, kinks: Floats, turns: float) -> t
 
 
 def _jump_positions(contacts: InertialContacts, kinks: Floats, narrowest: float) -> dict[int, float]:
-    """Return the first input position at which each pair separates at any speed [revolutions], by index of the pair.
+    """Return the first position of the input at which each pair separates at any speed [revolutions], keyed by pair
+    index.
 
     At this position, a jump of the speed ratio would require a tensile impulse. Pairs without such a position are
     omitted.

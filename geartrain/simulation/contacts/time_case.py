@@ -23,27 +23,29 @@ _EQUAL = 1e-9  # relative tolerance of a speed given in rounded decimals
 
 @dataclass(frozen=True)
 class PowerInput:
-    """Drive of a train: a prescribed speed, a torque, a spring, or a compliant hand.
+    """Drive of a train: a prescribed speed, a torque, a spring, or a hand that turns the link through a spring.
 
-    A compliant hand turns at a prescribed speed and drives the link through a torsional spring.
+    A hand turns at a prescribed speed and drives the link through a torsional spring.
     """
 
     link: str
-    """Link on which the drive acts."""
+    """Name of the link on which the drive acts."""
     kind: Literal["rate", "torque", "spring", "hand"]
     rate: float = 0.0
     """Prescribed speed of the link or of the hand [rad/s]."""
     torque: float = 0.0
     """Constant torque on the link [N m], such as the torque of a weight on its drum."""
     stiffness: float = 0.0
-    """Torsional stiffness of a spring or a hand [N m/rad]; `wound` is the initial deflection of the spring [rad]."""
+    """Torsional stiffness of the spring or of the hand [N m/rad]. `wound` is the initial deflection of the spring
+    [rad].
+    """
     wound: float = 0.0
     inertia: float = 0.0
     """Moment of inertia that the drive adds to the link [kg m2]."""
 
     @property
     def value(self) -> float:
-        """Control value: speed of the link or of the hand [rad/s], torque [N m], or 0 for a spring."""
+        """Control value: the speed of the link or of the hand [rad/s], the torque [N m], or 0 for a spring."""
         return {"rate": self.rate, "hand": self.rate, "torque": self.torque}.get(self.kind, 0.0)
 
 
@@ -52,21 +54,21 @@ class TimeCase:
     """Data of a train in one state for time-domain simulation, in SI units."""
 
     drive: PowerInput
-    """Drive of the train; `rate` is the mean speed of the driving link, which sets the time scale [rad/s]."""
+    """Drive of the train. `rate` is the mean speed of the driving link, which sets the time scale [rad/s]."""
     rate: float
     inertia: Mapping[str, float]
-    """Moments of inertia by link [kg m2]; `drag` has the viscous coefficients [N m s/rad]."""
+    """Moment of inertia of each link [kg m2]. `drag` contains the viscous coefficients [N m s/rad]."""
     drag: Mapping[str, float] = field(default_factory=dict)
     bearing: Mapping[str, tuple[float, float]] = field(default_factory=dict)
-    """Dry friction by link in its bearings: sliding and maximum sticking torque [N m]."""
+    """Dry friction in the bearings of each link: sliding torque and maximum sticking torque [N m]."""
     load: Mapping[str, float] = field(default_factory=dict)
-    """Load torques by link [N m]."""
+    """Load torque on each link [N m]."""
     restitution: Mapping[str, float] = field(default_factory=dict)
-    """Coefficient of restitution by pair."""
+    """Coefficient of restitution of each pair [1]."""
     clearance: Mapping[str, float] = field(default_factory=dict)
-    """Clearance of the pin in its slot, by coupling [m]."""
+    """Clearance of the pin in the slot of each coupling [m]."""
     escapements: Mapping[str, tuple[float, float]] = field(default_factory=dict)
-    """Angular pitch relative to the bearing link [rad], and duration of a beat [s], by escape wheel."""
+    """Angular pitch of each escape wheel relative to its bearing link [rad], and duration of a beat [s]."""
 
 
 def find_time_case(
@@ -79,7 +81,7 @@ def find_time_case(
     restitution: float | None = None,
     scale: float | None = None,
 ) -> TimeCase:
-    """Return the data of one state in SI units; `rate` and `restitution` override the declared values.
+    """Return the data of one state in SI units. The arguments `rate` and `restitution` replace the declared values.
 
     rate    speed of the first input that turns [rad/s]
     scale   input speed that is assumed if none is declared, for results that do not depend on it [rad/s]
@@ -118,7 +120,7 @@ def find_time_case(
 
 
 def _refuse_rate_beyond_beats(train: Train, problem: MotionProblem, drive: PowerInput, passed: Fraction) -> None:
-    """Raise `QuestionError` if a prescribed speed would make an escapement pass more than one tooth per beat.
+    """Raise `QuestionError` if a prescribed speed would make an escape wheel pass more than one tooth per beat.
 
     passed   speed of the escape wheel relative to its bearing link, divided by the speed of the driving link
     """
@@ -145,8 +147,8 @@ def _refuse_rate_beyond_beats(train: Train, problem: MotionProblem, drive: Power
 def _declared_rate(
     train: Train, case: StateCase, problem: MotionProblem, passed: Fraction | None, scale: float | None
 ) -> float:
-    """Return the speed of the driving link [rad/s] from the declared rate, else from the escapement, the hand, or
-    `scale`.
+    """Return the speed of the driving link [rad/s]. It follows from the declared rate or, if there is none, from the
+    escapement, the hand, or `scale`.
     """
     unit = radians_per_second(train, case)
     if unit is not None:
@@ -164,7 +166,7 @@ def _declared_rate(
 
 
 def _power_input(train: Train, case: StateCase, drive: Drive | None, problem: MotionProblem, rate: float) -> PowerInput:
-    """Return the drive at the power input, acting in the direction in which its link turns."""
+    """Return the drive at the power input, which acts in the sense in which its link turns."""
     driving_link = problem.driving_link
     link = train.crank or driving_link
     speed = rate * float(problem.ratio(link))

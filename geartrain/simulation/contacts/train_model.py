@@ -1,8 +1,10 @@
-"""Reduction of a train and its drive to coordinates and contacts: ideal pairs merge links, other pairs are contacts.
+"""Reduction of a train and its drive to coordinates and contacts: ideal pairs are eliminated, and other pairs are
+contacts.
 
 Rows of ideal pairs, locks and brakes are eliminated exactly. Speeds of links are then linear forms N of a few
-coordinate speeds, docs/dynamics.md (8), and the mass matrix is M = N^T diag(J) N with the moments of inertia J of the
-links. Pairs with a tooth form, pins, and pairs with a declared efficiency are contacts between coordinates.
+coordinate speeds, equation (8) of docs/dynamics.md, and the mass matrix is M = N^T diag(J) N with the moments of
+inertia J of the links. Pairs with a tooth form, pins, and pairs with a declared efficiency are contacts between
+coordinates.
 """
 
 from __future__ import annotations
@@ -48,7 +50,8 @@ _FREE = 0.05  # relative to the mean ratio: a pair whose ratio stays above can a
 
 
 class SlackPin(ExactRatio):
-    """Transmission function of a pin on one side of its slot, with clearance, docs/dynamics.md (9).
+    """Transmission function of a pin with clearance that touches one side of its slot, equation (9) of
+    docs/dynamics.md.
 
     The slot is asin(clearance/(2 rho)) ahead of its position with a tight pin (`side` 1), or behind it (`side` -1); rho
     is the distance of the pin from the slot's axis.
@@ -87,10 +90,10 @@ class TrainModel:
     tree: Tree
     state: str | None = None
     pressing: BearingForces | None = None
-    """Forces on the bearings whose friction depends on their load; None without such bearings."""
+    """Forces on the bearings whose friction depends on their load; None if there are no such bearings."""
 
     def typical(self, link: str) -> float:
-        """Return the speed of a link in mean motion [rad/s]."""
+        """Return the speed of a link in the mean motion [rad/s]."""
         return float(self.problem.ratio(link)) * self.case.rate
 
     def sense(self, link: str, base: str) -> int:
@@ -99,7 +102,7 @@ class TrainModel:
 
     @cached_property
     def sources(self) -> Mapping[str, PairErrorSource]:
-        """Pairs and pins with a variable ratio by name, each with its initial phase."""
+        """Pairs and pins with a variable ratio, each with its initial phase, keyed by name."""
         names = [circuit.id for circuit in self.contacts if circuit.id in self._meshes]
         return {source.id: source for source in self.motion._with_sources(names).sources}
 
@@ -120,7 +123,7 @@ class TrainModel:
 
     @property
     def assumed(self) -> tuple[str, ...]:
-        """Notes on the estimates that replace undeclared stiffness and damping; empty for rigid teeth."""
+        """Notes on the estimates that are used for undeclared stiffness and damping; empty for rigid teeth."""
         return ()
 
     @property
@@ -137,12 +140,14 @@ class TrainModel:
 
     @cached_property
     def index(self) -> Mapping[str, int]:
-        """Row of each link in the arrays of links."""
+        """Index of the row of each link in arrays that have one row for each link."""
         return {link: at for at, link in enumerate(self.problem.system.links)}
 
     @cached_property
     def contacts(self) -> tuple[Circuit, ...]:
-        """Circuits (pairs and couplings) treated as contacts: all but constant ratios without backlash and losses."""
+        """Circuits (pairs and couplings) that are treated as contacts. Ideal pairs with a constant ratio are
+        eliminated, unless they load a bearing whose friction depends on the load.
+        """
         return tuple(circuit for circuit in self.problem.circuits if self._is_contact(circuit))
 
     def _is_contact(self, circuit: Circuit) -> bool:
@@ -165,13 +170,15 @@ class TrainModel:
 
     @cached_property
     def _efficiencies(self) -> Mapping[str, Any]:
-        """Declared efficiencies of gear pairs and of the rows of couplings, by name; None where none is declared."""
+        """Declared efficiencies of gear pairs and of rows of couplings, keyed by name; None if no efficiency is
+        declared.
+        """
         gears = {gear.name: gear.efficiency for gear in self.train.gears}
         return gears | {name: each.efficiency for each in self.train.couplings for name in each.row_names}
 
     @cached_property
     def prescribed(self) -> Mapping[str, float]:
-        """Prescribed speeds by link [rad/s]."""
+        """Prescribed speed of each link [rad/s], keyed by link."""
         unit = self.case.rate / float(self.problem.speeds[self.problem.driving_link])
         held = {
             row.label.removeprefix("input "): float(row.right)
@@ -275,8 +282,8 @@ class TrainModel:
             yield ContactPair(circuit.id, driver, driven, start, front, back, arms, restitution, free)
 
     def _flanks(self, circuit: Circuit) -> tuple[TabledFunction, TabledFunction, Arms | None, TransmissionFunction]:
-        """Return tables of the transmission functions of both flanks of a pair, its friction terms, and the
-        transmission function of the front flank.
+        """Return tables of the transmission functions of the drive and coast flanks of a pair, its friction terms, and
+        the transmission function of the drive flank.
         """
         if circuit.id in self._couplings:
             joint = self._couplings[circuit.id]
@@ -299,7 +306,7 @@ class TrainModel:
     def _coupling_flanks(
         joint: CouplingMesh, transmission: TransmissionFunction
     ) -> tuple[TabledFunction, TabledFunction, Arms | None, TransmissionFunction]:
-        """Return the same data as `_flanks` for a coupling without backlash, with the losses of its declared
+        """Return the data that `_flanks` returns, for a coupling without backlash and with losses given by its declared
         efficiency.
         """
         label = f"coupling '{joint.coupling.name}'"
@@ -309,7 +316,9 @@ class TrainModel:
         return front, front, efficiency_arms(transmission, *declared, label), transmission
 
     def _senses(self, circuit: Circuit) -> tuple[int, int]:
-        """Return the senses in which driver and driven side of a pair turn forwards, about the reference direction."""
+        """Return the senses (1 or -1) of the forward rotation of driver and driven side of a pair about the reference
+        direction.
+        """
         source = self.sources.get(circuit.id)
         # forwards is the sense in which the input turns; front flanks are those that drive in this sense
         way = self.problem.way
@@ -317,7 +326,9 @@ class TrainModel:
         return forward, way * (source.sense if source else (1 if circuit.a * circuit.b < 0 else -1))
 
     def _sides(self, circuit: Circuit) -> tuple[Form, Form]:
-        """Return the forward speeds of driver and driven side of a pair, relative to its carrier, as linear forms."""
+        """Return the forward speeds of driver and driven side of a pair, relative to its carrier, as linear forms of
+        the coordinate speeds.
+        """
         forward, sense = self._senses(circuit)
         path = self.motion._path(circuit.id)
         signs, names = self.problem.signs, self.problem.system.links
@@ -345,7 +356,7 @@ class TrainModel:
     # ----------------------------------------------------------------------------------------- other parts of the model
 
     def _bearings(self) -> Iterator[Bearing]:
-        """Yield the dry friction of bearings; the bearings of links with proportional speeds are merged."""
+        """Yield the dry friction of bearings. Bearings of links with proportional speeds are combined."""
         joined: dict[tuple[tuple[int, float], ...], list[tuple[str, float, float, float]]] = {}
         for link, (sliding, sticking) in self.case.bearing.items():
             radius = 0.0 if self.pressing is None else self.train.links[link].friction_radius
@@ -387,8 +398,8 @@ class TrainModel:
             yield Spring(drive.link, _sparse(self._form(drive.link)), drive.stiffness, drive.wound, rate)
 
     def torque_of(self, loads: Mapping[str, float], drive: float) -> Floats:
-        """Return the generalised torques on the coordinates [N m] due to torques on links and to the torque of the
-        drive.
+        """Return the generalised torques on the coordinates [N m] that result from torques on links and from the torque
+        of the drive.
         """
         torque = drive * self._form(self.case.drive.link)
         for link, load in loads.items():
@@ -397,7 +408,7 @@ class TrainModel:
 
     @cached_property
     def model(self) -> ContactModel:
-        """Contact model for the kernels."""
+        """Contact model of the train for the time-stepping kernels."""
         torque = self.torque_of(self.case.load, self.case.drive.torque)
         typical = np.array([self.typical(link) for link in self.coordinates])
         given = dict(enumerate(self.prescribed.values()))
@@ -427,7 +438,7 @@ def _refuse_jump(label: str, transmission: TransmissionFunction) -> None:
 
 
 def _sparse(form: Floats) -> dict[int, float]:
-    """Return the nonzero coefficients of a form by index."""
+    """Return the nonzero coefficients of a linear form, keyed by coordinate index."""
     scale = float(np.max(np.abs(form), initial=0.0))
     # smaller coefficients are rounding errors
     return {at: float(value) for at, value in enumerate(form) if abs(value) > 1e-13 * scale}

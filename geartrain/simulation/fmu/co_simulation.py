@@ -1,4 +1,6 @@
-"""Gear train as a co-simulation unit (FMU, FMI 2.0): its declaration, and a slave that geartrain advances."""
+"""Gear train as a co-simulation unit (FMU, FMI 2.0). The unit contains the declaration and a slave that runs
+geartrain.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +23,7 @@ if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
 
 DECLARATION, CASE = "train.yaml", "case.json"
-"""Files in the unit: the declaration, and the `CoSimulationCase` as JSON."""
+"""Names of files in the unit: the declaration, and the `CoSimulationCase` as JSON."""
 _SCRIPT = f'''"""Co-simulation slave of the train in {DECLARATION} next to this file, stepped by geartrain."""
 
 from geartrain.simulation.fmu.co_simulation_slave import TrainSlave, keep_alive
@@ -105,7 +107,7 @@ def fmu_file(train: GearTrain, case: CoSimulationCase) -> bytes:
 
 @contextmanager
 def _path_kept() -> Iterator[None]:
-    """Restore import path and imported modules on exit, because the builder imports the script by its name."""
+    """Restore the import path and the imported modules on exit, because the builder imports the script by name."""
     path = list(sys.path)
     try:
         yield

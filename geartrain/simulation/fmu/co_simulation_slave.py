@@ -1,6 +1,6 @@
 """Slave inside a co-simulation unit: variables of the train, and a `Simulation` that the importing tool advances.
 
-Names follow FMI's structured convention: `angles.moon`, `apart.'d2~e'`.
+Names of variables follow FMI's structured naming convention: `angles.moon`, `apart.'d2~e'`.
 """
 
 from __future__ import annotations
@@ -126,7 +126,9 @@ class TrainSlave(Fmi2Slave):  # type: ignore[misc]
         self._add(_OUTPUT, name, unit, what, lambda: of(self.simulation))
 
     def _item(self, values: dict[str, float], name: str) -> tuple[Callable[[], float], Callable[[float], None]]:
-        """Return functions that read and set one of the loads or of the coefficients of restitution."""
+        """Return functions that read and set the value with the given name in a mapping of loads or of coefficients of
+        restitution.
+        """
 
         def put(value: float) -> None:
             values[name] = value
@@ -142,7 +144,7 @@ class TrainSlave(Fmi2Slave):  # type: ignore[misc]
 
     @property
     def simulation(self) -> Simulation:
-        """Simulation of the train; it is rebuilt if a parameter changes before the first step."""
+        """Simulation of the train. It is rebuilt if a parameter changes before the first step."""
         if self._changed:
             # before the first step new parameters restart the simulation
             if not self._begun:
@@ -164,7 +166,7 @@ class TrainSlave(Fmi2Slave):  # type: ignore[misc]
         self._start = start_time
 
     def do_step(self, current_time: float, step_size: float) -> bool:
-        """Advance the simulation to the end of a communication step; on an error, log it and return False."""
+        """Advance the simulation to the end of a communication step. If an error occurs, log it and return False."""
         try:
             simulation = self.simulation
             self._begun = True
@@ -178,7 +180,7 @@ class TrainSlave(Fmi2Slave):  # type: ignore[misc]
     # -------------------------------------------------------------------------------------------------------- as XML
 
     def to_xml(self, model_options: dict[str, str] | None = None) -> Element:
-        """Return the model description with units and bounds, and without the generation date."""
+        """Return the model description with units and bounds but without the generation date."""
         root: Element = super().to_xml(model_options or {})
         # a date would make identical units differ
         del root.attrib["generationDateAndTime"]
@@ -206,10 +208,10 @@ class TrainSlave(Fmi2Slave):  # type: ignore[misc]
 
 
 def keep_alive(names: dict[str, Any]) -> None:
-    """Add a permanent reference to the global variables of the unit's script each time the script runs.
+    """Add a permanent reference to the global variables of the script in the unit each time that the script runs.
 
-    This compensates for a fault of PythonFMU 0.7.0: on each call of Python, its library releases a reference that it
-    does not own.
+    This compensates for a fault of PythonFMU 0.7.0: on each call of Python, the PythonFMU library releases a reference
+    that it does not own.
     """
     ctypes.pythonapi.Py_IncRef(ctypes.py_object(names))
 
@@ -218,8 +220,8 @@ def keep_alive(names: dict[str, Any]) -> None:
 def part_in_order(library: Path) -> None:
     """Register an exit handler that finalises the library before the process ends, if the process is Python.
 
-    Otherwise the library frees its memory twice at the end (PythonFMU 0.7.0 on Linux): first with all static objects,
-    and again when it is unloaded.
+    Without this handler, the library frees its memory twice at the end (PythonFMU 0.7.0 on Linux): first with all
+    static objects, and again when the library is unloaded.
     """
     if sys.platform == "linux" and sys.orig_argv and library.is_file():
         atexit.register(ctypes.CDLL(str(library)).finalizePythonInterpreter)
@@ -230,7 +232,7 @@ def _item(what: str, name: str) -> Callable[[Simulation], float]:
 
 
 def _quoted(name: str) -> str:
-    """Return a name in the form required between the dots of a structured name."""
+    """Return a name in the form that is required between the dots of a structured variable name."""
     if _PLAIN.fullmatch(name):
         return name
     return "'" + name.replace("\\", "\\\\").replace("'", "\\'") + "'"

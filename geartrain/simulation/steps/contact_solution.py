@@ -1,12 +1,13 @@
-"""Speeds and impulses at the end of a step for one guess of the touching and sticking contacts.
+"""Speeds and impulses at the end of a time step for an assumed set of closed contacts and sticking bearings.
 
     M (v+ - v) = h T + sum f_c P_c,   r_c v+ + P_c/s_c = k_c  for every c that touches        docs/dynamics.md (11)
 
-Here M is the mass matrix, v and v+ are the speeds before and after the step of length h, and T the torques. A contact c
-has the impulse P_c, which acts on the coordinates with the coefficients f_c, the row r_c of its opening speed, the
-bound k_c on that speed, and the compliance 1/s_c. The speeds v+ and the impulses P_c are the solution of one system of
-linear equations (13). The compliance is 0 for rigid teeth and stops. Contacts between prescribed coordinates, whose
-speeds are known, have a compliance that is small compared with any inverse mass, so that the system is regular.
+Here M is the mass matrix, v and v+ are the speeds before and after the step of length h, and T the torques. The impulse
+P_c of contact c acts on the coordinates with the coefficients f_c. The row r_c gives the opening speed of the contact
+from the speeds, k_c is the bound of that speed, and 1/s_c is the compliance. The speeds v+ and the impulses P_c are the
+solution of one system of linear equations (13). The compliance is 0 for rigid teeth and stops. Contacts between
+prescribed coordinates, whose speeds are known, have a compliance that is small compared with any inverse mass, so that
+the system is regular.
 """
 
 from __future__ import annotations
@@ -23,10 +24,10 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats, Ints
 
 OPEN, FRONT, BACK = 0, 1, 2
-"""Flank in contact: none, the drive flank, or the coast flank."""
+"""Code of the flank in contact: none, the drive flank, or the coast flank."""
 
 WORK_DRIVE, WORK_TORQUE, WORK_SPRING, BEARINGS, VISCOUS, IMPACT_LOSS, STEP, FRICTION = range(8)
-"""Columns of the energy balance [J]: three kinds of input work, and five kinds of loss."""
+"""Columns of the energy balance [J]: three kinds of input work and five kinds of losses."""
 
 ENERGIES = 8
 TIME_APART, TIME_COAST, IMPACT_COUNT, IMPACT_ENERGY, IMPACT_SPEED, IMPULSE, RUBBED, GAP, CHANGES = range(9)
@@ -36,39 +37,43 @@ speed of impacts; impulse, friction energy, maximum gap, and number of changes o
 
 COUNTS = 9
 SAME_FRICTION = 1e-9
-"""Relative accuracy of the friction torques that grow with the loads of bearings."""
+"""Relative accuracy of the friction torques that increase with the loads on bearings."""
 
 IMPACT_COLUMNS = 5
-"""Number of columns of the list of impacts: time, contact (stops after the pairs), closing speed, energy, impulse."""
+"""Number of columns in the list of impacts: time, contact (pairs, then stops), closing speed, energy, impulse."""
 
 
 class ContactState(NamedTuple):
-    """State of a train, which the kernels modify in place. Contacts are pairs, followed by stops."""
+    """State of a simulated train, which the kernels modify in place. The contacts are the pairs, followed by
+    the stops.
+    """
 
     clock: Floats
-    """Time [s] and step number."""
+    """Simulated time [s] and number of the time step."""
     angle: Floats
-    """Angles of the coordinates [rad]; `speed` contains their speeds [rad/s]."""
+    """Angles of the coordinates [rad]. `speed` contains their speeds [rad/s]."""
     speed: Floats
     touching: Ints
-    """Touching flank of each contact, `BACK` for an active stop; `turning` is -1, 0 (stuck) or 1 for each bearing."""
+    """Touching flank of each contact (`BACK` for an active stop). `turning` is -1, 0 (stuck) or 1 for each bearing."""
     turning: Ints
     ratio: Floats
-    """Speed ratio of each pair in the last step, shape (pairs, 2); `struck` is 1 for each contact during an impact."""
+    """Speed ratios of both flanks of each pair in the last step, shape (pairs, 2). `struck` is 1 for each contact
+    during an impact.
+    """
     struck: Ints
     steady: Floats
-    """Impulse of each pair in its last step without an impact [N m s]."""
+    """Impulse of each pair in its last step that had no impact [N m s]."""
     flown: Ints
     """Number of steps since each pair separated.
 
-    `stop_rate`, shape (stops, 2), contains the speeds of each stopped link one step ago, and when it last left its stop
-    [rad/s].
+    `stop_rate`, shape (stops, 2), contains two speeds of each stopped link: one step ago, and when it last left its
+    stop [rad/s].
     """
     stop_rate: Floats
 
 
 class RunRecord(NamedTuple):
-    """Results of a run, which the kernels modify in place.
+    """Results of a simulated run, which the kernels modify in place.
 
     energy         energy balance, with the columns from `WORK_DRIVE` on
     counts         statistics of pairs and stops, (pairs + stops, COUNTS)
@@ -93,34 +98,39 @@ SAMPLES, IMPACTS, UNSOLVED, PIVOTS, STEPS, DIVERGED = range(6)
 
 
 class CompliantTeeth(NamedTuple):
-    """Data of compliant teeth by pair; torques refer to the driven sides."""
+    """Data of the compliant teeth of each pair. Torques refer to the driven sides."""
 
     stiffness: Floats
     """Torsional stiffness [N m/rad]."""
     damping: Floats
     """Torsional damping [N m s/rad]."""
     peak: Floats
-    """Maximum contact torque in the evaluated part of the run [N m]; updated by the kernel."""
+    """Maximum contact torque in the evaluated part of the run [N m], updated by the kernel."""
     impact: Ints
-    """Index of the last impact of each pair, -1 for none; updated by the kernel."""
+    """Index of the last impact of each pair, or -1 if there was none, updated by the kernel."""
 
 
 class StepEquations(NamedTuple):
-    """Equations of one step: data, work space and solution."""
+    """Equations of one time step: data, work space and solution."""
 
     load: Floats
-    """External impulses plus the momentum at the start of the step [N m s]."""
+    """External impulses plus the momenta of the coordinates at the start of the step [N m s]."""
     bound: Floats
     """Lower bound k on the opening speed at both flanks of each contact [rad/s]; -inf for a flank that cannot touch."""
     ratio: Floats
-    """Speed ratio of both flanks of each contact; 0 for stops."""
+    """Speed ratio at both flanks of each contact [1]; 0 for stops."""
     arm: Floats
-    """Driver's torque divided by the driven side's torque, for both flanks of each contact; 0 for stops."""
+    """Lever arm at both flanks of each contact: driver's torque divided by the driven side's torque [1]; 0
+    for stops.
+    """
     matrix: Floats
-    """Matrix of equation (13), docs/dynamics.md, shape (n + contacts, n + contacts); overwritten by the elimination."""
+    """Matrix of equation (13) of docs/dynamics.md, shape (n + contacts, n + contacts). The elimination
+    overwrites it.
+    """
     solution: Floats
-    """Right side of equation (13), docs/dynamics.md, which the solution overwrites: speeds [rad/s] and impulses of the
-    contacts [N m s]. For a prescribed coordinate it contains the impulse of the drive instead of the speed.
+    """Right side of equation (13) of docs/dynamics.md, which is overwritten by the solution: speeds [rad/s] and
+    impulses of the contacts [N m s]. For a prescribed coordinate, the solution contains the impulse of the drive
+    instead of the speed.
     """
     v: Floats
     """Speeds of the coordinates at the end of the step [rad/s]."""
@@ -129,39 +139,42 @@ class StepEquations(NamedTuple):
     drive: Floats
     """Impulses that maintain the speeds of prescribed coordinates [N m s]."""
     ahead: Floats
-    """Speeds with which the positions for the transmission functions are extrapolated [rad/s]."""
+    """Speeds by which positions are extrapolated to evaluate the transmission functions [rad/s]."""
     middle: Floats
-    """Mean speeds of the step [rad/s]."""
+    """Mean speeds of the coordinates during the step [rad/s]."""
     gap: Floats
-    """Bound on the opening speed of both flanks if there were no restitution [rad/s]. For compliant teeth, gap of both
-    flanks at the middle of the step without the change of speed in the step [rad].
+    """Bound on the opening speeds of both flanks without restitution [rad/s]. For compliant teeth, the gaps of both
+    flanks at the middle of the step if the speeds do not change during the step [rad].
     """
     closing: Floats
-    """Closing speeds of both flanks before the step [rad/s]."""
+    """Closing speeds of both flanks of each contact before the step [rad/s]."""
     stop_closing: Floats
     before: Ints
     """Touching flank of each contact before the step."""
     forces: Floats
-    """Force of each pair on a bearing for a unit torque on its carrier, along and apart, shape (forces, 2, 3)."""
+    """Components `along` and `apart` of each force on a bearing for a unit torque on its carrier, shape
+    (forces, 2, 3).
+    """
     direction: Floats
-    """Direction of the load on each support, shape (supports, 2, 3), and friction torque of each bearing by its load
-    [N m], shape (bearings, 2): as used in the last solution, and as in that solution.
+    """Direction of the load on each support, shape (supports, 2, 3), and friction torque of each bearing due to its
+    load [N m], shape (bearings, 2). Both have two values: those used in the last solution, and those that follow from
+    this solution.
     """
     pressing: Floats
 
 
 class StepRules(NamedTuple):
-    """Numerical parameters of the time steps of a run: length, tolerances and limits."""
+    """Numerical parameters of the time steps of a run: step length, tolerances and limits."""
 
     step: float
-    """Time step [s]; `stride` is the number of steps between samples."""
+    """Length of a time step [s]. `stride` is the number of steps between samples."""
     stride: int
     share: float
     """Fraction of the step at which forces are evaluated: 1 (implicit Euler) for rigid teeth, 1/2 (midpoint rule) for
     compliant teeth.
     """
     creep: float
-    """Maximum creep speed of a stuck bearing [rad/s]; `slack` is the rounding error of a speed of 0 [rad/s]."""
+    """Maximum creep speed of a stuck bearing [rad/s]. `slack` is the rounding error of a zero speed [rad/s]."""
     slack: float
     rounds: int
     """Maximum number of combinations of contact states that are tried in a time step."""
@@ -169,7 +182,7 @@ class StepRules(NamedTuple):
 
 @kernel
 def solve_guess(system: ContactSystem, state: ContactState, here: StepEquations, step: float, creep: float) -> None:
-    """Solve for speeds and impulses, with the touching contacts and turning bearings that the state assumes.
+    """Solve for speeds and impulses, assuming the touching contacts and turning bearings that are given by the state.
 
     creep   maximum creep speed of a stuck bearing [rad/s]
     """
@@ -186,7 +199,7 @@ def solve_guess(system: ContactSystem, state: ContactState, here: StepEquations,
 
 @kernel
 def assemble(system: ContactSystem, state: ContactState, here: StepEquations, step: float, creep: float) -> None:
-    """Assemble the matrix and the right side of the linear equations (13) of docs/dynamics.md."""
+    """Assemble the matrix and the right side of equation (13) of docs/dynamics.md."""
     A, b, n = here.matrix, here.solution, len(here.v)
     A[:, :] = 0.0
     # a loop, because compiled copies of slices check for overlap and take longer
@@ -232,8 +245,8 @@ def assemble(system: ContactSystem, state: ContactState, here: StepEquations, st
 
 @kernel
 def press(system: ContactSystem, state: ContactState, here: StepEquations, step: float, support: int) -> None:
-    """Add the friction of a turning bearing by the load R on one support: rho e.R, with the direction e of R in the
-    last solution.
+    """Add the friction of a turning bearing due to the load R on one support: rho e.R, where rho is the friction radius
+    and e is the direction of R in the last solution.
 
     This is the linearisation of rho |R| in Newton's method: its error is of second order in the change of direction.
     """
@@ -256,7 +269,7 @@ def press(system: ContactSystem, state: ContactState, here: StepEquations, step:
 
 @kernel
 def carrier_torque(system: ContactSystem, state: ContactState, here: StepEquations, f: int) -> float:
-    """Return the torque on the carrier per unit impulse of a touching pair, for the force `f` on bearings."""
+    """Return the torque on the carrier of the force number `f` on bearings, per unit impulse of a touching pair."""
     m = system.loaded.pair[f]
     side = state.touching[m] - 1
     sides = system.loaded.forces[f]
@@ -265,7 +278,9 @@ def carrier_torque(system: ContactSystem, state: ContactState, here: StepEquatio
 
 @kernel
 def turn_forces(system: ContactSystem, state: ContactState, here: StepEquations, step: float) -> None:
-    """Rotate the forces on bearings with their carriers (Rodrigues' formula), to the end of a step of length `step`."""
+    """Rotate the forces on bearings together with their carriers to the end of a step of length `step`, by Rodrigues'
+    formula.
+    """
     for f in range(len(system.loaded.pair)):
         angle = 0.0
         for d in range(len(here.v)):
@@ -281,7 +296,9 @@ def turn_forces(system: ContactSystem, state: ContactState, here: StepEquations,
 
 @kernel
 def find_bearing_loads(system: ContactSystem, state: ContactState, here: StepEquations, step: float) -> bool:
-    """Compute the loads on all bearings from the impulses; return True if their friction differs from that used."""
+    """Compute the loads on all bearings from the impulses. Return True if the resulting friction differs from the
+    friction used in the solution.
+    """
     loaded, differs = system.loaded, False
     for m in range(len(here.pressing)):
         here.pressing[m, 0] = here.pressing[m, 1] if state.turning[m] == 0 else 0.0
@@ -321,9 +338,9 @@ def find_bearing_loads(system: ContactSystem, state: ContactState, here: StepEqu
 
 @kernel
 def solve_linear(A: Floats, b: Floats) -> None:
-    """Replace b by the solution x of A x = b, by Gaussian elimination; A is overwritten.
+    """Replace b by the solution x of A x = b, found by Gaussian elimination. A is overwritten.
 
-    No pivots are needed: the mass matrix is positive definite, and contacts are eliminated after all coordinates.
+    Pivoting is not needed: the mass matrix is positive definite, and contacts are eliminated after all coordinates.
     """
     for k in range(len(b)):
         for i in range(k + 1, len(b)):
@@ -339,14 +356,14 @@ def solve_linear(A: Floats, b: Floats) -> None:
 
 
 AT_ONCE = 6
-"""Number of iterations in which all wrong contact states are changed together (block pivoting)."""
+"""Number of iterations in which all wrong contact states are changed at once (block pivoting)."""
 
 
 @kernel
 def correct_contacts(
     system: ContactSystem, state: ContactState, here: StepEquations, slack: float, single: bool
 ) -> int:
-    """Open contacts with tensile impulses, and close flanks that penetrate; return the number of changes.
+    """Open contacts with tensile impulses, close flanks that penetrate, and return the number of changes.
 
     single   change only the contact with the lowest index (Murty's method)
     """
@@ -380,7 +397,7 @@ def correct_contacts(
 def correct_bearings(
     system: ContactSystem, state: ContactState, here: StepEquations, creep: float, single: bool
 ) -> int:
-    """Release bearings that creep too fast, and reverse or stick bearings that turn against their assumed sense; return
+    """Release bearings that creep too fast, reverse or stick bearings that turn against their assumed sense, and return
     the number of changes.
     """
     found = 0

@@ -1,4 +1,4 @@
-"""Simulation of a contact model: allocation of the arrays of the kernels, and the results of a run."""
+"""Simulation of a contact model: allocation of the kernel arrays, and the results of a run."""
 
 from __future__ import annotations
 
@@ -44,21 +44,23 @@ _ROUNDS = 60  # maximum number of guesses in a step, plus six for each contact a
 
 
 class StepPlan(NamedTuple):
-    """Time steps of a run: their length [s], numbers of skipped and of counted steps, and steps between samples."""
+    """Time steps of a run: step length [s], number of skipped steps, number of counted steps, and number of steps
+    between samples.
+    """
 
     step: float
     skip: int
     steps: int
     stride: int
     block: int = 0
-    """Number of steps in each of the equal blocks of the counted part whose results are stored; 0 for no blocks."""
+    """Number of steps in each block of the counted part whose results are stored; 0 if there are no blocks."""
 
 
 @dataclass
 class SimulatedRun:
-    """Results of a run.
+    """Results of a simulated run.
 
-    `start` and `end` are the kinetic energies [J] at both ends of the counted part.
+    `start` and `end` are the kinetic energies at the start and at the end of the counted part [J].
     """
 
     plan: StepPlan
@@ -73,13 +75,13 @@ class SimulatedRun:
     start: float
     end: float
     turned: Floats
-    """Angles of the coordinates over the counted part [rad]."""
+    """Angles through which the coordinates turn during the counted part [rad]."""
     pressed: float = 0.0
     """Increase of the energy stored in compliant teeth [J]."""
     peaks: Floats | None = None
-    """Maximum torque of each pair with compliant teeth [N m]."""
+    """Maximum contact torque of each pair [N m]; None for rigid teeth."""
     blocks: tuple[SimulatedRun, ...] = ()
-    """Parts of the run with `plan.block` steps each: their counts, energies and angles."""
+    """Parts of the run, each with `plan.block` steps. They contain counts, energies and angles."""
 
 
 def simulate(
@@ -89,10 +91,10 @@ def simulate(
     on_done: Callable[[int], object] = lambda _: None,
     yields: ToothCompliance | None = None,
 ) -> SimulatedRun:
-    """Return the results of a simulated run; with `fast` the kernels are compiled.
+    """Return the results of a simulated run. The kernels are compiled if `fast` is True.
 
-    on_done   called with the number of steps done since the last call; if it returns True, the run stops, and
-              `plan.steps` of the result is the number of counted steps so far
+    on_done   function that is called with the number of steps since its last call; if it returns True, the run stops,
+              and `plan.steps` of the result is the number of counted steps so far
     yields    stiffness and damping of each pair; None for rigid teeth
     """
     system, n = model.system(plan.step, yields), len(model.torque)
@@ -109,7 +111,7 @@ def simulate(
     piece = max(1, _AT_A_TIME[fast] // plan.stride) * plan.stride
 
     def go(steps: int, counted: bool) -> int:
-        """Advance by `steps` in pieces that end at samples; return the number of steps done."""
+        """Advance by `steps` steps in pieces that end at samples, and return the number of completed steps."""
         done = 0
         while done < steps:
             own = min(piece, steps - done)
@@ -159,12 +161,12 @@ def simulate(
 
 
 def _mark(record: RunRecord, state: ContactState) -> _Mark:
-    """Return copies of the counts, energies and angles at the present step."""
+    """Return copies of the counts, energies and angles of the coordinates at the present step."""
     return record.counts.copy(), record.energy.copy(), state.angle.copy()
 
 
 def _part(run: SimulatedRun, at: int, before: _Mark, after: _Mark) -> SimulatedRun:
-    """Return the results of one block of a run, between two marks."""
+    """Return the results of one block of a run, which lies between two marks."""
     counts, energy, turned = (late - early for early, late in zip(before, after, strict=True))
     plan = run.plan._replace(skip=run.plan.skip + at * run.plan.block, steps=run.plan.block, block=0)
     return replace(run, plan=plan, counts=counts, energy=energy, turned=turned, blocks=())
@@ -181,7 +183,8 @@ def check_convergence(state: ContactState, record: RunRecord, step: float) -> No
 def step_rules(
     model: ContactModel, state: ContactState, plan: StepPlan, duration: float, share: float = 1.0
 ) -> StepRules:
-    """Return the numerical parameters of a run of some duration [s], with tolerances for the rounding of its speeds.
+    """Return the numerical parameters of a run of the given duration [s]. Tolerances are chosen for the rounding errors
+    of the speeds.
 
     share   fraction of the step at which forces are evaluated
     """
@@ -195,9 +198,10 @@ def step_rules(
 
 
 def start_state(model: ContactModel, system: ContactSystem) -> ContactState:
-    """Return the initial state with all coordinates at 0.
+    """Return the initial state, in which all coordinates are 0.
 
-    The speeds are the model's initial speeds, or the speeds of minimum norm with all front flanks in contact.
+    The initial speeds are those of the model. If the model has none, they are the speeds of minimum norm with all drive
+    flanks in contact.
     """
     n, pairs, contacts = len(model.torque), len(model.pairs), len(system.compliance)
     ratio = np.zeros((pairs, 2))
@@ -230,14 +234,16 @@ def start_state(model: ContactModel, system: ContactSystem) -> ContactState:
 
 
 def empty_record(n: int, rows: int, samples: int, impacts: int) -> RunRecord:
-    """Return an empty record for `n` coordinates, `rows` pairs and stops, and given numbers of samples and impacts."""
+    """Return an empty record for `n` coordinates, `rows` pairs and stops, and the given maximum numbers of samples and
+    impacts.
+    """
     sampled = [(samples, n), (samples, n), (samples, rows), (samples, n)]
     shapes = [(ENERGIES,), (rows, COUNTS), *sampled, (impacts, IMPACT_COLUMNS)]
     return RunRecord._make([*map(np.zeros, shapes), np.zeros(DIVERGED + 1, dtype=np.int64)])
 
 
 def empty_equations(model: ContactModel) -> StepEquations:
-    """Return empty arrays for the equations of one step."""
+    """Return empty arrays for the equations of one time step of a model."""
     n, pairs, stops = len(model.torque), len(model.pairs), len(model.stops)
     contacts, flanks = pairs + stops, (pairs, 2)
     both, size = (contacts, 2), n + contacts
@@ -249,7 +255,7 @@ def empty_equations(model: ContactModel) -> StepEquations:
 
 
 def compliant_teeth(pairs: int, yields: ToothCompliance | None) -> CompliantTeeth:
-    """Return the data of compliant teeth, with zero stiffness and damping for rigid teeth."""
+    """Return the data of compliant teeth. Stiffness and damping are zero if the teeth are rigid (`yields` is None)."""
     stiffness, damping = (np.zeros(pairs), np.zeros(pairs)) if yields is None else yields
     return CompliantTeeth(stiffness, damping, np.zeros(pairs), np.full(pairs, -1, dtype=np.int64))
 
@@ -257,7 +263,7 @@ def compliant_teeth(pairs: int, yields: ToothCompliance | None) -> CompliantTeet
 def _stored(
     system: ContactSystem, transmissions: PairTables, state: ContactState, yields: ToothCompliance | None
 ) -> float:
-    """Return the elastic energy of compliant teeth [J]."""
+    """Return the elastic energy stored in compliant teeth [J]."""
     if yields is None:
         return 0.0
     found = 0.0

@@ -1,4 +1,6 @@
-"""Contributions of one step to the results of a run, for both tooth models: energies, times in contact, impacts."""
+"""Contributions of one time step to the results of a run, for rigid and compliant teeth: energies, times in contact and
+impacts.
+"""
 
 from __future__ import annotations
 
@@ -49,7 +51,8 @@ def count_energy(
     rules: StepRules,
     speed: Floats,
 ) -> None:
-    """Add the work of drives, torques and springs, and the losses by drag, as impulses times mean speeds of the step.
+    """Add the work of drives, torques and springs, and the losses due to drag, to the record. Each is an impulse times
+    a mean speed of the step.
 
     speed   speeds at which drag and springs are evaluated [rad/s]
     """
@@ -90,10 +93,11 @@ def count_contacts(
     rules: StepRules,
     teeth: CompliantTeeth,
 ) -> None:
-    """Add times in contact, losses by friction and damping, impacts with their energy, and peak torques, by pair.
+    """Add the times in contact, friction and damping losses, impacts with their energy, and peak torques of each pair
+    to the record.
 
-    The work of compliant teeth without their damping is added to the numerical dissipation, from which the change of
-    their stored energy must be subtracted.
+    The work of the springs of compliant teeth is added to the numerical dissipation. The change of their stored energy
+    must be subtracted from this sum.
     """
     step, rigid = rules.step, rules.share == 1.0
     for m in range(len(system.tables)):
@@ -177,7 +181,8 @@ def count_released_energy(
     side: int,
     opened: float,
 ) -> None:
-    """Add the energy stored in teeth at separation to the impact losses, because their damping dissipates it.
+    """Add the energy that is stored in the teeth when they separate to the impact losses, because their damping
+    dissipates it.
 
     opened   change of the gap from the start to the middle of the step, at the initial speeds [rad]
     """
@@ -192,7 +197,8 @@ def count_released_energy(
 
 @kernel
 def count_gap(counts: Floats, ahead: float, behind: float, flight: float) -> None:
-    """Add the times without contact and on the coast flank, and update the maximum gap, from both gaps of a pair [rad].
+    """Add the times without contact and on the coast flank to the counts of a pair, and update its maximum gap, from
+    its gaps at both flanks [rad].
 
     flight   fraction of the step in which no flank touches
     """
@@ -204,8 +210,8 @@ def count_gap(counts: Floats, ahead: float, behind: float, flight: float) -> Non
 
 @kernel
 def find_flight(touching: Ints, here: StepEquations, m: int) -> float:
-    """Return the fraction of the step in which no flank of a pair touches; for a new contact, the fraction before it
-    closes.
+    """Return the fraction of the step in which no flank of pair m touches. For a new contact, it is the fraction before
+    the flanks close.
     """
     if touching[m] == OPEN:
         return 1.0
@@ -219,7 +225,9 @@ def find_flight(touching: Ints, here: StepEquations, m: int) -> float:
 
 @kernel
 def count_impact(record: RunRecord, m: int, taken: float, impulse: float, steady: float) -> None:
-    """Divide the energy that a contact dissipates in a step between the impact and the steady force."""
+    """Divide the energy that a contact dissipates in a step into the energy of an impact and the energy of the steady
+    force.
+    """
     share = (impulse - steady) / impulse if impulse > steady else 0.0
     record.energy[IMPACT_LOSS] += taken * share
     record.energy[STEP] += taken * (1.0 - share)
@@ -228,9 +236,11 @@ def count_impact(record: RunRecord, m: int, taken: float, impulse: float, steady
 
 @kernel
 def leaps(jump: Floats, tables: Ints, now: Floats, before: Floats, m: int, side: int) -> bool:
-    """Return True if the speed ratio of a flank has passed a jump of its transmission function since the last step.
+    """Return True if the speed ratio at a flank of pair m has changed discontinuously since the last step, because the
+    contact has passed a kink of the transmission function.
 
-    now, before   ratios of all pairs; calls with many arrays are slow, so only a few are passed
+    now, before   present and previous speed ratios of all pairs; few arrays are passed, because calls with many arrays
+                  are slow
     """
     return bool(abs(now[m, side] - before[m, side]) > jump[tables[m, side]] / 2)
 
@@ -239,7 +249,7 @@ def leaps(jump: Floats, tables: Ints, now: Floats, before: Floats, m: int, side:
 def count_stops(
     system: ContactSystem, state: ContactState, here: StepEquations, record: RunRecord, step: float
 ) -> None:
-    """Add the impacts of links against their stops."""
+    """Add the impacts of links against their stops to the record."""
     for stop in range(len(system.stop_pitch)):
         m = len(system.tables) + stop
         if state.touching[m] == OPEN:
@@ -271,7 +281,7 @@ def count_stops(
 
 @kernel
 def note_impact(record: RunRecord, time: float, which: int, speed: float, energy: float, impulse: float) -> None:
-    """Count an impact of a contact, and append it to the list unless that is full."""
+    """Count an impact of a contact, and append it to the list of impacts unless the list is full."""
     counts = record.counts[which]
     counts[IMPACT_COUNT] += 1.0
     counts[IMPACT_SPEED] = max(counts[IMPACT_SPEED], speed)

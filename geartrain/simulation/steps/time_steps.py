@@ -1,26 +1,28 @@
 """Time steps of constant length: nonsmooth time stepping for rigid teeth, the midpoint rule for compliant teeth.
 
 Rigid teeth use the nonsmooth time stepping of Moreau and Jean. Contacts without rebound are enforced at the position
-level, docs/dynamics.md (12). For a pair with driver angle S, driven angle q, gap g and coefficient of restitution e,
-and a step of length h, the transmission function F* and the speed ratio tau* are evaluated at S* = S + h dS/dt. Then
+level, equation (12) of docs/dynamics.md. For a pair with driver angle S, driven angle q, gap g and coefficient of
+restitution e, and a step of length h, the transmission function F* and the speed ratio tau* are evaluated at S* = S + h
+dS/dt. Then
 
     dq/dt+ - tau* dS/dt+ >= k,   k = (F* - tau* h dS/dt - q)/h,   for a closing contact k = max(k, -e dg/dt-),
 
 so that gaps do not drift (- and + mark speeds before and after the step). The complementarity problem of touching
-contacts and sticking bearings is solved from the solution of the previous step. Wrong contact states are flipped all at
-once (block pivoting) and, if that does not converge, the lowest index first (Murty's method).
+contacts and sticking bearings is solved iteratively, starting from the solution of the previous step. All wrong contact
+states are changed at once (block pivoting). If this does not converge, only the state with the lowest index is changed
+in each iteration (Murty's method).
 
-Identical steps of a train at rest are taken at once, up to the next beat of an escapement. Between two beats a clock
-rests most of the time: its stop is active, bearings stick, and torques do not change. A step that starts and ends
-without speed, and for which no contact state was flipped, is followed by the same step again.
+Identical steps of a train at rest are computed together, up to the next beat of an escapement. Between two beats a
+clock rests most of the time: its stop is active, bearings stick, and torques do not change. A step that starts and ends
+without speed, and in which no contact state changes, is followed by an identical step.
 
-Compliant teeth have a stiffness k and a damping c, docs/dynamics.md (15) and (18), and the impulse
+Compliant teeth have a stiffness k and a damping c, equations (15) and (18) of docs/dynamics.md. Their impulse is
 
     P = h max(0, -k g - c dg/dt)   where g < 0,
 
-with gap and closing speed in the middle of the step. Both are linear in the speeds at its end, because the transmission
-function is evaluated at the extrapolated position. A touching pair is therefore a row with the compliance 1/s, s = h^2
-k/4 + h c/2, in the equations of rigid contacts. The rule is of second order and conserves the energy of
+with gap and closing speed in the middle of the step. Both are linear in the speeds at the end of the step, because the
+transmission function is evaluated at the extrapolated position. A touching pair is therefore a row with the compliance
+1/s, s = h^2 k/4 + h c/2, in the equations of rigid contacts. The rule is of second order and conserves the energy of
 vibrations.
 """
 
@@ -77,7 +79,7 @@ _IMPACT_CHANGE = 0.01  # relative change of a driver's speed within a step that 
 
 @kernel
 def fastest(speed: Floats) -> float:
-    """Return the maximum magnitude of the speeds [rad/s]; NaN if one of them is NaN."""
+    """Return the maximum magnitude of the given speeds [rad/s], or NaN if one of them is NaN."""
     found = 0.0
     for each in speed:
         if not abs(each) <= found:
@@ -87,7 +89,7 @@ def fastest(speed: Floats) -> float:
 
 @kernel
 def find_idle_steps(system: ContactSystem, state: ContactState, rules: StepRules, most: int) -> int:
-    """Return the number of steps, up to `most`, before the loads on a train at rest change."""
+    """Return the number of steps, at most `most`, before the loads on a train at rest change."""
     for m in range(len(system.spring_rate)):
         if system.spring_rate[m] != 0.0:
             return 0
@@ -101,9 +103,9 @@ def find_idle_steps(system: ContactSystem, state: ContactState, rules: StepRules
 
 @kernel
 def repeat_counts(counts: Floats, before: Floats, times: int) -> None:
-    """Add the counts of the last step `times` times, for all contacts.
+    """Add `times` times the counts of the last step to the counts of all contacts.
 
-    before   counts before that step
+    before   counts before the last step
     """
     for m in range(len(counts)):
         for column in (TIME_APART, TIME_COAST, IMPULSE):
@@ -122,9 +124,9 @@ def run_steps(
     steps: int,
     counted: bool,
 ) -> None:
-    """Advance the state by `steps` time steps.
+    """Advance the state of the train by `steps` time steps.
 
-    Samples are always recorded; energies, times and impacts only if `counted`.
+    Samples are always recorded. Energies, times and impacts are recorded only if `counted` is True.
     """
     rigid = rules.share == 1.0
     since, done, idle = 0, 0, 0
@@ -190,7 +192,9 @@ def solve_step(
     rules: StepRules,
     teeth: CompliantTeeth,
 ) -> int:
-    """Solve for the speeds at the end of a step and return the number of contact states tried."""
+    """Solve for the speeds at the end of a step, and return the number of combinations of contact states that were
+    tried.
+    """
     find_loads(system, state, here, rules.step, rules.share)
     for d in range(len(here.v)):
         here.ahead[d] = state.speed[d]
@@ -234,9 +238,9 @@ def solve_step(
 
 @kernel
 def add_to_sample(forces: Floats, P: Floats, touching: Ints, pairs: int, times: int) -> None:
-    """Add the impulses of `times` identical steps to their sample.
+    """Add the impulses of `times` identical steps to the current sample.
 
-    Calls with many arrays are slow, so only a few are passed.
+    Only a few arrays are passed, because calls with many arrays are slow.
     """
     for m in range(len(P)):
         forces[m] += times * (-P[m] if m < pairs and touching[m] == BACK else P[m])
@@ -244,7 +248,9 @@ def add_to_sample(forces: Floats, P: Floats, touching: Ints, pairs: int, times: 
 
 @kernel
 def end_sample(state: ContactState, record: RunRecord, time: float) -> None:
-    """Record angles and speeds, and convert impulses to mean torques over the duration of the sample [s]."""
+    """Record the angles and speeds of a sample, and convert its impulses to mean torques over its duration
+    `time` [s].
+    """
     sample = record.numbers[SAMPLES]
     record.angles[sample, :] = state.angle
     record.speeds[sample, :] = state.speed
@@ -255,7 +261,7 @@ def end_sample(state: ContactState, record: RunRecord, time: float) -> None:
 
 @kernel
 def find_loads(system: ContactSystem, state: ContactState, here: StepEquations, step: float, share: float) -> None:
-    """Compute the momentum, and the known parts of the impulses of torques, springs and drag.
+    """Compute the momenta of the coordinates, and the known parts of the impulses of torques, springs and drag.
 
     share   fraction of the step at which springs and drag are evaluated
     """
@@ -282,8 +288,8 @@ def find_bounds(
     rules: StepRules,
     teeth: CompliantTeeth,
 ) -> None:
-    """Compute speed ratios, lever arms, gaps, and bounds on the opening speeds of both flanks, at extrapolated
-    positions.
+    """Compute speed ratios, lever arms, gaps, and bounds on the opening speeds of both flanks of each pair at
+    extrapolated positions.
     """
     step, rigid = rules.step, rules.share == 1.0
     for m in range(len(system.tables)):
@@ -338,7 +344,9 @@ def find_bounds(
 
 @kernel
 def is_struck(touching: Ints, before: Ints, jump: Floats, tables: Ints, ratio: Floats, last: Floats) -> bool:
-    """Return True if a flank has come into contact in this step, or the speed ratio of a touching flank has jumped."""
+    """Return True if a flank has come into contact in this step, or if the speed ratio at a touching flank
+    has jumped.
+    """
     for m in range(len(last)):
         now = touching[m]
         if now != OPEN and (now != before[m] or leaps(jump, tables, ratio, last, m, now - 1)):
@@ -348,7 +356,8 @@ def is_struck(touching: Ints, before: Ints, jump: Floats, tables: Ints, ratio: F
 
 @kernel
 def find_shift(system: ContactSystem, here: StepEquations, minimum: float) -> float:
-    """Return the maximum difference between drivers' speeds and the speeds used for extrapolation [rad/s].
+    """Return the maximum difference between the drivers' speeds and the speeds that were used for extrapolation
+    [rad/s].
 
     minimum   fraction of a driver's own speed below which its difference is ignored
     """
@@ -366,7 +375,9 @@ def find_shift(system: ContactSystem, here: StepEquations, minimum: float) -> fl
 
 @kernel
 def find_stop_bounds(system: ContactSystem, state: ContactState, here: StepEquations, step: float) -> None:
-    """Compute the maximum speed [rad/s] at which each stopped link reaches its stop, or rebounds from it."""
+    """Compute the maximum speed [rad/s] with which each stopped link can reach its stop, or with which it rebounds from
+    the stop.
+    """
     for stop in range(len(system.stop_pitch)):
         m = len(system.tables) + stop
         beats = floor((state.clock[0] + step / 2) / system.stop_beat[stop])

@@ -1,4 +1,4 @@
-"""Hertzian contact of two teeth, and Archard's wear: docs/strength.md.
+"""Hertzian contact of two teeth, and Archard's wear (docs/strength.md).
 
 ContactLoad          line contact; tooth pairs in contact on the path of contact share the load equally; for
                      helical involutes on parallel axes, thin spur slices, each rotated against the next, with the load
@@ -55,7 +55,7 @@ _SLIGHT = 1e-5  # coefficient of friction so small that the loss is proportional
 
 @dataclass(frozen=True, slots=True)
 class Elasticity:
-    """Young's modulus [MPa] and Poisson's ratio of a material."""
+    """Young's modulus [MPa] and Poisson's ratio [1] of a material."""
 
     youngs_modulus: float
     poisson: float
@@ -67,7 +67,7 @@ class Elasticity:
 
 
 def elasticity_factor(first: Elasticity, second: Elasticity) -> float:
-    """Return the elasticity factor ZE of two materials [sqrt(MPa)]: docs/strength.md (1).
+    """Return the elasticity factor ZE of two materials [sqrt(MPa)], equation (1) of docs/strength.md.
 
     ZE^2 = 1 / (pi ((1 - nu1^2)/E1 + (1 - nu2^2)/E2))
 
@@ -80,7 +80,7 @@ def elasticity_factor(first: Elasticity, second: Elasticity) -> float:
 
 
 def hertz_pressure(factor: float, force: float, width: float, curvature: float) -> float:
-    """Return the maximum pressure of a line contact [MPa]: docs/strength.md (2).
+    """Return the maximum pressure of a line contact [MPa], equation (2) of docs/strength.md.
 
     factor      elasticity factor [sqrt(MPa)]
     force       normal force on the flanks [N]; `width` of contact [mm]
@@ -96,32 +96,32 @@ class ContactPlace(Result):
     KEYS = ("where", "position", "tooth_pairs", "force", Key("pressure", to=finite))
 
     where: str
-    """Name of the position, such as "pitch point"."""
+    """Name of the position on the path of contact, such as "pitch point"."""
     position: float
-    """Position of the contact, measured along the pitch line from the pitch point [pitch]."""
+    """Position of the contact, given as an arc on the pitch line from the pitch point [pitch]."""
     tooth_pairs: float
-    """Number of tooth pairs in contact, each with the same force.
+    """Number of tooth pairs in contact, each of which transmits an equal force.
 
     For helical teeth, the number is averaged over the width, and its minimum during the mesh is used.
     """
     force: float
     """Normal force of one tooth pair [N]."""
     pressure: float
-    """Maximum pressure in the contact [MPa]; infinite if the radius of curvature of a flank is 0."""
+    """Maximum Hertzian pressure in the contact [MPa]; infinite if the radius of curvature of a flank is 0."""
 
 
 @dataclass(frozen=True, slots=True)
 class ContactLoad:
-    """Line contact of a loaded pair with a path of contact: forces and pressures along the path.
+    """Line contact of a loaded pair that has a path of contact: forces and pressures along the path.
 
     Positions X along the path are arcs on the pitch line, measured from the pitch point [module]. For helical teeth the
     quantities refer to the transverse section.
     """
 
     path: PathOfContact
-    """Path of contact, with lengths in modules."""
+    """Path of contact, with lengths given in modules."""
     module: float
-    """Module [mm]; `width` is the width of the teeth in contact [mm]."""
+    """Module [mm]. `width` is the width of the teeth in contact [mm]."""
     width: float
     torque: float
     """Torque on gear 1 [N mm]."""
@@ -130,11 +130,11 @@ class ContactLoad:
     base_helix: float = 0.0
     """Base helix angle [rad]; 0 for spur teeth."""
     overlap: float = 0.0
-    """Overlap ratio: advance of helical teeth over the width [pitch]."""
+    """Overlap ratio: circumferential advance of helical teeth over the face width, divided by the pitch."""
 
     @property
     def lines(self) -> float:
-        """Minimum number of tooth pairs in contact, averaged over the width of helical teeth."""
+        """Minimum number of tooth pairs in contact. For helical teeth, the number is averaged over the width."""
         return minimum_tooth_pairs(self.path.contact_ratio, self.overlap)
 
     @property
@@ -154,7 +154,7 @@ class ContactLoad:
         """Return the force of one tooth pair at each position X [N], and the number of tooth pairs that share the
         torque.
 
-        The force is normal to the flanks of spur teeth, and transverse for helical teeth.
+        For spur teeth, the force is normal to the flanks. For helical teeth, it is the force in the transverse section.
         """
         if self.base_helix:
             return self.tangential / self.path.at(X).cos_psi / self.lines, np.full(X.shape, self.lines)
@@ -170,14 +170,14 @@ class ContactLoad:
         """Return pressure [MPa], force [N] and number of tooth pairs in contact at positions X along the path [module].
 
         For helical teeth, the lines of contact and the force normal to the flanks are larger by the factor 1/cos(base
-        helix angle), and the curvature across the lines is smaller by the cosine.
+        helix angle), and the curvature across the lines is smaller by the factor cos(base helix angle).
         """
         force, counts = self.forces(X)
         curvature = self.path.at(X).kr / self.module * cos(self.base_helix)
         return self.factor * np.sqrt(force / self.width * curvature), force, counts
 
     def single(self) -> tuple[float, float]:
-        """Return the positions between which one tooth pair carries the whole load [module].
+        """Return the two positions between which one tooth pair carries the whole load [module].
 
         Both ends of the path of contact are returned if the contact ratio is below 1, and also for helical teeth,
         because one pair of helical teeth never carries the whole load.
@@ -201,7 +201,9 @@ class ContactLoad:
         return float(self.pressures(np.linspace(low + nudge, high - nudge, _POSITIONS))[0].max())
 
     def places(self) -> tuple[ContactPlace, ...]:
-        """Return the pressures at the ends of contact and of single contact, at the pitch point, and the maximum."""
+        """Return the pressures at the ends of contact, at the ends of single contact, at the pitch point, and at the
+        position of maximum pressure.
+        """
         (approach, recess), p = self.path.arcs, self.path.pitch.p
         named = {"start of contact": -approach, "end of contact": recess}
         low, high = self.single()
@@ -230,12 +232,15 @@ class ContactLoad:
 
 
 def base_helix_angle(helix: float, pressure_angle: float) -> float:
-    """Return the base helix angle [rad] from the helix angle at the pitch circle and the normal pressure angle."""
+    """Return the base helix angle [rad] from the helix angle at the pitch circle [rad] and the normal pressure angle
+    [rad].
+    """
     return asin(sin(helix) * cos(pressure_angle))
 
 
 def minimum_tooth_pairs(contact_ratio: float, overlap: float) -> float:
-    """Return the minimum number of tooth pairs in contact, averaged over the width: docs/strength.md (20).
+    """Return the minimum number of tooth pairs in contact, averaged over the width, from equation (20) of
+    docs/strength.md.
 
     contact_ratio   transverse contact ratio; `overlap` is the overlap ratio
     """
@@ -251,7 +256,7 @@ def minimum_tooth_pairs(contact_ratio: float, overlap: float) -> float:
 
 
 class ContactEllipse(NamedTuple):
-    """Contact ellipse of two bodies: maximum pressure [MPa], semi-major and semi-minor axis [mm]."""
+    """Contact ellipse of two bodies: maximum pressure [MPa], semi-major and semi-minor axes [mm]."""
 
     pressure: float
     longer: float
@@ -259,7 +264,7 @@ class ContactEllipse(NamedTuple):
 
 
 def contact_ellipse(force: float, factor: float, curvatures: tuple[float, float], crossing: float) -> ContactEllipse:
-    """Return Hertz's contact ellipse of two crossed cylinders: docs/strength.md (25).
+    """Return Hertz's contact ellipse of two crossed cylinders, equation (25) of docs/strength.md.
 
     force        normal force [N]; `factor` is the elasticity factor ZE [sqrt(MPa)]
     curvatures   curvatures of both cylinders [1/mm]
@@ -303,7 +308,7 @@ def contact_ellipse(force: float, factor: float, curvatures: tuple[float, float]
 
 @dataclass(frozen=True)
 class CrossedWheels:
-    """Two involute helical wheels on crossed axes; one of them may be a worm. Lengths in mm."""
+    """Two involute helical wheels on crossed axes, one of which may be a worm. Lengths are in mm."""
 
     radii: tuple[float, float]
     """Radii of the pitch circles [mm]."""
@@ -316,7 +321,7 @@ class CrossedWheels:
     addenda: tuple[float, float] = (1.0, 1.0)
     """Addenda of both wheels [module]."""
     widths: tuple[float, float] = (float("inf"), float("inf"))
-    """Widths of both wheels [mm]; infinite if not known."""
+    """Face widths of both wheels [mm]; infinite if they are not known."""
 
     @property
     def pitch(self) -> float:
@@ -324,12 +329,12 @@ class CrossedWheels:
         return pi * self.module * cos(self.pressure_angle)
 
     def flank_radius(self, at: int) -> float:
-        """Return the radius of curvature of a flank at the pitch point, normal to its generatrices [mm]."""
+        """Return the radius of curvature of a flank at the pitch point, perpendicular to its generatrices [mm]."""
         transverse = atan(tan(self.pressure_angle) / cos(self.helix[at]))
         return self.radii[at] * sin(transverse) / cos(base_helix_angle(self.helix[at], self.pressure_angle))
 
     def normal_count(self, at: int) -> float:
-        """Return the virtual number of teeth of one wheel in the normal section, in general not an integer."""
+        """Return the virtual number of teeth of one wheel in the normal section, which is not an integer in general."""
         return 2 * self.radii[at] / self.module / cos(base_helix_angle(self.helix[at], self.pressure_angle)) ** 2
 
     def tooth_length(self, at: int) -> float:
@@ -346,7 +351,9 @@ class CrossedWheels:
         return asin(min(size(cross(first, second)), 1.0))
 
     def _bounds(self, at: int) -> dict[str, float]:
-        """Return the limits of the path of contact [mm] from the pitch point towards one wheel's tip, by cause."""
+        """Return the possible limits of the path of contact from the pitch point towards the tip of one wheel [mm],
+        keyed by their cause.
+        """
         alpha, lean = self.pressure_angle, self.helix[at]
         tip = self.radii[at] + self.addenda[at] * self.module
         # (r + s sin a)^2 + (s cos a cos b)^2 = tip^2
@@ -360,35 +367,41 @@ class CrossedWheels:
 
     @cached_property
     def ends(self) -> tuple[float, float]:
-        """Lengths of the path of contact [mm], from the pitch point towards the tip of the second wheel and of the
-        first wheel.
+        """Lengths of the path of contact from the pitch point towards the tip of the second wheel and towards the tip
+        of the first wheel [mm].
         """
         return min(self._bounds(1).values()), min(self._bounds(0).values())
 
     @property
     def bounded_by(self) -> frozenset[str]:
-        """Causes of both ends of contact: tip, base circle or width of a wheel."""
+        """Causes that limit the path of contact at its two ends: tip, base circle or width of a wheel."""
         return frozenset(min(found, key=found.__getitem__) for found in (self._bounds(0), self._bounds(1)))
 
     @property
     def contact_ratio(self) -> float:
-        """Contact ratio: length of contact divided by the base pitch."""
+        """Contact ratio: length of the path of contact divided by the base pitch."""
         return sum(self.ends) / self.pitch
 
     def tooth_pairs(self, place: float) -> int:
-        """Return the number of tooth pairs in contact while one touches at `place` past the pitch point [mm]."""
+        """Return the number of tooth pairs in contact while one of them touches at the distance `place` past the pitch
+        point [mm].
+        """
         back, front = self.ends
         # contacts exactly at an end of the path count, in spite of rounding
         slack = 1e-9 * self.pitch
         return int((place + back + slack) // self.pitch + (front - place + slack) // self.pitch + 1)
 
     def ellipse(self, place: float, force: float, factor: float) -> ContactEllipse:
-        """Return the contact ellipse at `place` [mm], with a normal force [N] shared by all tooth pairs in contact."""
+        """Return the contact ellipse at the distance `place` past the pitch point [mm], for a normal force [N] shared
+        by all tooth pairs in contact.
+        """
         rho = self.flank_radius(0) + place, self.flank_radius(1) - place
         return contact_ellipse(force / self.tooth_pairs(place), factor, (1 / rho[0], 1 / rho[1]), self.crossing)
 
     def worst(self, force: float, factor: float) -> ContactEllipse:
-        """Return the contact ellipse of maximum pressure among all positions with the fewest tooth pairs in contact."""
+        """Return the contact ellipse of maximum pressure over all positions with the minimum number of tooth pairs in
+        contact.
+        """
         back, front = self.ends
         places = np.linspace(-back, front, _POINTS)[1:-1].tolist()
         # the ends of the path are excluded: a pair carries no load there
@@ -401,11 +414,11 @@ class CrossedWheels:
 
 
 def loss_over_friction(mesh: GearMesh) -> float | None:
-    """Return the power loss of a pair divided by its power and its friction coefficient, in the limit of zero friction:
-    docs/strength.md (14).
+    """Return the power loss of a pair divided by its power and by its friction coefficient, in the limit of zero
+    friction, from equation (14) of docs/strength.md.
 
-    This value times the energy that the pair transmits is the integral of force over sliding distance. The result is
-    None for teeth that lock.
+    The product of this value and the energy that the pair transmits is the integral of force over sliding distance. The
+    result is None for teeth that lock.
     """
     # the limit at friction 0, evaluated at a small coefficient
     wheels = replace(mesh.wheels, friction=_SLIGHT, friction_law=None)
@@ -417,11 +430,11 @@ def loss_over_friction(mesh: GearMesh) -> float | None:
 
 
 def deepest_passage(load: ContactLoad, gear: int) -> float:
-    """Return the maximum, over the points of a flank, of force per width times sliding distance in one passage of the
-    contact [N]: docs/strength.md (15).
+    """Return the maximum over the points of a flank of the force per width times the sliding distance in one passage of
+    the contact [N], equation (15) of docs/strength.md.
 
-    This value times the wear coefficient K, divided by the hardness, is a wear depth. A point at which the contact does
-    not move along the flank is omitted.
+    The product of this value and the wear coefficient K, divided by the hardness, is a wear depth. A point at which the
+    contact does not move along the flank is omitted.
     """
     approach, recess = load.path.arcs
     X = np.linspace(-approach, recess, 801)

@@ -3,8 +3,8 @@
 
 ISO 6336 is applied by method B with all load factors K equal to 1. Helical pairs follow the editions of 2006: contact
 stress in the transverse section, root stress of the virtual spur wheel in the normal section. The formulas apply to
-teeth cut by a rack with a rounded corner. An exported outline has another root; Lewis's formula evaluates every section
-of the true outline of a tooth of any form.
+teeth cut by a rack with a rounded corner. An exported outline has a different root. Lewis's formula is evaluated for
+every section of the true outline of a tooth, whatever its form.
 """
 
 from __future__ import annotations
@@ -38,22 +38,22 @@ _STEP = 0.004  # distance between sections [module]
 
 @dataclass(frozen=True, slots=True)
 class RackWheel:
-    """Wheel cut by a rack; lengths in modules."""
+    """Wheel cut by a rack. Lengths are in modules."""
 
     z: float
-    """Number of teeth; not an integer for the virtual spur wheel of a helical wheel."""
+    """Number of teeth, which is not an integer for the virtual spur wheel of a helical wheel."""
     shift: float
     """Profile shift of the rack [module]."""
     tip: float
     """Radius of the tip circle [module]."""
     dedendum: float = 1.25
-    """Depth of the rack below its pitch line [module]; `corner` is its tip radius."""
+    """Depth of the rack below its pitch line [module]. `corner` is the tip radius of the rack [module]."""
     corner: float = HOB_CORNER
 
 
 @dataclass(frozen=True, slots=True)
 class HelixData:
-    """Helix angles at the pitch and the base circle [rad], and overlap ratio, of helical wheels."""
+    """Helix angles at the pitch circle and at the base circle [rad], and overlap ratio of helical wheels."""
 
     helix: float = 0.0
     base: float = 0.0
@@ -61,23 +61,25 @@ class HelixData:
 
     @property
     def Zbeta(self) -> float:
-        """Helix angle factor for contact stress."""
+        """Helix angle factor Zbeta for the contact stress."""
         return 1 / sqrt(cos(self.helix))
 
     @property
     def Ybeta(self) -> float:
-        """Helix angle factor for root stress, with the overlap ratio limited to 1 and the helix angle to 30 degrees."""
+        """Helix angle factor Ybeta for the root stress, with the overlap ratio limited to 1 and the helix angle limited
+        to 30 degrees.
+        """
         return 1 - min(self.overlap, 1.0) * min(degrees(self.helix), 30.0) / 120
 
     def Zeps(self, contact_ratio: float) -> float:
-        """Return the contact ratio factor for contact stress."""
+        """Return the contact ratio factor Zeps for the contact stress."""
         part = min(self.overlap, 1.0)
         return sqrt((4 - contact_ratio) / 3 * (1 - part) + part / contact_ratio)
 
     def single(self, M: float) -> float:
         """Return the single pair contact factor ZB or ZD of a helical wheel from the factor M1 or M2 of a spur wheel.
 
-        It is 1 for overlap ratios of 1 or more, and is interpolated linearly below.
+        The factor is 1 for overlap ratios of 1 or more, and is interpolated linearly for smaller overlap ratios.
         """
         over = max(M, 1.0)
         return over - min(self.overlap, 1.0) * (over - 1)
@@ -85,7 +87,7 @@ class HelixData:
 
 @dataclass(frozen=True, slots=True)
 class RackPair:
-    """Pair of rack-cut wheels at its centre distance, in the transverse section; angles in rad."""
+    """Pair of rack-cut wheels at its centre distance, described in the transverse section. Angles are in rad."""
 
     first: RackWheel
     second: RackWheel
@@ -94,9 +96,9 @@ class RackPair:
     working: float
     """Operating pressure angle [rad]."""
     contact_ratio: float
-    """Transverse contact ratio, 1 to less than 2."""
+    """Transverse contact ratio, at least 1 and less than 2."""
     lean: HelixData = HelixData()
-    """Helix data of the pair; zero angles for spur wheels."""
+    """Helix data of the pair; zero angles for spur teeth."""
 
     def __post_init__(self) -> None:
         """Raise `RangeError` for a contact ratio that the standard does not cover."""
@@ -117,13 +119,13 @@ class IsoContact(Result):
     Zeps: float
     """Contact ratio factor."""
     M1: float
-    """Factor ZB of spur wheels before it is raised to at least 1."""
+    """Factor M1 of spur wheels. ZB is the larger of M1 and 1."""
     M2: float
-    """Factor ZD of spur wheels before it is raised to at least 1."""
+    """Factor M2 of spur wheels. ZD is the larger of M2 and 1."""
     nominal: float
     """Nominal contact stress sH0 at the pitch point [MPa]."""
     stress: tuple[float, float]
-    """Contact stresses at the inner points of single contact of both wheels, ZB and ZD times `nominal` [MPa]."""
+    """Contact stresses at the inner points of single contact of both wheels [MPa]: `nominal` times ZB and ZD."""
     Zbeta: float = 1.0
     """Helix angle factor; 1 for spur teeth."""
 
@@ -133,26 +135,26 @@ class IsoRoot(Result):
     """Root stress of one wheel by ISO 6336-3, with the load at the outer point of single contact."""
 
     chord: float
-    """Thickness of the root at its 30 degree tangent [module]."""
+    """Thickness of the tooth root at the 30 degree tangent [module]."""
     radius: float
-    """Radius of the root fillet at its 30 degree tangent [module]."""
+    """Radius of the root fillet at the 30 degree tangent [module]."""
     lever: float
-    """Bending moment arm of the force about the root at its 30 degree tangent [module]."""
+    """Bending moment arm of the force about the root section at the 30 degree tangent [module]."""
     YF: float
-    """Form factor."""
+    """Form factor YF for the load at the outer point of single contact."""
     YS: float
     """Stress correction factor."""
     stress: float
-    """Nominal root stress sF0 [MPa]."""
+    """Nominal root stress sF0 of the tooth [MPa]."""
     Ybeta: float = 1.0
     """Helix angle factor; 1 for spur teeth."""
 
 
 def contact_stress(pair: RackPair, elasticity: float, tangential: float, width: float, module: float) -> IsoContact:
-    """Return the contact stress of an external pair by ISO 6336-2: docs/strength.md (7) to (9), (21).
+    """Return the contact stress of an external pair by ISO 6336-2, equations (7) to (9) and (21) of docs/strength.md.
 
     elasticity   elasticity factor [sqrt(MPa)]
-    tangential   force at the reference circle [N]
+    tangential   tangential force at the reference circle [N]
     width        face width [mm]; `module` is the transverse module [mm]
     """
     a, aw, eps = pair.angle, pair.working, pair.contact_ratio
@@ -171,7 +173,9 @@ def contact_stress(pair: RackPair, elasticity: float, tangential: float, width: 
 
 
 def outer_single_contact(wheel: RackWheel, angle: float, contact_ratio: float) -> float:
-    """Return the radius of the outer point at which one tooth pair carries the whole load [module]."""
+    """Return the radius of the outer limit of single contact, up to which one tooth pair carries the whole load
+    [module].
+    """
     base = wheel.z / 2 * cos(angle)
     # (contact ratio - 1) base pitches before the tip, measured along the line of action
     return sqrt((sqrt(wheel.tip**2 - base**2) - pi * cos(angle) * (contact_ratio - 1)) ** 2 + base**2)
@@ -180,10 +184,10 @@ def outer_single_contact(wheel: RackWheel, angle: float, contact_ratio: float) -
 def root_stress(
     wheel: RackWheel, angle: float, tangential: float, width: float, module: float, load_radius: float
 ) -> IsoRoot:
-    """Return the root stress by ISO 6336-3: docs/strength.md (10) to (13).
+    """Return the root stress by ISO 6336-3, equations (10) to (13) of docs/strength.md.
 
     angle         pressure angle of the rack [rad]
-    tangential    force [N]; `width` and `module` in mm
+    tangential    tangential force [N]; `width` and `module` in mm
     load_radius   radius of the point of application [module]
     """
     z, rho, hf = wheel.z, wheel.corner, wheel.dedendum
@@ -210,8 +214,8 @@ def root_stress(
 def helical_root_stress(
     wheel: RackWheel, angle: float, pair: RackPair, tangential: float, width: float, module: float
 ) -> IsoRoot | None:
-    """Return the root stress of a helical wheel, from its virtual spur wheel in the normal section: docs/strength.md
-    (22).
+    """Return the root stress of a helical wheel from its virtual spur wheel in the normal section, equation (22) of
+    docs/strength.md.
 
     wheel, angle   data in the normal section, where `wheel.tip` is the height of the tip above the pitch circle instead
                    of a radius [module]; normal pressure angle [rad]
@@ -236,7 +240,7 @@ def _inv(angle: float) -> float:
 
 
 def _tangent(slope: float, H: float) -> float:
-    """Return the angle th [rad] that solves th = slope tan(th) - H, by Newton's method from pi/6."""
+    """Return the solution th [rad] of th = slope tan(th) - H, found by Newton's method starting at pi/6."""
     th = pi / 6
     # Newton's method converges quadratically, so few of these steps are needed
     for _ in range(50):
@@ -252,15 +256,15 @@ def _tangent(slope: float, H: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class ToothLoad:
-    """Force on a tooth in the frame of the tooth, with the origin on the wheel's axis and x along the centre line of
-    the tooth.
+    """Force on a tooth in a coordinate system whose origin is on the wheel's axis and whose x-axis is the centre line
+    of the tooth.
 
     Lengths are in modules.
     """
 
     radius: float
-    """Radius of the point of application [module]; `apex` is the position at which the line of action meets the centre
-    line of the tooth [module].
+    """Radius of the point of application [module]. `apex` is the position at which the line of action intersects the
+    centre line of the tooth [module].
     """
     apex: float
     angle: float
@@ -269,37 +273,43 @@ class ToothLoad:
 
 @dataclass(frozen=True, slots=True)
 class RootSection:
-    """Section of maximum bending stress; lengths in modules."""
+    """Section of a tooth with the maximum bending stress. Lengths are in modules."""
 
     x: float
-    """Distance of the section from the wheel's axis; `thickness` is the tooth thickness there [module]."""
+    """Distance of the section from the wheel's axis [module]. `thickness` is the thickness of the tooth in this section
+    [module].
+    """
     thickness: float
     factor: float
-    """Bending stress divided by torque/(width module^2)."""
+    """Bending stress of the section divided by torque/(width module^2) [1]."""
 
     def stress(self, torque: float, width: float, module: float) -> float:
-        """Return the bending stress [MPa] under a torque [N mm] on this tooth; `width` and `module` in mm."""
+        """Return the bending stress of the section [MPa] under a torque on this tooth [N mm]. `width` and `module` are
+        in mm.
+        """
         return self.factor * torque / (width * module**2)
 
     def lewis_factor(self, pitch_radius: float) -> float:
         """Return Lewis's form factor Y = Ft/(b m stress), with the face width b and the module m.
 
-        Ft is the tangential force at `pitch_radius` [module].
+        Ft is the tangential force at the radius `pitch_radius` [module].
         """
         return 1 / (self.factor * pitch_radius)
 
 
 @dataclass(frozen=True, slots=True)
 class ToothSide:
-    """Half of a tooth outline, from its tip to the middle of the space: x along its centre line, y >= 0 [module]."""
+    """Half of a tooth outline, from the tip to the middle of the space. The x-axis is the centre line of the tooth, and
+    y >= 0 [module].
+    """
 
     points: Floats
     outward: int
-    """Sign: 1, or -1 for a ring gear, whose teeth point inwards."""
+    """Direction of the teeth: 1 for outward teeth, -1 for a ring gear, whose teeth point inwards."""
 
     @classmethod
     def of(cls, tooth: Sequence[Vertex], outward: int = 1) -> ToothSide:
-        """Return the half outline for the vertices of one tooth about the x axis, from root to root."""
+        """Return the half outline of a tooth whose vertices are given from root to root, symmetric about the x-axis."""
         points = Contour.of((*tooth[:-1], (*tooth[-1][:2], 0.0))).flattened(_CHORD)
         # the half above the centre line, with the points on it
         upper = points[points[:, 1] >= -1e-12]
@@ -310,7 +320,7 @@ class ToothSide:
         return cls(upper[order], outward)
 
     def half(self, radius: float) -> float:
-        """Return half the angular thickness of the tooth at a radius [rad]."""
+        """Return half the angular thickness of the tooth at a given radius [rad]."""
         r = np.hypot(*self.points.T) * self.outward
         azimuth = np.arctan2(self.points[:, 1], self.points[:, 0])
         # all points of the tip circle; only the last of them is needed for the interpolation
@@ -331,9 +341,10 @@ class ToothSide:
         return float(r.min() if self.outward > 0 else r.max())
 
     def load_at(self, radius: float, arm: float) -> ToothLoad:
-        """Return a force that acts at `radius`, on a line at the distance `arm` from the axis [module].
+        """Return the load on a tooth due to a force that acts at the radius `radius`, along a line at the distance
+        `arm` from the axis [module].
 
-        The result is the load of docs/strength.md (4).
+        The load is defined by equation (4) of docs/strength.md.
         """
         # rounding may put the point of load inside the base circle
         pressure = acos(min(arm / radius, 1.0))
@@ -341,7 +352,9 @@ class ToothSide:
         return ToothLoad(radius, arm / cos(angle), angle)
 
     def load_at_tip(self) -> ToothLoad:
-        """Return a force at the end of the flank, normal to its last chord, for teeth without a path of contact."""
+        """Return the load on a tooth due to a force at the end of the flank, normal to its last chord. It is used for
+        teeth without a path of contact.
+        """
         r = np.hypot(*self.points.T)
         # points off the tip circle
         flank = self.points[np.abs(r - self.tip) > 1e-9]
@@ -352,11 +365,11 @@ class ToothSide:
         return ToothLoad(float(hypot(*end)), apex, angle)
 
     def weakest_section(self, load: ToothLoad) -> RootSection:
-        """Return the section of maximum bending stress under a force, in the lower half of the tooth: docs/strength.md
-        (5).
+        """Return the section of maximum bending stress under a force, in the lower half of the tooth, from equation (5)
+        of docs/strength.md.
 
-        Sections near the point of a pointed tooth are excluded: they have no thickness, and fail by compression instead
-        of bending.
+        Sections near the point of a pointed tooth are excluded, because their thickness tends to 0 and they fail by
+        compression instead of bending.
         """
         x, y = self._sections()
         lever = (load.apex - x) * self.outward
@@ -371,7 +384,7 @@ class ToothSide:
         return RootSection(float(x[at]), float(2 * y[at]), float(factors[at]))
 
     def _sections(self) -> tuple[Floats, Floats]:
-        """Return height and half thickness of sections at and between the points of the outline [module]."""
+        """Return the heights and the half thicknesses of sections at and between the points of the outline [module]."""
         x, y = self.points.T
         steps = np.hypot(np.diff(x), np.diff(y))
         s = np.concatenate(([0.0], np.cumsum(steps)))
@@ -386,7 +399,8 @@ class ToothSide:
 def pin_stress(force: float, length: float, diameter: float) -> float:
     """Return the bending stress of a pin fixed at both ends [MPa], under a force [N] distributed over its length [mm].
 
-    The moment at its ends is F l/12; sigma = 32 M/(pi d^3).
+    The bending moment at the ends is M = F l/12 for a force F and a length l. The stress is 32 M/(pi d^3) for a
+    diameter d.
 
     >>> round(pin_stress(10.0, 6.0, 2.0), 4)
     6.3662

@@ -1,4 +1,4 @@
-"""Strength of one gear pair under its torque, computed from its declaration."""
+"""Strength of one gear pair under its torque, computed from its declared data."""
 
 from __future__ import annotations
 
@@ -52,31 +52,33 @@ _POSITIONS = 401
 
 @dataclass(frozen=True)
 class WheelUnderLoad:
-    """Wheel of a loaded pair: its teeth, material, design torque and revolutions."""
+    """Wheel of a loaded pair, with its teeth, material, design torque and revolutions."""
 
     name: str
     gear: int
-    """Number of the gear in the transmission function, 1 or 2."""
+    """Number of the wheel in the transmission function, 1 or 2."""
     z: float
-    """Number of teeth; `teeth` is the geometry of the cut teeth [module]. For a bevel, both describe the virtual spur
-    wheel.
+    """Number of teeth. `teeth` is the geometry of the cut teeth [module]. For a bevel gear, both describe the virtual
+    spur wheel.
     """
     teeth: CutTooth | WheelTeeth
     material_name: str
     material: Material
     torque: float
-    """Design torque [N m]; `turns` are the revolutions relative to the carrier, None if no service life is given."""
+    """Design torque [N m]. `turns` is the number of revolutions relative to the carrier; None if no service life is
+    given.
+    """
     turns: float | None
 
     @cached_property
     def side(self) -> ToothSide:
-        """Half outline of a tooth [module]."""
+        """Half outline of one tooth, with lengths in modules."""
         return ToothSide.of(self.teeth.tooth, -1 if self.teeth.kind == "ring" else 1)
 
 
 @dataclass(frozen=True)
 class PairUnderLoad:
-    """Gear pair under load, whose pressures, stresses and wear are computed; lengths in mm."""
+    """Gear pair under load, for which pressures, stresses and wear are computed. Lengths are in mm."""
 
     mesh: GearMesh
     """Declared gear pair with its tooth form."""
@@ -85,15 +87,15 @@ class PairUnderLoad:
     module: float
     """Module [mm]."""
     width: float
-    """Width of the narrower wheel [mm]."""
+    """Face width of the narrower wheel [mm]."""
     wear: WearRange
     """Minimum and maximum wear coefficient [1]."""
     spurs: VirtualSpurs | None = None
-    """Virtual spur pair of bevels; None for other wheels."""
+    """Virtual spur pair of a pair of bevel gears; None for other wheels."""
     swing: float = 1.0
-    """Ratio of the design torque, for stresses, to the mean torque, for wear."""
+    """Ratio of the design torque, which is used for stresses, to the mean torque, which is used for wear."""
     remarks: tuple[str, ...] = ()
-    """Restrictions on the validity of the results that follow from the wheels of the pair."""
+    """Restrictions on the validity of the results, which follow from the wheels of the pair."""
 
     def strength(self) -> PairStrength:
         """Return the stresses, safety factors and wear of the pair."""
@@ -127,14 +129,17 @@ class PairUnderLoad:
         return self.wheels[at].z / 2 * self.module * (1.0 if size is None else size.stretch)
 
     def _cone_factor(self, at: int) -> float:
-        """Return the ratio of radii about a bevel's own axis to radii of its virtual spur wheel; 1 for spur wheels."""
+        """Return the ratio of radii about the axis of a bevel gear to radii of its virtual spur wheel; 1 for spur
+        wheels.
+        """
         return 1.0 if self.spurs is None else cos(self.spurs.middle.cone(self.wheels[at].gear))
 
     @property
     def tangential(self) -> float:
         """Tangential force at the pitch line [N].
 
-        It is the larger of the forces from the torques on both wheels, because friction reduces one torque.
+        It is the larger of the two forces that follow from the torques on the wheels, because friction reduces one of
+        the torques.
         """
         arms = (self._radius(at) * self._cone_factor(at) for at in (0, 1))
         # friction reduces the torque on one wheel, so the larger force is used for both
@@ -147,7 +152,7 @@ class PairUnderLoad:
 
     @cached_property
     def load(self) -> ContactLoad | None:
-        """Load along the path of contact; None if there is no path of contact."""
+        """Contact load along the path of contact; None if there is no path of contact."""
         path = self.path
         if path is None:
             return None
@@ -157,7 +162,7 @@ class PairUnderLoad:
 
     @cached_property
     def lean(self) -> HelixData:
-        """Helix data of involute teeth on parallel axes; zero angles for spur teeth and other forms."""
+        """Helix data of involute teeth on parallel axes; zero angles for spur teeth and for other tooth forms."""
         helix, form = abs(self.mesh.wheels.helix[0]), self.mesh.tooth_form
         if not helix or not isinstance(form, Involute):
             return HelixData()
@@ -214,11 +219,11 @@ class PairUnderLoad:
 
     @property
     def _helical_bending_factor(self) -> float:
-        """Bending stress of a helical tooth divided by the bending stress of a spur tooth with the same transverse
+        """Ratio of the bending stress of a helical tooth to the bending stress of a spur tooth with the same transverse
         section.
 
-        The whole load of the spur tooth is at one tip. Each element of width carries its part of the lines of contact.
-        In the normal section the tooth is thinner and the load is larger.
+        The spur tooth carries the whole load at its tip. Each width element of the helical tooth carries the load on
+        its part of the lines of contact. In the normal section, the tooth is thinner and the load is larger.
         """
         if self.load is None or not self.lean.helix:
             return 1.0
@@ -237,8 +242,8 @@ class PairUnderLoad:
         return own.side.load_at(tip, arm)
 
     def _bending(self, at: int, torque: float) -> tuple[RootSection | None, float | None]:
-        """Return the weakest section with the whole load at the tip, and the maximum stress [MPa] if tooth pairs share
-        the load.
+        """Return the weakest section if the whole load is at the tip, and the maximum bending stress if tooth pairs
+        share the load [MPa].
         """
         own, load = self.wheels[at], self.load
         if own.teeth.pins is not None:
@@ -268,7 +273,7 @@ class PairUnderLoad:
     # ------------------------------------------------------------------------------------------------- ISO and wear
 
     def _rack_pair(self) -> RackPair | None:
-        """Return both wheels in the transverse section as rack-cut wheels; None if ISO 6336 is not applicable."""
+        """Return both wheels in the transverse section as rack-cut wheels, or None if ISO 6336 is not applicable."""
         form, load = self.mesh.tooth_form, self.load
         if not isinstance(form, Involute) or load is None or load.path.pitch.R2 < 0 or self.spurs is not None:
             return None

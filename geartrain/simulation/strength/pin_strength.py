@@ -1,4 +1,4 @@
-"""Strength of lobes on pins and of pins in holes, and bending of the pins: docs/strength.md, section 11."""
+"""Strength of lobes on pins and of pins in holes, and bending of the pins (docs/strength.md, section 11)."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ _MPA, _MM = 1e6, 1e3
 
 @dataclass(frozen=True)
 class PinnedDisc:
-    """Disc of a cycloidal reducer that is loaded by pins."""
+    """Disc of a cycloidal reducer that is loaded by the forces of pins."""
 
     wheel: str
     """Name of the disc."""
     materials: tuple[tuple[str, Material], tuple[str, Material]]
-    """Materials of the disc and of the pins, with their names."""
+    """Materials of the disc and of the pins, each preceded by its name."""
     width: float
     """Width of contact [mm]."""
     torque: float
@@ -41,13 +41,13 @@ class PinnedDisc:
         return elasticity_factor(*(Elasticity.of(material) for _, material in self.materials))
 
     def lobes(self, pair: str, disc: CycloidalDisc, module: float) -> PinContact:
-        """Return the contact of the disc's lobes with the pins of the ring; `module` in mm."""
+        """Return the contact of the disc's lobes with the pins of the ring. `module` is in mm."""
         load = lobe_load(disc)
         force = load.force * abs(self.torque) * _MM / (disc.lobes / 2 * module)
         return self._contact(pair, disc.pins, force, load.curvature / module)
 
     def holes(self, coupling: PinsInHoles) -> PinContact | None:
-        """Return the contact of the disc's holes with the pins of a flange; None if sizes are not declared."""
+        """Return the contact of the disc's holes with the pins of a flange, or None if their sizes are not declared."""
         if coupling.pin_radius is None or coupling.offset is None or coupling.pin_diameter is None:
             return None
         circle, offset, pin = (
@@ -72,8 +72,8 @@ class PinnedDisc:
 
 
 class PinLoad(NamedTuple):
-    """Force on the pin with the maximum pressure, and sum of the curvatures of pin and lobe, both normalised as in
-    `lobe_load`.
+    """Force on the pin with the maximum pressure, and sum of the curvatures of pin and lobe, both normalised as
+    described in `lobe_load`.
     """
 
     force: float
@@ -84,8 +84,8 @@ def lobe_load(disc: CycloidalDisc) -> PinLoad:
     """Return the load of the pin with the maximum pressure.
 
     The force is divided by the tangential force at the disc's pitch circle; the curvature is in 1/module. The radius of
-    curvature of a convex lobe is the radius of the curve of centres minus the pin radius, and of a concave lobe the sum
-    of both (28).
+    curvature of a convex lobe is the radius of curvature of the curve of pin centres minus the pin radius. For a
+    concave lobe, it is the sum of these radii, equation (28).
 
     >>> from geartrain.teeth.cycloidal_disc import CycloidalDisc
     >>> load = lobe_load(CycloidalDisc(11, 25 / 3, 1.0))
@@ -100,11 +100,11 @@ def lobe_load(disc: CycloidalDisc) -> PinLoad:
 
 
 def hole_share(pins: int) -> float:
-    """Return the maximum force on one of the pins in holes, times the radius of their circle, divided by their torque:
-    docs/strength.md (29).
+    """Return the maximum force on one of the pins in holes times the radius of the pin circle, divided by the torque of
+    all pins, equation (29) of docs/strength.md.
 
-    All pins press in the same direction, from the centre of a pin to the centre of its hole; the pins on one side carry
-    the load.
+    All contact forces have the same direction, from the centre of a pin to the centre of its hole. Only the pins on one
+    side of the circle carry the load.
 
     >>> round(hole_share(6), 6), round(hole_share(12), 6)
     (0.666667, 0.333333)
@@ -116,10 +116,11 @@ def hole_share(pins: int) -> float:
 
 
 def held_pin_stress(force: float, length: float, diameter: float) -> float:
-    """Return the von Mises stress of a cantilever pin [MPa] under a force [N] distributed over its length [mm]:
-    docs/strength.md (30).
+    """Return the von Mises stress of a cantilever pin [MPa] under a force [N] distributed over its length [mm],
+    equation (30) of docs/strength.md.
 
-    At its root the moment F l/2 causes the bending stress 32 M/(pi d^3), and F the mean shear stress over the section.
+    At the root of a pin of length l and diameter d, the moment M = F l/2 causes the bending stress 32 M/(pi d^3), and
+    the force F causes the mean shear stress over the section.
 
     >>> round(held_pin_stress(100.0, 4.0, 4.0), 3)
     34.687

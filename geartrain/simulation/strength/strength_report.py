@@ -1,4 +1,4 @@
-"""Report of the strength of a train; each table follows the assumptions on which it is based."""
+"""Report on the strength of a train. Each table is preceded by the assumptions on which it is based."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ _ARBOR = (
 
 @dataclass(frozen=True)
 class StrengthReport(Result):
-    """Strength of the teeth, pins and arbors of a train in all requested states."""
+    """Strength of the teeth, pins and arbors of a train in each requested state."""
 
     PAGE = "simulation.strength.strength_report:describe_strength"
 
@@ -85,7 +85,7 @@ class StrengthReport(Result):
     title: str
     """Title of the train."""
     states: tuple[TrainStrength, ...]
-    """Results of each state, in the requested order."""
+    """Results for each state, in the requested order."""
 
 
 def collect_strength_report(train: GearTrain, found: Sequence[TrainStrength]) -> StrengthReport:
@@ -94,15 +94,15 @@ def collect_strength_report(train: GearTrain, found: Sequence[TrainStrength]) ->
 
 
 def describe_strength(found: StrengthReport) -> Document:
-    """Return a document on the strength in each state: weakest part, contact pressures, root stresses, ISO 6336, wear
-    and arbors.
+    """Return a document on the strength in each state: weakest part, contact pressures, root stresses, ISO 6336
+    results, wear and arbors.
     """
     sections = [section for each in found.states for section in strength_sections(each)]
     return Document(f"Strength of {found.name}", (f"Train '{found.name}'.",), tuple(sections))
 
 
 def strength_document(found: TrainStrength) -> Document | None:
-    """Return the document of the strength in one state, as `geartrain strength` prints it; None if `found` has no
+    """Return the document on the strength in one state that `geartrain strength` prints, or None if `found` has no
     train.
     """
     declared = found._declaration
@@ -110,7 +110,7 @@ def strength_document(found: TrainStrength) -> Document | None:
 
 
 def strength_sections(found: TrainStrength) -> Iterator[Section]:
-    """Yield the sections of the document for one state."""
+    """Yield the sections of the strength document for one state."""
     head = "" if found.state is None else f"State {found.state}: "
     yield Section(_title(head, "Strength"), tuple(_verdict(found)))
     if found.forces:

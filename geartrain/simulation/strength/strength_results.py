@@ -1,4 +1,6 @@
-"""Results of the strength of a train in one state: forces [N], stresses [MPa], safety factors, wear; lengths in mm."""
+"""Results of the strength analysis of a train in one state: forces [N], stresses [MPa], safety factors and wear.
+Lengths are in mm.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +16,7 @@ from geartrain.simulation.strength.iso_6336 import IsoContact, IsoRoot
 
 
 class WearRange(NamedTuple):
-    """Values of one wear result for the minimum and for the maximum wear coefficient."""
+    """Values of one wear result, computed with the minimum and with the maximum wear coefficient."""
 
     minimum: float
     """Value for the minimum wear coefficient, in the unit of the result."""
@@ -70,27 +72,27 @@ class TrainStrength(FrozenFields, Tabular, TrainResult):
     verdict: TorqueVerdict
     """Verdict on whether the loads determine the torques. If they do not, the other fields are empty."""
     pairs: Mapping[str, PairStrength] = field(default_factory=dict)
-    """Strength of the loaded gear pairs by name."""
+    """Strength of the loaded gear pairs, keyed by pair."""
     arbors: tuple[ArborStrength, ...] = ()
     """Strength of the arbors with declared sizes."""
     turns: float | None = None
-    """Revolutions of the input over which wear accumulates; None if no service life is given."""
+    """Number of revolutions of the input over which wear accumulates; None if no service life is given."""
     wear_coefficients: WearRange = NO_WEAR
     """Minimum and maximum wear coefficient K [1] of Archard's law."""
     neglected: tuple[NeglectedEffect, ...] = ()
-    """Pairs and arbors without results, and neglected torque variations, each with the reason."""
+    """Pairs and arbors without results, and neglected torque variations; each has a reason."""
     forces: tuple[WheelForce, ...] = ()
     """Tooth forces of all pairs that carry a torque and whose module is known."""
     points: Mapping[str, PointContact] = field(default_factory=dict)
-    """Strength of the loaded gear pairs with point contact, by name."""
+    """Strength of the loaded gear pairs with point contact, keyed by pair."""
     over: float | None = None
-    """Number of revolutions over which the maximum torques were determined; None if the stresses are from mean torques.
+    """Number of revolutions over which the maximum torques were determined; None if the stresses are computed from mean
+    torques.
 
     Wear is always computed from mean torques.
     """
     pins: Mapping[str, PinContact] = field(default_factory=dict)
-    """Strength of the contacts between lobes and pins or between pins and holes, by the name of the pair or coupling.
-    """
+    """Strength of the contacts between lobes and pins or between pins and holes, keyed by pair or coupling."""
 
     def _summary(self) -> str:
         weakest = self.weakest
@@ -99,7 +101,9 @@ class TrainStrength(FrozenFields, Tabular, TrainResult):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with a row for each wheel of a loaded pair: torque [N m], stresses [MPa], safety factors."""
+        """Columns of a table with one row for each wheel of a loaded pair: torque [N m], stresses [MPa] and safety
+        factors.
+        """
         rows = [(name, wheel) for name, pair in self.pairs.items() for wheel in pair.wheels]
         names = ["wheel", "material", "torque", "tip_stress", "shared_stress", "pressure"]
         names += ["root_safety", "contact_safety"]
@@ -160,7 +164,9 @@ class PairStrength(Result):
     elasticity: float
     """Elasticity factor ZE of the materials of the two wheels [sqrt(MPa)]."""
     contact: tuple[ContactPlace, ...]
-    """Contact pressures along the path of contact, the highest last; empty for a form without a path of contact."""
+    """Contact pressures along the path of contact, with the highest pressure last; empty for a tooth form without a
+    path of contact.
+    """
     iso: IsoContact | None
     """Contact stress according to ISO 6336-2; None unless the teeth are external spur or helical involutes."""
     wheels: tuple[WheelStrength, ...]
@@ -171,8 +177,8 @@ class PairStrength(Result):
 
 @dataclass(frozen=True)
 class ArborStrength(Result):
-    """Stresses and strength of an arbor between two bearings, as upper bounds for all positions of its wheels;
-    docs/strength.md (16), (17), (26).
+    """Stresses and strength of an arbor between two bearings. The stresses are upper bounds for all positions of its
+    wheels, equations (16), (17) and (26) of docs/strength.md.
     """
 
     KEYS = (
@@ -183,12 +189,13 @@ class ArborStrength(Result):
     link: str
     """Name of the link to which the arbor belongs."""
     material: str
-    """Material of the arbor."""
+    """Name of the material of the arbor."""
     force: float
-    """Sum of the magnitudes of the transverse forces of all meshes on the arbor, as if all acted in one direction [N].
+    """Sum of the magnitudes of the transverse forces of all meshes on the arbor [N], as if all of them acted in one
+    direction.
     """
     thrust: float
-    """Resultant axial force of all meshes on the arbor, which one shoulder supports [N]."""
+    """Resultant axial force of all meshes on the arbor, which is supported by one shoulder [N]."""
     bending: float
     """Maximum bending stress of the arbor, including the axial stress due to the thrust [MPa]."""
     torsion: float
@@ -198,10 +205,10 @@ class ArborStrength(Result):
     pivot_pressure: float
     """Bearing pressure on one pivot [MPa]: total force divided by the product of pivot diameter and pivot length."""
     shoulder_pressure: float | None
-    """Contact pressure of the thrust on one shoulder [MPa]; None if the pivots are as thick as the arbor."""
+    """Contact pressure on one shoulder due to the thrust [MPa]; None if the pivots are as thick as the arbor."""
     strength: float | None
-    """Strength of the arbor's material [MPa]: 0.2 % proof stress, or tensile strength if it does not yield; None if
-    unknown.
+    """Strength of the arbor's material [MPa]: 0.2 % proof stress, or tensile strength for a material that does not
+    yield; None if unknown.
     """
 
     @property
@@ -234,21 +241,23 @@ class WheelStrength(Result):
     tip_stress: float
     """Root stress if one tooth pair carries the whole load at the tip [MPa]; for pins, the bending stress of a pin."""
     shared_stress: float | None
-    """Maximum root stress if tooth pairs share the load equally [MPa]; None for pins, helical teeth, and forms without
-    a path of contact.
+    """Maximum root stress if tooth pairs share the load equally [MPa]; None for pins, for helical teeth, and for tooth
+    forms without a path of contact.
     """
     pressure: float | None
-    """Maximum contact pressure while one tooth pair is in contact [MPa]; None if the pressure is unbounded or the form
-    has no path of contact.
+    """Maximum contact pressure while one tooth pair is in contact [MPa]; None if the pressure is unbounded or the tooth
+    form has no path of contact.
     """
     strength: float | None
-    """Strength of the wheel's material [MPa]: 0.2 % proof stress, or tensile strength if it does not yield; None if
-    unknown.
+    """Strength of the wheel's material [MPa]: 0.2 % proof stress, or tensile strength for a material that does not
+    yield; None if unknown.
     """
     spread: float | None
     """Relative uncertainty of the material's strength; None if it is not known."""
     iso: IsoRoot | None = None
-    """Root stress according to ISO 6336-3, for a wheel that is cut with a hob; None if the standard does not apply."""
+    """Root stress according to ISO 6336-3 for a wheel that is cut with a hob; None if the standard is not
+    applicable.
+    """
     wear: FlankWear | None = None
     """Wear of the flanks of the wheel; None if the service life or the hardness is unknown."""
 
@@ -259,22 +268,24 @@ class WheelStrength(Result):
 
     @property
     def contact_safety(self) -> float | None:
-        """Safety factor of the flank: pressure at first yield divided by `pressure`; None if either is unknown."""
+        """Safety factor of the flank: pressure at first yield divided by `pressure`; None if either value is
+        unknown.
+        """
         return None if self.strength is None or not self.pressure else YIELD_AT * self.strength / self.pressure
 
 
 @dataclass(frozen=True)
 class FlankWear(Result):
-    """Wear of all flanks of one wheel in one mesh: docs/strength.md (14) and (15)."""
+    """Wear of all flanks of one wheel in one mesh, equations (14) and (15) of docs/strength.md."""
 
     passages: float
     """Number of meshing cycles of each tooth."""
     volume: WearRange
-    """Volume of material worn from all teeth of the wheel [mm3]."""
+    """Total volume of material that is worn from all teeth of the wheel [mm3]."""
     mean_depth: WearRange
     """Mean wear depth of the flanks [mm]."""
     depth: WearRange | None
-    """Maximum wear depth of the flanks [mm]; None for helical teeth and for forms without a path of contact."""
+    """Maximum wear depth of the flanks [mm]; None for helical teeth and for tooth forms without a path of contact."""
 
 
 # -------------------------------------------------------------------------------------------------- contacts and forces
@@ -282,23 +293,26 @@ class FlankWear(Result):
 
 @dataclass(frozen=True)
 class WheelForce(Result):
-    """Force on a wheel from its mate at the pitch point: docs/strength.md (18) and (19). Forces in N."""
+    """Force on a wheel from its mate at the pitch point [N], equations (18) and (19) of docs/strength.md."""
 
     pair: str
     """Name of the pair."""
     wheel: str
     """Name of the wheel."""
     radius: float
-    """Operating pitch radius [mm]; for a bevel, at the middle of its declared width."""
+    """Operating pitch radius [mm]. For a bevel gear, it is the pitch radius at the middle of the declared width."""
     tangential: float
     """Tangential force at the pitch circle, with the sign of the torque [N].
 
-    On parallel axes and on bevels both wheels of a pair have the same force: docs/strength.md (32).
+    On parallel axes and for bevel gears, the force has the same magnitude on both wheels of a pair, equation (32) of
+    docs/strength.md.
     """
     axial: float
     """Axial force, positive along the direction of the wheel's axis [N]."""
     radial: float | None
-    """Radial force [N], positive towards the axis, negative for a ring; None if the pressure angle is unknown."""
+    """Radial force [N], positive towards the wheel's axis and negative for a ring gear; None if the pressure angle is
+    unknown.
+    """
     torque: float
     """Torque on the wheel [N m]."""
 
@@ -314,15 +328,18 @@ class FlankStrength(Result):
     material: str
     """Name of the material of the wheel."""
     strength: float | None
-    """Strength of the wheel's material [MPa]: 0.2 % proof stress, or tensile strength if it does not yield; None if
-    unknown.
+    """Strength of the wheel's material [MPa]: 0.2 % proof stress, or tensile strength for a material that does not
+    yield; None if unknown.
     """
     spread: float | None
     """Relative uncertainty of the material's strength; None if it is not known."""
     safety: float | None
-    """Safety factor of the flank: pressure at first yield divided by the contact pressure; None if unknown."""
+    """Safety factor of the flank: pressure at first yield divided by the contact pressure; None if either value is
+    unknown.
+    """
     tip_stress: float | None = None
-    """Root stress if one tooth pair carries the whole load at the tip [MPa]; None if the virtual teeth cannot be cut.
+    """Root stress if one tooth pair carries the whole load at the tip [MPa]; None if the virtual wheels
+    cannot be cut.
     """
 
     @property
@@ -333,8 +350,8 @@ class FlankStrength(Result):
 
 @dataclass(frozen=True)
 class PointContact(Result):
-    """Strength of crossed helical gears or of a worm gear pair, whose flanks have point contact; docs/strength.md (24),
-    (25).
+    """Strength of crossed helical gears or of a worm gear pair, whose flanks have point contact, equations (24) and
+    (25) of docs/strength.md.
     """
 
     pair: str
@@ -359,7 +376,9 @@ class PointContact(Result):
 
 @dataclass(frozen=True)
 class PinContact(Result):
-    """Strength of the contact between pins and the lobes or holes of a disc: docs/strength.md (28) to (30)."""
+    """Strength of the contact between pins and the lobes or holes of a disc, equations (28) to (30) of
+    docs/strength.md.
+    """
 
     KEYS = (
         *("name", "disc", "material", "pins", "width", "force", "radius", "pressure", "strength", "contact_safety"),
@@ -377,7 +396,7 @@ class PinContact(Result):
     width: float
     """Axial width of the contact [mm]."""
     force: float
-    """Force on the pin at the instant of maximum contact pressure [N]."""
+    """Force on the pin that has the maximum contact pressure, at the instant of this maximum [N]."""
     radius: float
     """Radius of the cylinder whose contact with a plane is equivalent to the contact of pin and disc [mm]."""
     pressure: float
@@ -385,13 +404,15 @@ class PinContact(Result):
     strength: float | None
     """Strength of the weaker of the two materials [MPa]; None if it is not known."""
     pin_stress: float | None = None
-    """Equivalent stress at the root of a cantilever pin [MPa]; None if a ring supports the pins."""
+    """Equivalent stress at the root of a cantilever pin [MPa]; None if a ring supports both ends of the pins."""
     pin_strength: float | None = None
     """Strength of the material of the pins [MPa]; None if it is not known."""
 
     @property
     def contact_safety(self) -> float | None:
-        """Safety factor of the contact: pressure at first yield divided by `pressure`; None if either is unknown."""
+        """Safety factor of the contact: pressure at first yield divided by `pressure`; None if either value
+        is unknown.
+        """
         return None if self.strength is None else YIELD_AT * self.strength / self.pressure
 
     @property

@@ -1,4 +1,6 @@
-"""Tangential, axial and radial forces at the pitch points of a train under load, docs/strength.md (18) and (19)."""
+"""Tangential, axial and radial forces at the pitch points of a train under load, equations (18) and (19) of
+docs/strength.md.
+"""
 
 from __future__ import annotations
 
@@ -36,16 +38,18 @@ class ToothForces:
 
     setting: LoadCase
     modules: Mapping[str, float]
-    """Transverse modules by wheel [m]; pairs without a module are omitted."""
+    """Transverse module of each wheel [m], keyed by wheel. Wheels of pairs without a module are omitted."""
     pairs: Mapping[str, PairTorque]
-    """Torques on both wheels of each pair, by pair."""
+    """Torques on both wheels of each pair, keyed by pair."""
     meshes: Mapping[str, GearMesh]
-    """Pairs with a tooth form, by name."""
+    """Gear pairs that have a tooth form, keyed by name."""
     swings: Mapping[str, float] = field(default_factory=dict)
-    """Ratio of the design torque to the mean torque, by pair."""
+    """Ratio of the design torque to the mean torque of each pair, keyed by pair."""
 
     def find(self) -> Iterator[WheelForce]:
-        """Yield the forces on both wheels of every pair that carries a torque, in the order of the pair."""
+        """Yield the forces on both wheels of every pair that transmits torque, in the order of the wheels in
+        the pair.
+        """
         for circuit in self.setting.circuits:
             if circuit.kind != "gear":
                 continue
@@ -82,9 +86,10 @@ class ToothForces:
 
     @staticmethod
     def _both(loads: Sequence[float], radii: Sequence[float], cosines: Sequence[float]) -> list[tuple[float, float]]:
-        """Return the radii and the tangential forces of both wheels; the forces are opposite: docs/strength.md (32).
+        """Return the radius and the tangential force of each of the two wheels. The forces are opposite, equation (32)
+        of docs/strength.md.
 
-        cosines   cosine of the angle of each pitch cone: 1 for parallel axes, -1 for a ring
+        cosines   cosine of the angle of each pitch cone: 1 for parallel axes, -1 for a ring gear
         """
         others = cosines[::-1]
         lever = sum(radius * other for radius, other in zip(radii, others, strict=True))
@@ -98,7 +103,7 @@ class ToothForces:
         return not self._is_parallel(circuit) and _shaft_angle(self.setting, circuit) is None
 
     def crossed_wheels(self, circuit: Circuit) -> CrossedWheels:
-        """Return the geometry of wheels on crossed axes whose helix angles and modules are known."""
+        """Return the geometry of two wheels on crossed axes. Their helix angles and modules must be known."""
         wheels = [self._wheel(circuit, at) for at in (0, 1)]
         widths = [face_width(self.setting.train, wheel) for wheel in wheels]
         first, second = (float("inf") if width is None else _MM * width.si for width in widths)
@@ -112,7 +117,9 @@ class ToothForces:
         )
 
     def involute_of(self, circuit: Circuit) -> Involute:
-        """Return the tooth form of wheels on crossed axes: the declared form, otherwise standard involutes."""
+        """Return the tooth form of wheels on crossed axes: the declared form, or standard involutes if no form is
+        declared.
+        """
         form = self.setting.train.form_of(self.setting.gears[circuit.id])
         return form if isinstance(form, Involute) else Involute(form="involute")
 
@@ -127,8 +134,8 @@ class ToothForces:
         return self.setting.train.wheels[circuit.wheels[at]][1]
 
     def _radius(self, circuit: Circuit, at: int) -> float:
-        """Return the pitch radius [mm]: half the normal module times the tooth number, over the cosine of the helix
-        angle.
+        """Return the pitch radius of a wheel [mm]: half the normal module times the tooth number, divided by the cosine
+        of the helix angle.
         """
         wheel = self._wheel(circuit, at)
         normal = self.modules[circuit.wheels[at]] / wheel.slant
@@ -140,7 +147,9 @@ class ToothForces:
         return NORMAL_ANGLE if form is None or form.rack_angle is None else form.rack_angle
 
     def _rolling_radius(self, circuit: Circuit, at: int) -> float:
-        """Return the operating pitch radius [mm], which differs from the pitch radius for shifted involutes."""
+        """Return the operating pitch radius of a wheel [mm], which differs from the pitch radius for involutes with
+        profile shift.
+        """
         radius, mesh = self._radius(circuit, at), self.meshes.get(circuit.id)
         if mesh is None:
             return radius
@@ -160,7 +169,9 @@ class ToothForces:
         return push, 0.0 - push * lean, None if apart is None else outwards * abs(push) * apart
 
     def _skew(self, circuit: Circuit, at: int, load: float, drives: bool) -> tuple[float, WheelParts]:
-        """Return the radius [mm] of a wheel on crossed axes, and its forces [N] with friction along the teeth."""
+        """Return the radius of a wheel on crossed axes [mm] and the forces on it, including friction along the teeth
+        [N].
+        """
         helix = self.setting.helix_angles(circuit) or (0.0, 0.0)
         friction = self.setting.train.friction_of(self.setting.gears[circuit.id])
         angle, radius = self._angle(circuit), self._radius(circuit, at)
@@ -170,7 +181,9 @@ class ToothForces:
         return radius, helical_force(load / radius, helix[at], angle, sense * friction_angle(sliding, angle))
 
     def _middle(self, circuit: Circuit, at: int, crossing: float) -> ConeMiddle:
-        """Return the middle of the teeth of a bevel, or its outer pitch circle if the width is not known."""
+        """Return the pitch cones of a bevel pair at the middle of its teeth, or at the outer pitch circle if the width
+        is not known.
+        """
         own, mate = self._wheel(circuit, at), self._wheel(circuit, 1 - at)
         widths = [_MM * width.si for each in (own, mate) if (width := face_width(self.setting.train, each)) is not None]
         # angles of the pitch cones depend only on the tooth numbers and the shaft angle
@@ -179,7 +192,7 @@ class ToothForces:
 
 
 def _shaft_angle(setting: LoadCase, circuit: Circuit) -> float | None:
-    """Return the shaft angle of intersecting axes [rad]; None for other axes."""
+    """Return the shaft angle of intersecting axes [rad], or None for other axes."""
     try:
         return shaft_angle(setting.train, setting.tree, circuit)
     except RangeError:
@@ -193,15 +206,15 @@ class PitchForce(NamedTuple):
     """Force on a wheel from its mate at the pitch point, in the unit of the tangential force."""
 
     tangential: float
-    """Tangential force, with the sign of the torque."""
+    """Tangential force with the sign of the torque, in the unit of the given force."""
     axial: float
-    """Axial force, positive along the direction of the wheel's axis."""
+    """Axial force, positive in the direction of the wheel's axis."""
     radial: float
-    """Radial force, positive towards the wheel's axis; negative for a ring, which is pushed outwards."""
+    """Radial force, positive towards the wheel's axis. It is negative for a ring gear, which is pushed outwards."""
 
 
 def helical_force(tangential: float, helix: float, pressure_angle: float, friction_angle: float = 0.0) -> PitchForce:
-    """Return the force on a wheel at its pitch point: docs/strength.md (18).
+    """Return the force on a wheel at its pitch point, equation (18) of docs/strength.md.
 
     tangential       torque divided by pitch radius, in any unit of force
     helix            helix angle [rad], positive for a right-hand helix; 0 for spur wheels, near pi/2 for a worm
@@ -209,8 +222,8 @@ def helical_force(tangential: float, helix: float, pressure_angle: float, fricti
     friction_angle   friction angle along the teeth [rad]; negative for the driver, positive for the driven wheel, or
                      reversed if the helix angles reverse the sliding; 0 on parallel axes
 
-    A right-hand driver with 10 N along its pitch circle turns positively about its axis, against the mate's torque;
-    the thrust is along the axis:
+    A right-hand driver with 10 N along its pitch circle turns in the positive sense about its axis, against the torque
+    of its mate. The thrust is in the direction of the axis:
 
     >>> from math import radians
     >>> force = helical_force(-10.0, radians(30), radians(20))
@@ -224,10 +237,10 @@ def helical_force(tangential: float, helix: float, pressure_angle: float, fricti
 
 
 def bevel_force(tangential: float, cone: float, pressure_angle: float, facing: int = 1) -> PitchForce:
-    """Return the force on a straight bevel at its pitch point: docs/strength.md (19).
+    """Return the force on a straight bevel gear at its pitch point, equation (19) of docs/strength.md.
 
-    `cone` is the half-angle of its pitch cone [rad]. `facing` is 1 if the wheel lies from the apex along the
-    direction of its axis, and -1 otherwise. The axial force acts away from the apex.
+    `cone` is the half-angle of its pitch cone [rad]. `facing` is 1 if the direction of the wheel's axis points from the
+    apex towards the wheel, and -1 if it points away from the wheel. The axial force acts away from the apex.
     """
     apart = abs(tangential) * tan(pressure_angle)
     # the separating force is perpendicular to the pitch cone
@@ -235,5 +248,7 @@ def bevel_force(tangential: float, cone: float, pressure_angle: float, facing: i
 
 
 def friction_angle(friction: float, pressure_angle: float) -> float:
-    """Return the friction angle along teeth [rad]: atan(mu / cos(pressure angle))."""
+    """Return the friction angle along the teeth [rad], atan(mu / cos(pressure angle)), where mu is the friction
+    coefficient.
+    """
     return atan(friction / cos(pressure_angle))

@@ -1,4 +1,4 @@
-"""Strength of all gear pairs of a train under their torques, and of its arbors."""
+"""Strength of all gear pairs and arbors of a train under their torques."""
 
 from __future__ import annotations
 
@@ -50,7 +50,9 @@ _PINS = "steel"  # material of the pins of couplings if the train declares none
 def solve_strength(
     train: TrainMechanics, state: str | None, service: Service, over: float | None = None
 ) -> TrainStrength:
-    """Return pressures, root stresses, safety factors and wear in one state; see `GearTrain.strength`."""
+    """Return pressures, root stresses, safety factors and wear of a train in one state, as described in
+    `GearTrain.strength`.
+    """
     check_numbers(over=over)
     own, train = service.checked(), train.unfolded
     found, loads = solve(train, state), train.load_case(state)
@@ -80,16 +82,16 @@ class Service:
     """Service life of a train, and range of its wear coefficients."""
 
     turns: float | None = None
-    """Revolutions of the input; None if wear is not requested, or `years` is given."""
+    """Number of revolutions of the input; None if wear is not requested, or if `years` is given."""
     years: float | None = None
-    """Years of operation; None if wear is not requested, or `turns` is given."""
+    """Years of operation; None if wear is not requested, or if `turns` is given."""
     wear: tuple[float, float] | None = None
-    """Minimum and maximum wear coefficient [1]; None for `WEAR_RANGE`."""
+    """Minimum and maximum wear coefficient [1]; None to use `WEAR_RANGE`."""
 
     def checked(self) -> WearRange:
         """Return the range of wear coefficients.
 
-        Raises `QuestionError` if the coefficients are not a range, or if `turns` or `years` is not a number.
+        Raises `QuestionError` if the coefficients do not form a range, or if `turns` or `years` is not a number.
         """
         check_numbers(turns=self.turns, years=self.years)
         own = WearRange(*(self.wear or WEAR_RANGE))
@@ -100,7 +102,9 @@ class Service:
         return own
 
     def time(self, train: TrainMechanics, state: str | None) -> float | None:
-        """Return the total revolutions of a link per unit of its relative speed; None if no service life is given."""
+        """Return the total revolutions of a link per unit of its relative speed, or None if no service life
+        is given.
+        """
         turns, years = self.turns, self.years
         if turns is None and years is None:
             return None
@@ -130,7 +134,7 @@ class Service:
 
 
 def _input_speed(train: TrainMechanics, state: str | None) -> float:
-    """Return the speed of the reference input: the crank, or else the first input that turns."""
+    """Return the speed of the reference input, which is the crank or, if there is none, the first input that turns."""
     case, crank = train.kinematics.case(state), train.declaration.crank
     speeds = train.kinematics.solution(case).speeds
     if crank is not None and speeds.get(crank):
@@ -146,23 +150,25 @@ class StrengthQuestion:
     """Strength analysis of a train under the loads of one state."""
 
     train: TrainMechanics
-    """Train. `setting` is its load case, and `torques` are its torques in this load case."""
+    """Train to be analysed. `setting` is its load case, and `torques` are the torques in this load case."""
     setting: LoadCase
     torques: Torques
     meshes: Sequence[GearMesh]
-    """Pairs with a tooth form, with their drivers in this load case."""
+    """Gear pairs with a tooth form, and with their drivers in this load case."""
     scale: float | None
-    """Revolutions of a link in the service life per unit of its relative speed; None if wear is not requested.
+    """Revolutions of a link during the service life per unit of its relative speed; None if wear is not requested.
 
-    `turns` are the revolutions of the input in the service life.
+    `turns` is the number of revolutions of the input during the service life.
     """
     turns: float | None
     wear: WearRange
     """Minimum and maximum wear coefficient [1]."""
     over: float | None = None
-    """Revolutions of the input whose maximum torques determine the stresses; None for mean torques."""
+    """Number of revolutions of the input over which the maximum torques are determined for the stresses; None for mean
+    torques.
+    """
     maximum: Mapping[str, float] = field(default_factory=dict)
-    """Maximum torque on the driven side of each pair over the revolutions `over` [N m]; empty for mean torques."""
+    """Maximum torque on the driven side of each pair during the revolutions `over` [N m]; empty for mean torques."""
     neglected: dict[str, NeglectedEffect] = field(default_factory=dict, init=False)
 
     @property
@@ -172,12 +178,12 @@ class StrengthQuestion:
 
     @cached_property
     def modules(self) -> Mapping[str, float]:
-        """Module by wheel [m]."""
+        """Module of each wheel [m], keyed by wheel."""
         return find_modules(self.declared)
 
     @cached_property
     def teeth(self) -> Mapping[str, WheelTeeth]:
-        """Cut teeth of each wheel that suit all its mates, by wheel."""
+        """Cut teeth of each wheel that can mesh with all mates of the wheel, keyed by wheel."""
         return self._cut.wheels
 
     @cached_property
@@ -186,7 +192,9 @@ class StrengthQuestion:
 
     @cached_property
     def swings(self) -> Mapping[str, float]:
-        """Ratio of the maximum torque over the requested revolutions to the mean torque, by pair."""
+        """Ratio of the maximum torque during the requested revolutions to the mean torque of each pair, keyed
+        by pair.
+        """
         found = {}
         for circuit in self.setting.circuits:
             pair, maximum = self.torques.pairs.get(circuit.id), self.maximum.get(circuit.id)
@@ -229,8 +237,8 @@ class StrengthQuestion:
         )
 
     def _all_neglected(self) -> tuple[NeglectedEffect, ...]:
-        """Return the neglected effects: omitted pairs in the order of the declaration, then arbors, then varying
-        torques.
+        """Return the neglected effects: omitted pairs in the order of the declaration, then arbors, then torque
+        variations.
         """
         swinging = [each for each in self.torques.neglected if each.what == "variation within a turn"]
         if self.over is None:
@@ -243,7 +251,7 @@ class StrengthQuestion:
         )
 
     def _skew_pairs(self, forces: ToothForces, wheel_forces: Sequence[WheelForce]) -> Iterator[SkewPair]:
-        """Yield the pairs on crossed axes with complete data."""
+        """Yield the pairs on crossed axes for which all data are known."""
         for circuit in self.setting.circuits:
             if circuit.kind != "gear" or not forces.is_crossed(circuit):
                 continue
@@ -264,7 +272,7 @@ class StrengthQuestion:
     # -------------------------------------------------------------------------------------------------------- pins
 
     def _pins(self, meshes: Mapping[str, GearMesh]) -> Iterator[tuple[str, PinContact]]:
-        """Yield contacts of lobes on pins and of pins in holes, for wheels with a declared width and material."""
+        """Yield the contacts of lobes on pins and of pins in holes, for wheels with a declared width and material."""
         for gear in self.declared.gears:
             mesh, torque = meshes.get(gear.name), self.torques.pairs[gear.name]
             if not isinstance(mesh, DiscMesh):
@@ -346,7 +354,9 @@ class StrengthQuestion:
         return PairUnderLoad(mesh, (found[0], found[1]), middle, width, self.wear, spurs, swing, notes)
 
     def _teeth_in(self, mesh: GearMesh, name: str) -> CutTooth | WheelTeeth | None:
-        """Return the teeth of a wheel cut to suit all mates, or only this mate if another pair has faults."""
+        """Return the teeth of a wheel cut for all its mates, or only for the mate in this pair if another pair of the
+        wheel has faults.
+        """
         if (cut := self.teeth.get(name)) is not None or not self._pair_with_faults(mesh, name):
             return cut
         try:
@@ -355,8 +365,8 @@ class StrengthQuestion:
             return None
 
     def _pair_with_faults(self, mesh: GearMesh, name: str) -> str | None:
-        """Return another pair of a wheel whose faults prevent the wheel from being cut for all mates; None if there is
-        none.
+        """Return the name of another pair of a wheel whose faults prevent the wheel from being cut for all mates, or
+        None if there is none.
         """
         # only a wheel that could not be cut has an unusable outline
         others = (each for each in self.meshes if each is not mesh and name in each.gears and name not in self.teeth)
@@ -366,7 +376,7 @@ class StrengthQuestion:
         self.neglected[pair] = NeglectedEffect("strength", (pair,), why)
 
     def _missing_data(self, mesh: GearMesh | None, wheels: Mapping[str, Wheel], torque: PairTorque) -> Iterator[str]:
-        """Yield descriptions of the data that a pair lacks, and of features that are not supported."""
+        """Yield descriptions of the data that are missing for a pair, and of its features that are not supported."""
         if mesh is None:
             yield "it has no tooth form: declare `tooth_form`"
         elif not mesh.has_shape:
@@ -388,7 +398,7 @@ class StrengthQuestion:
                 yield f"'{name}' has no planar outline" + (f": {why}" if why else "")
 
     def _missing_for_any(self, wheels: Mapping[str, Wheel], torque: PairTorque) -> Iterator[str]:
-        """Yield descriptions of the missing data that a pair of any kind needs."""
+        """Yield descriptions of the missing data that are required for every kind of pair."""
         if not torque.multiplier and not torque.loose:
             yield "it carries no torque"
             return
@@ -409,7 +419,9 @@ class StrengthQuestion:
         return wheel.material or self.declared.material or ""
 
     def _turns(self, torque: PairTorque, at: int) -> float | None:
-        """Return the revolutions of one wheel relative to the carrier over the service life."""
+        """Return the number of revolutions of one wheel relative to the carrier during the service life, or None if it
+        is unknown.
+        """
         if self.scale is None:
             return None
         relative = self.setting.relative(torque.links[at], torque.links[2])
@@ -418,7 +430,7 @@ class StrengthQuestion:
     # ------------------------------------------------------------------------------------------------------ arbors
 
     def _arbors(self, forces: Sequence[WheelForce], pairs: Mapping[str, PairStrength]) -> Iterator[ArborStrength]:
-        """Yield the strength of arbors with known forces."""
+        """Yield the strength of each arbor whose forces are known."""
         # the normal force in single contact exceeds the mean force only for spur teeth
         straight = {each.pair for each in forces if not each.axial}
         steepest = {
@@ -440,7 +452,7 @@ class StrengthQuestion:
             yield arbor_strength(link, part.arbor, material_named(self.declared, part.arbor.material), own, steepest)
 
     def _without_force(self, wheels: Collection[str], forces: Sequence[WheelForce]) -> list[str]:
-        """Return the names of the pairs of given wheels that carry a torque, but whose tooth forces are unknown."""
+        """Return the names of the pairs of given wheels that transmit torque but whose tooth forces are unknown."""
         known = {each.pair for each in forces}
         loaded = (gear for gear in self.declared.gears if not set(wheels).isdisjoint(gear.pair))
         torques = self.torques.pairs
@@ -457,11 +469,13 @@ class StrengthQuestion:
 def arbor_strength(
     link: str, arbor: ArborSizes, material: Material, forces: Sequence[WheelForce], steepest: Mapping[str, float]
 ) -> ArborStrength:
-    """Return the stresses and the strength of an arbor between two bearings: docs/strength.md (16), (17) and (26).
+    """Return the stresses and the strength of an arbor between two bearings, equations (16), (17) and (26) of
+    docs/strength.md.
 
-    The stresses are upper bounds for all positions of its wheels, as if all transverse forces acted in one direction.
+    The stresses are upper bounds for all positions of the arbor's wheels, as if all transverse forces acted in one
+    direction.
 
-    steepest   force of one tooth pair in single contact, by pair where it is known [N]
+    steepest   force of one tooth pair in single contact [N], by pair, for pairs in which it is known
     """
     across = sum(max(hypot(each.tangential, each.radial or 0.0), steepest.get(each.pair, 0.0)) for each in forces)
     # the arbor carries the larger sum of axial forces of one sign, its shoulders the resultant
@@ -493,11 +507,11 @@ def arbor_strength(
 
 
 def maximum_moment(force: float, couple: float, span: float) -> float:
-    """Return the maximum bending moment of a bar between two bearings for any positions of its loads [N mm]:
-    docs/strength.md (26).
+    """Return the maximum bending moment of a bar between two bearings over all positions of its loads [N mm], equation
+    (26) of docs/strength.md.
 
-    A transverse force F at the fraction x of the bearing distance L causes the moment F L x (1 - x) there. An applied
-    moment M causes at most M max(x, 1 - x).
+    A transverse force F at the fraction x of the bearing distance L causes the moment F L x (1 - x) at this position.
+    An applied moment M causes at most M max(x, 1 - x).
 
     >>> maximum_moment(10.0, 0.0, 40.0), maximum_moment(0.0, 50.0, 40.0)
     (100.0, 50.0)

@@ -1,4 +1,6 @@
-"""Command `geartrain strength`: contact pressure, root stress, safety, stresses of arbors, and wear."""
+"""Command `geartrain strength`: compute contact pressure, root stress, safety factors and wear of pairs, and stresses
+of arbors.
+"""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """Virtual spur wheels, and the point contact of wheels on crossed axes.
 
-Straight bevels are replaced by Tredgold's virtual spur wheels. Helical wheels on crossed axes and worms, whose teeth
-have point contact, are replaced by the virtual spur wheels of their normal sections.
+Straight bevel gears are replaced by Tredgold's virtual spur wheels. Helical wheels on crossed axes and worms, whose
+teeth have point contact, are replaced by the virtual spur wheels of their normal sections.
 """
 
 from __future__ import annotations
@@ -48,43 +48,47 @@ _WORDS = {
 
 @dataclass(frozen=True)
 class ConeMiddle:
-    """Pitch cones of a pair at mid-width of its teeth: docs/strength.md (23). All lengths have the same unit."""
+    """Pitch cones of a bevel pair at the middle of its face width, equation (23) of docs/strength.md. All lengths have
+    the same unit.
+    """
 
     cones: PitchSurfaces
     """Pitch cones of gears 1 and 2."""
     module: float
-    """Module at the large ends; `width` is the width of the teeth from there towards the apex."""
+    """Module at the large ends. `width` is the width of the teeth from the large ends towards the apex."""
     width: float
 
     @property
     def reach(self) -> float:
-        """Cone distance: length of both cones from the apex to the large ends."""
+        """Cone distance: distance from the apex to the large end along a pitch cone."""
         return self.module * self.cones.z1 / 2 / sin(self.cones.R1)
 
     @property
     def shrunk(self) -> float:
-        """Ratio of lengths at mid-width to lengths at the large ends."""
+        """Ratio of lengths at the middle of the face width to lengths at the large ends [1]."""
         return 1 - self.width / 2 / self.reach
 
     def cone(self, gear: int) -> float:
-        """Return the half-angle of one of the cones [rad]."""
+        """Return the half-angle of the pitch cone of one gear [rad]."""
         return abs(self.cones.axle_of(gear))
 
     def radius(self, gear: int) -> float:
-        """Return the pitch radius of one wheel at mid-width."""
+        """Return the pitch radius of one gear at the middle of the face width."""
         return self.shrunk * self.module * self.cones.teeth_of(gear) / 2
 
 
 @dataclass(frozen=True)
 class VirtualSpurs:
-    """Virtual spur pair of a bevel pair with its module, both at mid-width."""
+    """Virtual spur pair of a bevel pair, and its module, both at the middle of the face width."""
 
     middle: ConeMiddle
     form: ConjugateToothForm
 
     @classmethod
     def of(cls, mesh: GearMesh, module: float, width: float) -> VirtualSpurs | None:
-        """Return the virtual pair for the module at the large ends and the width; None unless the axes intersect."""
+        """Return the virtual spur pair for the module at the large ends and the face width, or None if the axes do not
+        intersect.
+        """
         form = mesh.tooth_form
         if mesh.path is None or not mesh.path.pitch.bevel or not isinstance(form, ConjugateToothForm):
             return None
@@ -92,7 +96,7 @@ class VirtualSpurs:
 
     @property
     def why_not(self) -> str:
-        """Reason why the virtual pair does not exist; empty if it exists."""
+        """Reason why the virtual spur pair does not exist; empty if it exists."""
         if self.middle.shrunk <= 1 / 2:
             return "the width of its teeth exceeds the cone distance"
         # the virtual number of teeth goes to infinity for a crown wheel
@@ -102,22 +106,22 @@ class VirtualSpurs:
 
     @property
     def is_wide(self) -> bool:
-        """True if the width exceeds the usual limit of a third of the cone distance."""
+        """True if the face width exceeds the usual limit of a third of the cone distance."""
         return self.middle.width > _WIDEST * self.middle.reach
 
     def count(self, gear: int) -> float:
-        """Return the virtual number of teeth of one wheel, in general not an integer."""
+        """Return the virtual number of teeth of one wheel, which is not an integer in general."""
         # Tredgold's approximation: the back cone is developed into a plane
         return self.middle.cones.teeth_of(gear) / cos(self.middle.cone(gear))
 
     @cached_property
     def wheels(self) -> WheelPair:
-        """Both virtual wheels, with the module at the large ends, to which declared lengths refer."""
+        """Both virtual spur wheels, scaled to the module at the large ends, to which declared lengths refer."""
         return WheelPair(self.count(1), self.count(2), module=self.middle.module)
 
     @cached_property
     def pair(self) -> ConjugatePair:
-        """Conjugate pair of virtual spur wheels with its path of contact.
+        """Conjugate pair of virtual spur wheels, with its path of contact.
 
         Raises `GearTrainError` if the tooth form has no path of contact.
         """
@@ -132,20 +136,20 @@ class VirtualSpurs:
 
 @dataclass(frozen=True)
 class SkewPair:
-    """Pair on crossed axes with the forces on both wheels, in the order of the pair."""
+    """Pair of wheels on crossed axes, with the forces on both wheels in the order of the pair."""
 
     wheels: CrossedWheels
-    """Geometry of both wheels; `forces` are the forces on each wheel."""
+    """Geometry of both wheels. `forces` contains the forces on each wheel."""
     forces: tuple[WheelForce, WheelForce]
     materials: tuple[tuple[str, Material], tuple[str, Material]]
-    """Materials of both wheels with their names."""
+    """Materials of both wheels, each preceded by its name."""
     is_worm: bool
     """True if one wheel is a worm."""
     form: Involute
     """Tooth form in the normal section."""
 
     def contact(self) -> PointContact:
-        """Return the point contact of the pair with its stresses."""
+        """Return the point contact of the pair, with its pressures and root stresses."""
         # the separating force is a fixed fraction of the normal force, whatever the friction
         normal = max(abs(each.radial or 0.0) for each in self.forces) / sin(self.wheels.pressure_angle)
         factor = elasticity_factor(*(Elasticity.of(material) for _, material in self.materials))
@@ -172,7 +176,7 @@ class SkewPair:
 
     @cached_property
     def _pair(self) -> ConjugatePair | None:
-        """Virtual spur pair in the normal sections, docs/strength.md (27); None if it does not exist."""
+        """Virtual spur pair in the normal sections, equation (27) of docs/strength.md; None if it does not exist."""
         counts = self.wheels.normal_count(0), self.wheels.normal_count(1)
         try:
             return self.form.pair(WheelPair(*counts, module=self.wheels.module / _MM))
@@ -180,10 +184,10 @@ class SkewPair:
             return None
 
     def _root_stress(self, at: int, force: float) -> float | None:
-        """Return the root stress of a tooth under a normal force at its tip [MPa]; None if the virtual teeth cannot be
-        cut.
+        """Return the root stress of a tooth under a normal force at its tip [MPa], or None if the virtual wheels cannot
+        be cut.
 
-        The force [N] is distributed over twice its lever arm, limited by the length of the tooth.
+        The force [N] is distributed over a length of twice its lever arm, at most the length of the tooth.
         """
         if self._pair is None:
             return None

@@ -50,7 +50,7 @@ if TYPE_CHECKING:
 
 
 FEWEST = 5
-"""Minimum number of batches for a confidence interval."""
+"""Minimum number of batches that is required for a confidence interval."""
 
 _CONFIDENCE = 0.95
 _CORRELATED = 0.9  # maximum lag-1 correlation: beyond it the batches are too short for an interval
@@ -70,7 +70,7 @@ class RunFigures:
     outputs: Sequence[tuple[str, str, str]]
     run: SimulatedRun
     static_peaks: Sequence[float | None]
-    """Maximum quasi-static torque of each pair [N m], for compliant teeth."""
+    """Maximum quasi-static torque of each pair with compliant teeth [N m]; None if it is unknown."""
 
     @property
     def plan(self) -> StepPlan:
@@ -79,12 +79,12 @@ class RunFigures:
 
     @cached_property
     def duration(self) -> float:
-        """Duration of the counted part [s]."""
+        """Duration of the evaluated part of the run [s]."""
         return self.plan.step * self.plan.steps
 
     @cached_property
     def first(self) -> int:
-        """Index of the first sample of the counted part."""
+        """Index of the first sample in the evaluated part of the run."""
         return self.plan.skip // self.plan.stride
 
     @cached_property
@@ -101,18 +101,18 @@ class RunFigures:
 
     @cached_property
     def turns(self) -> Floats:
-        """Revolutions of the driving link, positive in its sense of rotation."""
+        """Revolutions of the driving link at the samples, positive in its sense of rotation."""
         turned = self.turned[self.of.index[self.of.problem.driving_link]] / tau
         return np.asarray(self.of.problem.way * turned, dtype=np.float64)
 
     @cached_property
     def names(self) -> list[str]:
-        """Names of pairs and pins, and of links with an escapement, in the order of the kernels."""
+        """Names of pairs and pins, followed by names of links with an escapement, in the order used by the kernels."""
         return [pair.name for pair in self.of.model.pairs] + [stop.name for stop in self.of.model.stops]
 
     @cached_property
     def contacts(self) -> tuple[ContactInTime, ...]:
-        """Results of each pair, pin and escapement in the counted part of the run."""
+        """Results of each pair, pin and escapement in the evaluated part of the run."""
         steps, time = self.plan.steps, self.duration
         return tuple(
             ContactInTime(
@@ -140,7 +140,7 @@ class RunFigures:
 
     @cached_property
     def energy(self) -> EnergyAccount:
-        """Energy balance of the counted part."""
+        """Energy balance of the evaluated part of the run."""
         energy = self.run.energy
         return EnergyAccount(
             drive=float(energy[WORK_DRIVE]),
@@ -158,7 +158,7 @@ class RunFigures:
 
     @cached_property
     def drive(self) -> Floats:
-        """Torque at the power input [N m], positive in the sense of rotation of its link."""
+        """Torque at the power input [N m], positive in the sense of rotation of the link on which it acts."""
         source = self.of.case.drive
         way = -1.0 if self.of.typical(source.link) < 0 else 1.0
         # a prescribed speed needs the constraint torque of the run
@@ -182,7 +182,9 @@ class RunFigures:
 
     @property
     def _other_work(self) -> float:
-        """Work of the other links with prescribed speeds [J], from mean torques over the samples and from angles."""
+        """Work of the links with prescribed speeds other than the power input [J], from the mean torques between
+        samples and the angles.
+        """
         others = {
             link: speed for link, speed in self.of.prescribed.items() if link != self.of.case.drive.link and speed
         }
@@ -198,7 +200,7 @@ class RunFigures:
 
     @cached_property
     def differences(self) -> dict[str, Floats]:
-        """Angle by which each output is ahead of the motion with all drive flanks in contact [rad]."""
+        """Angle by which each output is ahead of the motion with all drive flanks in contact [rad], keyed by output."""
         motion, turns, forwards = self.of.motion, self.turns, self.of.problem.way
         names = list(motion.outputs)
         at = motion.at(np.append(turns, 0.0)).error if motion._forward.used else np.zeros((len(names), len(turns) + 1))
@@ -219,7 +221,7 @@ class RunFigures:
 
     @cached_property
     def deviations(self) -> tuple[OutputDeviation, ...]:
-        """Maximum and rms deviation of each output."""
+        """Maximum and rms deviations of each output from the motion with all drive flanks in contact."""
         counted = {name: each[self.first :] for name, each in self.differences.items()}
         return tuple(
             OutputDeviation(
@@ -232,7 +234,7 @@ class RunFigures:
         )
 
     def means(self) -> Iterator[_Figure]:
-        """Yield the mean values of the run: name, unit, value and kind."""
+        """Yield name, unit, value and kind of each mean value of the run."""
         yield "torque of the drive", "N m", self.torque, "mean"
         yield "impact power", "W", self.energy.impact_loss / self.duration, "mean"
         for each in self.contacts:
@@ -240,12 +242,14 @@ class RunFigures:
             yield f"{each.name} on the coast flank", "", each.coast, "mean"
 
     def intervals(self) -> list[float | None]:
-        """Return the half-width of the 95 % confidence interval of each mean value; None for short runs."""
+        """Return the half-width of the 95 % confidence interval of each mean value; None for each value if the run is
+        too short.
+        """
         blocks = [[each[2] for each in replace(self, run=part).means()] for part in self.run.blocks]
         return [batch_half_width(np.array(each)) for each in zip(*blocks, strict=True)]
 
     def extremes(self) -> Iterator[_Figure]:
-        """Yield the maximum values of the run: name, unit, value and kind."""
+        """Yield name, unit, value and kind of each maximum value of the run."""
         for each in self.contacts:
             if each.impact_rate:
                 yield f"{each.name} hardest impact", "rad/s", each.hardest, "extreme"
@@ -257,7 +261,9 @@ class RunFigures:
 
     @cached_property
     def gaps(self) -> tuple[Floats, Floats]:
-        """Gaps of each driven side to its drive flank and to its coast flank [rad], shape (pairs, samples)."""
+        """Gaps from the driven side of each pair to the drive flank and to the coast flank [rad], two arrays of shape
+        (pairs, samples).
+        """
         angles, found = self.run.angles, np.zeros((2, len(self.of.model.pairs), len(self.time)))
         for row, pair in enumerate(self.of.model.pairs):
             S, q = (
@@ -269,7 +275,9 @@ class RunFigures:
         return found[0], found[1]
 
     def result(self, coarse: RunFigures | None) -> TimeRun:
-        """Return the result of this run, compared with the run `coarse` of longer time steps unless it is None."""
+        """Return the results of this run. If `coarse` is not None, they are compared with that run, which has longer
+        time steps.
+        """
         links, time = self.of.problem.system.links, [repr(float(each)) for each in self.time]
         start = np.array([self.of.problem.angles.get(link, 0.0) for link in links])[:, None]
         pairs = self.names[: len(self.of.model.pairs)]
@@ -310,7 +318,7 @@ class RunFigures:
         )
 
     def _compared(self, coarse: RunFigures) -> Iterator[ConvergedFigure]:
-        """Yield every result together with its value from the run with the longer time step."""
+        """Yield each result together with its value from the run with longer time steps."""
         # a contact may have impacts in only one of the runs
         coarse_extremes = {each[0]: each for each in coarse.extremes()}
         rows = [*zip(coarse.means(), self.means(), self.intervals() or repeat(None), strict=False)]
@@ -325,7 +333,7 @@ class RunFigures:
         return ImpactList(self.run.numbers[IMPACTS], names, time, speed, energy, impulse)
 
     def angle_of(self, name: str) -> Floats:
-        """Return the angle through which an output has turned [rad]."""
+        """Return the angle through which the output `name` has turned at each sample [rad]."""
         link, base = next(each[1:] for each in self.outputs if each[0] == name)
         found: Floats = self.turned[self.of.index[link]] - self.of.sense(link, base) * self.turned[self.of.index[base]]
         return found
@@ -357,8 +365,8 @@ def _frozen(values: Floats) -> Floats:
 
 
 def batch_half_width(means: Floats) -> float | None:
-    """Return the half-width of the 95 % confidence interval of a mean, from the means of equal consecutive batches,
-    shape (n,); None for too few batches.
+    """Return the half-width of the 95 % confidence interval of a mean, computed from the means of n equal consecutive
+    batches, shape (n,). Return None if there are too few batches.
 
     The interval is Student's t with n - 1 degrees of freedom, widened by sqrt((1 + r)/(1 - r)) for the lag-1
     correlation r of the batches, whose estimate is 1/n too low on average (Law and Kelton, Simulation Modeling and
@@ -383,11 +391,11 @@ def batch_half_width(means: Floats) -> float | None:
 
 
 def find_peaks(time: Floats, angle: Floats, rate: float, cycles: Mapping[str, float]) -> list[SpectrumPeak]:
-    """Return the strongest lines in the spectrum of an angle under a Hann window.
+    """Return the strongest lines in the spectrum of an angle, computed with a Hann window.
 
     time     evenly spaced times [s] of the angles `angle` [rad], whose mean motion is removed
     rate     revolutions of the driving link per second
-    cycles   periods of each pair per revolution of the driving link
+    cycles   number of periods of each pair per revolution of the driving link, by pair
     """
     frequencies, size = find_amplitudes(time, angle)
     if not len(size):
@@ -408,9 +416,10 @@ def find_peaks(time: Floats, angle: Floats, rate: float, cycles: Mapping[str, fl
 
 
 def find_amplitudes(time: Floats, angle: Floats) -> tuple[Floats, Floats]:
-    """Return frequencies [Hz] and amplitudes [rad] under a Hann window, after the mean motion is removed.
+    """Return the frequencies [Hz] and the amplitudes [rad] of the spectrum of an angle, with a Hann window and without
+    the mean motion.
 
-    Both are empty if there are too few samples.
+    Both arrays are empty if there are too few samples.
     """
     if len(time) < 16:
         return np.zeros(0), np.zeros(0)
@@ -423,8 +432,8 @@ def find_amplitudes(time: Floats, angle: Floats) -> tuple[Floats, Floats]:
 
 
 def _source(order: float, width: float, cycles: Mapping[str, float]) -> str:
-    """Return the name of the pair with the lowest harmonic near a vibration order, and this harmonic; "" if there is
-    none.
+    """Return the name of the pair that has the lowest harmonic near a vibration order, with the number of this
+    harmonic, or "" if there is none.
     """
     near = [
         (harmonic, name)

@@ -158,24 +158,24 @@ class Simulation(Shown):
 
     @property
     def _share(self) -> float:
-        """Speed of the drive divided by its declared speed."""
+        """Present speed of the drive divided by its declared speed."""
         own = self._of.case.drive.value
         return self.drive / own if own else 0.0
 
     @property
     def angles(self) -> dict[str, float]:
-        """Angles of the outputs by name, including their initial angles [rad]."""
+        """Angle of each output, including its initial angle [rad], keyed by output."""
         start = self._of.problem.angles
         return self._by_output(self._turned() + np.array([start.get(link, 0.0) for link in self._of.index]))
 
     @property
     def speeds(self) -> dict[str, float]:
-        """Angular speeds of the outputs by name [rad/s]."""
+        """Angular speed of each output [rad/s], keyed by output."""
         return self._by_output(self._of.speeds @ self._state.speed)
 
     @property
     def angle(self) -> float:
-        """Angle through which the link at which power enters has turned since the start [rad]."""
+        """Angle through which the link at the power input has turned since the start [rad]."""
         return float(self._turned()[self._of.index[self.drive_link]])
 
     def _turned(self) -> Floats:
@@ -186,12 +186,12 @@ class Simulation(Shown):
 
     @property
     def speed(self) -> float:
-        """Angular speed of the link at which power enters [rad/s]."""
+        """Angular speed of the link at the power input [rad/s]."""
         return float(self._of.speeds[self._of.index[self.drive_link]] @ self._state.speed)
 
     @property
     def output_links(self) -> tuple[str, ...]:
-        """Distinct names of the links of the recorded outputs."""
+        """Names of the links of the recorded outputs, without duplicates."""
         return tuple(dict.fromkeys(link for _, link, _ in self._outputs))
 
     def _by_output(self, links: Floats) -> dict[str, float]:
@@ -287,9 +287,9 @@ class Simulation(Shown):
         self._read(record, steps)
 
     def _apply_new_speed(self) -> int:
-        """Set prescribed coordinates to a new speed; return 1 if a speed changes, else 0.
+        """Set prescribed coordinates to a new speed. Return 1 if a speed changes, and 0 if no speed changes.
 
-        A change requires a correction of the momentum in the first step.
+        If a speed changes, the momentum must be corrected in the first step.
         """
         if self.drive_kind != "rate":
             return 0
@@ -304,7 +304,9 @@ class Simulation(Shown):
         return 1
 
     def _run_steps(self, record: RunRecord, steps: int, stride: int) -> None:
-        """Advance by some steps. A single sample, which is never completed, accumulates all impulses."""
+        """Advance the simulation by `steps` steps. A single sample, which is never completed, accumulates all
+        impulses.
+        """
         ahead = max(steps, 1) * self.step + float(self._state.clock[0])
         # a stride beyond the steps keeps the sample open
         rules = step_rules(self._model, self._state, StepPlan(self.step, 0, steps, stride + 1), ahead)

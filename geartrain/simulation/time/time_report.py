@@ -27,22 +27,22 @@ _CLOSE = 0.01  # target of the relative discretisation error
 
 @dataclass(frozen=True)
 class TimeReport(Result):
-    """Results of a time-domain simulation, with the predicted input speeds at which teeth separate."""
+    """Results of a time-domain simulation, and the predicted input speeds at which teeth separate."""
 
     PAGE = "simulation.time.time_report:describe_time_run"
 
     KEYS = ("title", "separation", "inertias", Key("", "run"))
 
     title: str
-    """Title of the train in one line."""
+    """Title of the train, on one line."""
     separation: SeparationRates | None
-    """Input speeds at which teeth first separate, from the closed-form condition; None if no inertia is declared or the
-    torques have no unit.
+    """Input speeds at which teeth first separate, computed from the closed-form condition; None if no inertia is
+    declared or the torques have no unit.
     """
     inertias: tuple[LinkInertia, ...]
     """Moments of inertia of the moving links."""
     run: TimeRun
-    """Result of the time-domain simulation."""
+    """Results of the time-domain simulation."""
 
 
 def collect_time_report(train: GearTrain, run: TimeRun, without: tuple[str, ...] = ()) -> TimeReport:
@@ -57,14 +57,14 @@ def collect_time_report(train: GearTrain, run: TimeRun, without: tuple[str, ...]
 
 
 def describe_time_run(found: TimeReport) -> Document:
-    """Return a document on a time-domain simulation: separation, contacts, drive, outputs, energy, spectra and
+    """Return a document on a time-domain simulation: separation of teeth, contacts, drive, outputs, energy, spectra and
     convergence.
     """
     return Document(f"Motion in time of {found.run.train}", list(_summary(found.run)), list(_sections(found)))
 
 
 def time_document(run: TimeRun) -> Document | None:
-    """Return the report of a run, as `geartrain dynamics` prints it; None if the run has no declaration of a train."""
+    """Return the report on a run that `geartrain dynamics` prints, or None if the run has no declaration of a train."""
     from geartrain.analysis.gear_train import GearTrain
 
     if run._declaration is None:
@@ -104,7 +104,7 @@ def _sections(found: TimeReport) -> Iterator[Section]:
 
 
 def _validity_notes(run: TimeRun) -> Iterator[str]:
-    """Yield reasons why teeth in this run may separate below the predicted input speeds."""
+    """Yield reasons why teeth may separate in this run below the predicted input speeds."""
     if run.driven != "rate":
         yield "Separation rates assume an input of constant speed; the speed of this input may vary."
     if run.model == "compliant":
@@ -203,7 +203,7 @@ def _outputs(run: TimeRun) -> Section:
 
 
 def _slides(run: TimeRun, name: str) -> bool:
-    """Return True for an output or link that slides."""
+    """Return True if the output or link with the given name slides, False if it turns."""
     declared = run._declaration
     if declared is None or not declared.sliding:
         return False
@@ -212,7 +212,7 @@ def _slides(run: TimeRun, name: str) -> bool:
 
 
 def _angle(run: TimeRun, name: str, angle: float) -> str:
-    """Return an angle in degrees as a string, or the travel of a sliding link with its unit."""
+    """Return an angle in degrees as text, or the travel of a sliding link with its unit."""
     if angle <= _STILL:
         return "0"
     return f"{figure(angle / tau, 4)} mm" if _slides(run, name) else figure(degrees(angle), 4)
@@ -265,7 +265,7 @@ def _converged(run: TimeRun) -> Section:
 
 
 def _unconverged_notes(run: TimeRun) -> Iterator[str]:
-    """Yield the results that have not converged, their errors, and the options that improve them."""
+    """Yield notes on the results that have not converged, with their errors and the options that improve them."""
     loose = [each for each in run.figures if not each.converged]
     if not loose:
         yield "All figures converged."

@@ -107,7 +107,7 @@ class TimeRun(Tabular, Pictured, TrainResult):
     deviations: tuple[OutputDeviation, ...]
     """Deviations of outputs from the motion with all drive flanks in contact."""
     spectra: Mapping[str, tuple[SpectrumPeak, ...]]
-    """Spectral lines by output, in descending order of amplitude."""
+    """Spectral lines of each output in descending order of amplitude, keyed by output."""
     figures: tuple[ConvergedFigure, ...]
     """Main results with time steps h and h/2, for a convergence check."""
     unsolved: int
@@ -136,7 +136,7 @@ class TimeRun(Tabular, Pictured, TrainResult):
         return f"{self.train}{state}: {rate}, {', '.join(figures)}" + ("" if self.complete else ", incomplete")
 
     def __getitem__(self, name: str) -> Floats | ContactInTime:
-        """Return the angles of a link [rad], or the results of a contact."""
+        """Return the angles of the link with the given name [rad], or the results of the contact with this name."""
         for each in self.contacts:
             if each.name == name:
                 return each
@@ -145,7 +145,9 @@ class TimeRun(Tabular, Pictured, TrainResult):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with a row for each sample: time, turns, angles, speeds, torques, gaps and deviations."""
+        """Columns of a table with one row for each sample: time, turns, angles, speeds, torques, gaps and
+        deviations.
+        """
         made: dict[str, Floats] = {"time (s)": self.time, "turns": self.turns}
         for found, what in (
             (self.angles, "angle (rad)"),
@@ -182,39 +184,39 @@ class ContactInTime(Result):
     name: str
     """Name of the pair or coupling; for an escapement, the name of its link."""
     apart: float
-    """Fraction of the time in which no flank is in contact."""
+    """Fraction of the time during which no flank is in contact."""
     coast: float
-    """Fraction of the time in which the coast flank is in contact, or is nearer than the drive flank."""
+    """Fraction of the time during which the coast flank is in contact, or is closer than the drive flank."""
     impact_rate: float
     """Number of impacts per second [1/s]."""
     power: float
     """Mean power lost in impacts [W]."""
     hardest: float
-    """Maximum closing speed over all impacts, referred to the driven side [rad/s]."""
+    """Maximum closing speed over all impacts, measured at the driven side [rad/s]."""
     torque: float
-    """Mean torque on the driven side, positive in its direction of motion [N m]."""
+    """Mean torque on the driven side, positive in the direction of its motion [N m]."""
     rubbed: float
     """Mean power lost to friction [W]."""
     gap: float
-    """Maximum gap between the driven side and the nearer flank, as an angle of the driven side [rad]."""
+    """Maximum gap between the driven side and the closer flank, as an angle of the driven side [rad]."""
     changes: float
-    """Number of changes per second from one flank to the other without separation [1/s]."""
+    """Number of changes per second from one flank to the other flank without an interval of separation [1/s]."""
     peak: float | None = None
-    """Maximum torque on the driven side of compliant teeth [N m]; None for rigid teeth, whose impacts have impulses."""
+    """Maximum torque on the driven side of compliant teeth [N m]; None for rigid teeth, whose impacts are impulsive."""
     dynamic_factor: float | None = None
-    """Dynamic factor: `peak` divided by the maximum quasi-static torque; None for rigid teeth or if no speed is
+    """Dynamic factor: `peak` divided by the maximum quasi-static torque; None for rigid teeth, or if no speed is
     prescribed.
     """
 
 
 @dataclass(frozen=True)
 class ImpactList(Result):
-    """Impacts of a run in chronological order, up to a storage limit."""
+    """Impacts in a run in chronological order, up to a storage limit."""
 
     KEYS = ("total",)
 
     total: int
-    """Number of all impacts, including those beyond the storage limit."""
+    """Total number of impacts, including impacts beyond the storage limit."""
     contact: tuple[str, ...]
     """Name of the pair, pin or escapement of each stored impact."""
     time: Floats
@@ -237,9 +239,9 @@ class EnergyAccount(Result):
     )
 
     drive: float
-    """Work of the drive at a prescribed speed [J]."""
+    """Work of a drive with a prescribed speed [J]."""
     loads: float
-    """Work of constant load torques [J]."""
+    """Work of the constant load torques [J]."""
     springs: float
     """Work of springs [J]."""
     bearings: float
@@ -247,15 +249,15 @@ class EnergyAccount(Result):
     drag: float
     """Energy lost to viscous drag [J]."""
     friction: float
-    """Energy lost to friction of teeth and pins, and losses given by declared efficiencies [J]."""
+    """Energy lost to friction of teeth and pins, and to losses given by declared efficiencies [J]."""
     impact_loss: float
     """Energy lost in impacts, or in the damping of compliant teeth [J]."""
     steps: float
-    """Numerical dissipation in sustained contacts [J], of either sign; it decreases with the time step."""
+    """Numerical dissipation in sustained contacts [J]. It can have either sign, and it decreases with the time step."""
     kinetic: float
     """Increase of kinetic energy [J]."""
     stored: float
-    """Kinetic energy at the end of the run [J]."""
+    """Kinetic energy at the end of the evaluated part [J]."""
     elastic: float = 0.0
     """Increase of the elastic energy of compliant teeth [J]."""
 
@@ -266,7 +268,9 @@ class EnergyAccount(Result):
 
     @property
     def closure(self) -> float:
-        """Relative error of the energy balance: residual divided by the sum of all terms and the stored energy."""
+        """Relative error of the energy balance: its residual divided by the sum of the magnitudes of all terms and the
+        stored energy.
+        """
         # the balance is closed by the numerical dissipation `steps`
         taken = self.bearings + self.drag + self.friction + self.impact_loss + self.steps
         kept = self.kinetic + self.elastic
@@ -284,14 +288,14 @@ class OutputDeviation(Result):
     ahead: float
     """Maximum angle by which the output is ahead of the motion with all drive flanks in contact [rad], 0 or more."""
     behind: float
-    """Maximum angle by which the output is behind the motion with all drive flanks in contact [rad], 0 or more."""
+    """Maximum angle by which the output lags the motion with all drive flanks in contact [rad], 0 or more."""
     rms: float
-    """Root mean square of the deviation [rad]."""
+    """Root mean square of the deviation of the output [rad]."""
 
 
 @dataclass(frozen=True)
 class ConvergedFigure(Result):
-    """Result of two simulations, with time steps h and h/2, for a convergence check."""
+    """Result of two simulations with time steps h and h/2, used to check convergence."""
 
     name: str
     """Name of the result."""
@@ -304,23 +308,25 @@ class ConvergedFigure(Result):
     kind: Literal["mean", "extreme"]
     """Kind of result, "mean" or "extreme".
 
-    A mean over the run converges with the time step. An extreme depends on single separations, which are chaotic.
+    A mean over the run converges as the time step decreases. An extreme depends on individual separations, which are
+    chaotic.
     """
     converged: bool
-    """True if the two values agree within the tolerance and, for a mean, the confidence interval is not wider than the
-    tolerance.
+    """True if the values `coarse` and `fine` agree within the tolerance and, for a mean, the confidence interval is not
+    wider than the tolerance.
 
-    The tolerance is 5 % of a mean, 1 % of an extreme, 0.005 for a fraction of time, and at least 1e-6 rad for an angle.
+    The tolerance is 5 % for a mean, 1 % for an extreme, 0.005 for a fraction of time, and at least 1e-6 rad for an
+    angle.
     """
     interval: float | None = None
-    """Half-width of the 95 % confidence interval of a mean, from batches of whole turns. None for an extreme, and for a
-    run of fewer than 5 turns.
+    """Half-width of the 95 % confidence interval of a mean, computed from batches of whole turns; None for an extreme,
+    and for a run of fewer than 5 turns.
     """
 
 
 @dataclass(frozen=True)
 class SpectrumPeak(Result):
-    """Line in the spectrum of an output's angle relative to its mean motion."""
+    """Line in the spectrum of the deviation of an output's angle from its mean motion."""
 
     order: float
     """Number of vibration periods per revolution of the driving link."""
@@ -329,4 +335,6 @@ class SpectrumPeak(Result):
     amplitude: float
     """Amplitude of the output's angle at this frequency [rad]."""
     source: str
-    """Pair (or beat) and harmonic at this frequency, such as `c2~d1 x1`; empty if no source has this frequency."""
+    """Pair (or beat) and harmonic that have this frequency, such as `c2~d1 x1`; empty if no source has this
+    frequency.
+    """

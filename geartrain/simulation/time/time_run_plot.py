@@ -1,4 +1,4 @@
-"""Plot of a time-domain simulation: gaps of teeth with impacts, deviations of outputs, and their spectrum."""
+"""Plot of a time-domain simulation: gaps between teeth with impacts, deviations of outputs, and their spectra."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ _PAIRS = 6  # maximum number of pairs whose gaps are drawn
 _STRETCH = 720  # samples of the interval in which gaps are drawn, about 60 teeth of the fastest pair
 _MOST = 4000  # maximum number of points of a curve: first, minimum and maximum of each interval
 _OUTPUTS = 4
-"""Maximum number of outputs in the plot; outputs with the smallest deviations are omitted."""
+"""Maximum number of outputs in the plot. Outputs with the smallest deviations are omitted."""
 _OPEN = 1e-7  # smaller gaps count as contact [rad]
 _SEEN = 1e-8  # smaller deviations count as 0 [rad]
 _SMALL = 0.1  # fraction of the backlash below which gaps get a larger scale
@@ -50,7 +50,7 @@ _name = partial(name_axes, size=SMALL, parse_math=False)
 
 
 def time_run_figure(run: TimeRun, title: str = "") -> Figure:
-    """Plot gaps and impacts of each pair in an interval of the run, and deviations and spectrum of the outputs."""
+    """Plot the gaps and impacts of pairs in an interval of the run, and the deviations and spectra of the outputs."""
     # contacts that are not pairs are escapements
     pairs, stops = _loose(run), [each.name for each in run.contacts if each.name not in run.gaps.labels[0]]
     moving = _moving(run)
@@ -86,7 +86,7 @@ def _key(panel: Axes, gaps: bool) -> None:
 
 
 def _across(run: TimeRun) -> Floats:
-    """Return the abscissa: revolutions of an input with prescribed speed, otherwise time [s]."""
+    """Return the abscissa of the plot: revolutions of an input with prescribed speed, or time [s] for other drives."""
     return run.turns if run.driven == "rate" else run.time
 
 
@@ -95,8 +95,8 @@ def _across_text(run: TimeRun) -> str:
 
 
 def _loose(run: TimeRun) -> list[str]:
-    """Return at most `_PAIRS` pairs with backlash, which are out of contact for the longest times, in the order of the
-    train.
+    """Return the names of at most `_PAIRS` pairs with backlash that are out of contact for the longest times, in the
+    order of the train.
     """
     names = [
         name
@@ -109,7 +109,7 @@ def _loose(run: TimeRun) -> list[str]:
 
 
 def _moving(run: TimeRun) -> list[str]:
-    """Return the outputs that do not turn uniformly, in descending order of their deviation."""
+    """Return the names of the outputs that do not turn uniformly, in descending order of their deviations."""
     deviation = {each.output: max(each.ahead, each.behind) for each in run.deviations}
     swing = {name: max((peak.amplitude for peak in run.spectra[name]), default=0.0) for name in deviation}
     names = [name for name in deviation if max(deviation[name], swing[name]) > _SEEN]
@@ -117,7 +117,7 @@ def _moving(run: TimeRun) -> list[str]:
 
 
 def _stretch(run: TimeRun, pairs: list[str]) -> slice:
-    """Return a slice of samples around the maximum gap of all drawn pairs, or of the last samples."""
+    """Return the slice of the samples around the maximum gap of all drawn pairs, or of the last samples."""
     whole = len(run.time)
     first = int(np.searchsorted(run.time, run.skip))
     middle = whole
@@ -131,7 +131,7 @@ def _stretch(run: TimeRun, pairs: list[str]) -> slice:
 
 
 def _gap(panel: Axes, run: TimeRun, pair: str, stretch: slice) -> None:
-    """Plot the gap at the drive flank of a pair, with the coast flank as a band and markers at impacts."""
+    """Plot the gap at the drive flank of a pair. The coast flank is drawn as a band, and impacts are marked."""
     at, front = _across(run)[stretch], np.degrees(run.gaps[pair][stretch])
     back = front + np.degrees(run.coast_gaps[pair][stretch])
     panel.fill_between(at, back, 1.06 * back.max(), color=PALE, alpha=0.6, linewidth=0, gid=f"coast flank {pair}")
@@ -148,7 +148,7 @@ def _gap(panel: Axes, run: TimeRun, pair: str, stretch: slice) -> None:
 
 
 def _speed(panel: Axes, run: TimeRun, stop: str, stretch: slice) -> None:
-    """Plot the speed of the link of an escapement between its beats."""
+    """Plot the speed of a link with an escapement between its beats."""
     at = _across(run)[stretch]
     panel.plot(at, run.speeds[stop][stretch], color=BLUE, linewidth=1.0)
     _impacts(panel, run, stop, stretch)
@@ -157,7 +157,7 @@ def _speed(panel: Axes, run: TimeRun, stop: str, stretch: slice) -> None:
 
 
 def _impacts(panel: Axes, run: TimeRun, contact: str, stretch: slice) -> None:
-    """Mark impacts at the lower edge of a panel; the area of a marker grows with the energy of its impact."""
+    """Mark impacts at the lower edge of a panel. The area of each marker increases with the energy of the impact."""
     own = np.array([name == contact for name in run.impacts.contact], dtype=bool)
     if not own.any():
         return
@@ -221,14 +221,18 @@ def _spectrum(panel: Axes, run: TimeRun, moving: list[str]) -> None:
 
 
 def _minor_numbers(panel: Axes) -> None:
-    """Label minor ticks as 20, 30 and 50 instead of 2 x 10^1 if the axis spans few powers of ten."""
+    """Label the minor ticks of a logarithmic axis as 20, 30 and 50 instead of 2 x 10^1 if the axis spans few powers of
+    ten.
+    """
     low, high = panel.get_xlim()
     few = high < _DECADES * low
     panel.xaxis.set_minor_formatter(lambda at, _: f"{at:g}" if few and f"{at:e}"[0] in "235" else "")
 
 
 def _named(peaks: Sequence[SpectrumPeak]) -> Iterator[tuple[float, float, str]]:
-    """Yield frequency [Hz], amplitude [deg] and source of the strongest known lines, without close neighbours."""
+    """Yield frequency [Hz], amplitude [deg] and source of the strongest lines whose source is known, without close
+    neighbours.
+    """
     taken: list[float] = []
     for peak in peaks:
         near = any(1 / _CLEAR < peak.frequency / each < _CLEAR for each in taken)

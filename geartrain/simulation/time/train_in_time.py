@@ -1,4 +1,4 @@
-"""Entry points of the time-domain simulation: runs with time steps h and h/2, whose results are compared, step-by-step
+"""Entry points of the time-domain simulation: comparison of two runs with time steps h and h/2, step-by-step
 simulation, and vibration modes.
 """
 
@@ -34,9 +34,9 @@ if TYPE_CHECKING:
     from geartrain.simulation.time.stepwise_simulation import Simulation
 
 PER_TOOTH = 200
-"""Number of steps of the coarser run in the shortest tooth-passing period."""
+"""Number of time steps in the shortest tooth-passing period, in the run with the longer steps."""
 PER_SWING = 40
-"""Number of steps in the period of the fastest mode of compliant teeth."""
+"""Number of time steps in the period of the fastest vibration mode of compliant teeth."""
 _UNEVEN = 1.00618  # steps that meet a kink at every tooth would be evaluated on either side of it due to rounding
 _FEWEST = 200  # minimum steps per revolution of the driving link
 _FEWEST_TOUCHING = 1000  # the same with contacts: a pin's speed may change much within a small angle
@@ -55,12 +55,12 @@ _SLOW = 7e-5  # time of one step of one contact in plain Python [s]
 
 @dataclass(frozen=True)
 class DrivenTrain:
-    """Train with its drive for time-domain simulation; equal planets are merged into one."""
+    """Train with its drive for time-domain simulation. Equal planets are combined into one."""
 
     train: TrainMechanics
     state: str | None = None
     rate: str | float | None = None
-    """Speed of the first input that turns, as a string with a unit or in rad/s; None for the declared drive."""
+    """Speed of the first input that turns, as text with a unit or as a number in rad/s; None for the declared drive."""
     restitution: float | None = None
     """Coefficient of restitution of every impact; None for the declared values."""
     outputs: Sequence[str] = ()
@@ -78,7 +78,9 @@ class DrivenTrain:
         samples: int | None = None,
         fast: bool | None = None,
     ) -> TimeStudy:
-        """Return a study with two runs over `turns` revolutions of the driving link; see `GearTrain.dynamics`."""
+        """Return a study with two runs over `turns` revolutions of the driving link, as described in
+        `GearTrain.dynamics`.
+        """
         check_numbers(turns=turns, skip=skip, restitution=self.restitution)
         check_whole_numbers(steps=steps, samples=samples)
         check_choice("model", model, ("rigid", "compliant"))
@@ -86,7 +88,7 @@ class DrivenTrain:
         return TimeStudy(found, seen, turns, skip, steps, samples, fast)
 
     def simulation(self, step: float | None, fast: bool | None) -> Simulation:
-        """Return a simulation of the train that starts at time 0; see `GearTrain.simulation`."""
+        """Return a simulation of the train that starts at time 0, as described in `GearTrain.simulation`."""
         from geartrain.simulation.time.stepwise_simulation import Simulation
 
         check_numbers(step=step, restitution=self.restitution)
@@ -112,7 +114,7 @@ def model_in_time(
     yields: bool = False,
     scale: float | None = None,
 ) -> TrainModel:
-    """Return the contact model of a train; `rate` [rad/s] and `restitution` override the declared values.
+    """Return the contact model of a train. The arguments `rate` [rad/s] and `restitution` replace the declared values.
 
     scale   input speed that is assumed if none is declared, for results that do not depend on it [rad/s]
     """
@@ -205,7 +207,7 @@ def find_vibration_modes(
 
 
 def radians_per_second(rate: str | float | None) -> float | None:
-    """Convert an input speed to rad/s; return None for None.
+    """Return an input speed converted to rad/s, or None if no speed is given.
 
     Raises `QuestionError` if the speed is not positive.
     """
@@ -247,7 +249,9 @@ class VibrationModes(Tabular, Result):
     train: str
     """Name of the train."""
     frequencies: Floats
-    """Natural frequencies in ascending order [Hz]; 0 for free rotation of the whole train. Shape (mode,)."""
+    """Natural frequencies in ascending order [Hz]; 0 for modes in which the whole train rotates freely. Shape
+    (mode,).
+    """
     damping: Floats
     """Damping ratio of each mode; 0 for modes of 0 Hz. Shape (mode,)."""
     shapes: LabelledArray
@@ -265,7 +269,9 @@ class VibrationModes(Tabular, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with a row for each mode: number, natural frequency, damping ratio, and angles of the links."""
+        """Columns of a table with one row for each mode: number, natural frequency, damping ratio, and angles of the
+        links.
+        """
         angles = zip(self.shapes.labels[0], self.shapes.values.tolist(), strict=True)
         return {
             "mode": [*range(1, len(self.frequencies) + 1)],
@@ -282,15 +288,17 @@ class TimeStudy:
     of: TrainModel
     outputs: Sequence[tuple[str, str, str]]
     turns: float
-    """Revolutions of the driving link in the counted part."""
+    """Number of revolutions of the driving link in the evaluated part of a run."""
     skip: float = 1.0
-    """Revolutions of the driving link before the counted part."""
+    """Number of revolutions of the driving link before the evaluated part of a run."""
     steps: int | None = None
-    """Steps of the coarser run per revolution of the driving link; None to choose it from the tooth-passing periods."""
+    """Number of steps per revolution of the driving link in the run with the longer time step; None to derive it from
+    the tooth-passing periods.
+    """
     samples: int | None = None
-    """Number of samples of the whole run; None to choose a number that suits a spectrum."""
+    """Number of samples of the whole run; None to choose a number that is suitable for spectra."""
     fast: bool | None = None
-    """True to compile the kernels, False to run them in Python; None to decide by the amount of work."""
+    """True to compile the kernels, False to run them in Python; None to choose according to the amount of work."""
 
     def __post_init__(self) -> None:
         if not self.turns > 0 or not self.skip >= 0:
@@ -313,7 +321,7 @@ class TimeStudy:
 
     @cached_property
     def per_turn(self) -> int:
-        """Steps of the coarser run per revolution of the driving link."""
+        """Number of steps per revolution of the driving link in the run with the longer time step."""
         if self.steps is not None:
             return self.steps
         fewest = _FEWEST_TOUCHING if self.of.model.pairs else _FEWEST
@@ -333,7 +341,7 @@ class TimeStudy:
         return [tau / abs(self.of.case.rate) / beat for _, beat in self.of.case.escapements.values()]
 
     def plan(self, finer: int) -> StepPlan:
-        """Return the time steps of one run: `finer` is 1 for time step h, 2 for h/2."""
+        """Return the time steps of one run, where `finer` is 1 for the time step h and 2 for the time step h/2."""
         # the finer run has exactly twice the steps
         steps, skip = (round(each * self.per_turn) * finer for each in (self.turns, self.skip))
         often = max([_SAMPLES * self.busiest, *(_A_BEAT * each for each in self.beats)])
@@ -352,12 +360,12 @@ class TimeStudy:
         return is_fast(self.fast, steps * max(len(self.of.model.pairs), 1) * _SLOW)
 
     def run(self, on_done: Callable[[float], object] = lambda _: None) -> TimeRun:
-        """Simulate both runs and return the result.
+        """Return the results of the two simulated runs.
 
-        on_done   called with the fraction of the total work done since the last call; if it returns True, the result
-                  covers the completed part of the first run, without a comparison
+        on_done   function that is called with the fraction of the total work since its last call; if it returns True,
+                  the result covers the completed part of the first run, without a comparison
 
-        Raises `KeyboardInterrupt` if `on_done` returns True before the counted part begins.
+        Raises `KeyboardInterrupt` if `on_done` returns True before the evaluated part begins.
         """
         plans = self.plan(1), self.plan(2)
         whole = sum(plan.skip + plan.steps for plan in plans)
@@ -377,7 +385,8 @@ class TimeStudy:
         return first.result(None)
 
     def static_peaks(self) -> Sequence[float | None]:
-        """Return the maximum quasi-static torque of each pair [N m], from a rigid run with almost no inertia.
+        """Return the maximum quasi-static torque of each pair [N m], computed in a run with rigid teeth and almost no
+        inertia.
 
         The values are None for rigid teeth, and if no speed is prescribed, since such a train would accelerate without
         limit.

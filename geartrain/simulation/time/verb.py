@@ -1,4 +1,4 @@
-"""Command `geartrain dynamics`: motion in time with inertia, backlash, impacts, drag and friction."""
+"""Command `geartrain dynamics`: simulate the motion in time with inertia, backlash, impacts, drag and friction."""
 
 from __future__ import annotations
 

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.involute_geometry import InvolutePair
 
 Halves = tuple[float, float]
-"""Half the tooth thickness of gear 1 and gear 2 as an arc X on the pitch surface [module]; infinite for round pins."""
+"""Half-thicknesses of the teeth of gears 1 and 2, as arcs X on the pitch surface [module]; infinite for round pins."""
 
 _SCAN = 257  # contacts sampled on a side; a speed below 0 only between two samples is not detected
 _LEAVES = 12.5  # tooth number below which clockmakers cut cycloids
@@ -32,13 +32,15 @@ _ROUNDING = 1e-12  # modules: a smaller overlap is not a fault
 
 
 def faults(path: PathOfContact, halves: Halves) -> tuple[ToothFault, ...]:
-    """Return all faults that prevent teeth with this path of contact from running; empty if they can run."""
+    """Return all faults that prevent teeth with this path of contact from running; an empty tuple if the teeth
+    can run.
+    """
     return (*_undercuts(path), *_pointed(path, halves), *_contact_ratio_fault(path))
 
 
 def _undercuts(path: PathOfContact) -> Iterator[ToothFault]:
-    """Yield a fault where the speed of the contact along a profile reaches 0: a cusp of the profile, with
-    undercut beyond it.
+    """Yield a fault for each place where the speed of the contact along a profile reaches 0. The profile has a cusp
+    there, and undercut beyond the cusp.
     """
     for recess in (False, True):
         if not (span := path.span(recess)):
@@ -63,8 +65,8 @@ def _undercuts(path: PathOfContact) -> Iterator[ToothFault]:
 
 
 def _dwell(path: PathOfContact, d: Floats, U: Floats, gear: int, recess: bool) -> float:
-    """Return the arc X of the first sampled contact whose speed along the profile of `gear` is 0, refined by root
-    finding.
+    """Return the arc X of the first sampled contact at which the speed along the profile of `gear` is 0, refined by
+    root finding.
     """
     at = int(np.argmax(U <= 0))
     if at == 0:
@@ -80,7 +82,7 @@ def _dwell(path: PathOfContact, d: Floats, U: Floats, gear: int, recess: bool) -
 
 
 def _pointed(path: PathOfContact, halves: Halves) -> Iterator[ToothFault]:
-    """Yield a fault where the two flanks of a tooth would intersect before its tip."""
+    """Yield a fault for each gear whose two tooth flanks would intersect below the tip."""
     for gear, X in ((1, path.arcs[1]), (2, -path.arcs[0])):
         if X and (thickness := tip_thickness(path, gear, halves)) < 0:
             z = path.pitch.teeth_of(gear)
@@ -102,7 +104,9 @@ def _pointed(path: PathOfContact, halves: Halves) -> Iterator[ToothFault]:
 
 
 def _flank_crossing(path: PathOfContact, gear: int, X: float, halves: Halves) -> float:
-    """Return the arc X of the contact at which both flanks of a tooth intersect; 0 if they intersect from the start."""
+    """Return the arc X of the contact at which the two flanks of a tooth of `gear` intersect; 0 if they intersect from
+    the start.
+    """
     foot, _ = path.ends(gear)
     foot = foot if foot * X > 0 else 0.0  # contact on one side only does not reach the pitch point
     thickness = partial(_thickness, path, gear, halves)
@@ -111,13 +115,15 @@ def _flank_crossing(path: PathOfContact, gear: int, X: float, halves: Halves) ->
 
 
 def tip_thickness(path: PathOfContact, gear: int, halves: Halves) -> float:
-    """Return the angle of the top land of a gear's tooth [rad]; negative if its flanks cross below the tip."""
+    """Return the angular thickness of the top land of a gear's tooth [rad]; negative if the flanks intersect below the
+    tip.
+    """
     return _thickness(path, gear, halves, path.ends(gear)[1])
 
 
 def _thickness(path: PathOfContact, gear: int, halves: Halves, X: float) -> float:
-    """Return the angular thickness of a tooth of `gear` [rad] at the profile point that is in contact at the arc
-    X along the pitch surfaces.
+    """Return the angular thickness of a tooth of `gear` [rad] at the profile point that is in contact at arc X of the
+    pitch surfaces.
     """
     _, forwards = path.pitch.polar(gear, path.flank(gear, X))
     # a driver's tooth is behind its flank, a driven tooth ahead of it
@@ -146,10 +152,10 @@ def tip_gap(path: PathOfContact) -> float:
     """Return the angle at the ring gear [rad] between the tip of a pinion tooth and the tip of the ring tooth that it
     drives.
 
-    The angle is taken where the pinion's tip, which is faster, leaves the ring's tip circle. It is negative if the
-    tips collide before that. If the pinion's tip never leaves the circle, the angle is taken on the far side, where
-    the teeth have slipped by half the difference of the tooth numbers. It is infinite unless the pair is a spur
-    pinion in a ring gear with intersecting tip circles.
+    The angle is measured where the pinion's tip, which is faster, leaves the ring's tip circle. The angle is negative
+    if the tips collide before that. If the pinion's tip never leaves the circle, the angle is measured on the far side,
+    where the teeth have slipped by half the difference of the tooth numbers. The angle is infinite unless the pair is a
+    spur pinion in a ring gear with intersecting tip circles.
     """
     pitch = path.pitch
     if pitch.bevel or pitch.R2 > 0:
@@ -168,7 +174,7 @@ def tip_gap(path: PathOfContact) -> float:
 
 
 def involute_faults(pair: InvolutePair, path: PathOfContact) -> tuple[ToothFault, ...]:
-    """Return all faults that prevent these involute wheels from running; empty if they can run."""
+    """Return all faults that prevent these involute wheels from running; an empty tuple if the wheels can run."""
     # the undercut of an involute follows from the rack's corner instead of the contact speed
     others = (fault for fault in faults(path, pair.halves) if fault.kind != "undercut")
     return (*_jam(pair), *_interference(pair, path), *_undercut(pair, path), *others, *_bottom(pair), *ring_tips(path))
@@ -193,7 +199,9 @@ def _jam(pair: InvolutePair) -> Iterator[ToothFault]:
 
 
 def _interference(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFault]:
-    """Yield a fault where the mate's tip goes beyond the point at which the line of action touches the base circle."""
+    """Yield a fault for each wheel whose tip extends beyond the point at which the line of action touches the mate's
+    base circle.
+    """
     across = pair.distance * sin(pair.psi)
     for gear, mate, own, X in ((1, pair.second, pair.first, -path.arcs[0]), (2, pair.first, pair.second, path.arcs[1])):
         # radius of the mate at the point where the line of action touches the base circle of this gear
@@ -218,7 +226,9 @@ def _interference(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFaul
 
 
 def _undercut(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFault]:
-    """Yield a fault where the rack's corner has removed part of the flank that the mate's tip would touch."""
+    """Yield a fault for each wheel on which the rack's corner has removed a part of the flank that the mate's tip would
+    touch.
+    """
     for gear, wheel, arc in ((1, pair.first, path.arcs[0]), (2, pair.second, path.arcs[1])):
         cut_radius = wheel.undercut()
         R = path.pitch.R1 if gear == 1 else path.pitch.R2
@@ -240,7 +250,9 @@ def _undercut(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFault]:
 
 
 def _bottom(pair: InvolutePair) -> Iterator[ToothFault]:
-    """Yield a fault where tips touch the bottom of the mate's tooth spaces (bottom clearance below 0)."""
+    """Yield a fault for each wheel whose tips touch the bottom of the mate's tooth spaces (bottom clearance
+    below 0).
+    """
     for gear in (1, 2):
         gap = pair.bottom_clearance(3 - gear)
         if gap < -_ROUNDING:
@@ -255,7 +267,9 @@ def _bottom(pair: InvolutePair) -> Iterator[ToothFault]:
 
 
 def ring_tips(path: PathOfContact) -> Iterator[ToothFault]:
-    """Yield a fault where the tips of a pinion collide with the tips of its ring gear after the teeth left contact."""
+    """Yield a fault if the tips of a pinion collide with the tips of its ring gear after the teeth have
+    left contact.
+    """
     gap = tip_gap(path)
     if gap < 0:
         pitch = path.pitch

@@ -44,7 +44,9 @@ class ConjugateToothForm(ToothForm):
     conjugate: ClassVar[bool] = True
     own_play: ClassVar[tuple[str, ...]] = ("backlash",)
     matched: ClassVar[str] = ""
-    """Description of the quantities, besides the arcs of contact, that a comparison makes equal for all tooth forms."""
+    """Description of the quantities, apart from the arcs of contact, that are made equal for all forms in a comparison
+    of tooth forms.
+    """
 
     backlash: Length = Field(
         "0",
@@ -64,14 +66,14 @@ class ConjugateToothForm(ToothForm):
 
     @classmethod
     def figures(cls) -> type[PairFigures]:
-        """Return the class of the results of this form, which includes the path of contact."""
+        """Return the class of the results of this tooth form, which include the path of contact."""
         from geartrain.teeth.conjugate.conjugate_mesh import ConjugateFigures
 
         return ConjugateFigures
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
-        """Return the mesh of a pair with its first wheel driving. A ring gear is always gear 2 of the form, even if the
-        pair names it first.
+        """Return the mesh of a pair in which the first wheel drives. A ring gear is always gear 2 of the tooth form,
+        even if the pair names it first.
         """
         from geartrain.teeth.conjugate.conjugate_mesh import ConjugateMesh
 
@@ -318,7 +320,9 @@ class ConjugateToothForm(ToothForm):
         return given if abs(given - design) > _DESIGN * design else None
 
     def _standard(self, path: PathOfContact, wheels: WheelPair) -> ConjugatePair:
-        """Return a pair whose teeth have equal thickness, half a pitch reduced by half the backlash."""
+        """Return a pair in which the teeth of both gears have the same thickness: half a pitch less half
+        the backlash.
+        """
         from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
 
         half = path.pitch.p / 4 - self._backlash(path.pitch, wheels) / 4
@@ -334,7 +338,9 @@ class ConjugateToothForm(ToothForm):
 
 @lru_cache(maxsize=1024)
 def conjugate_pair_of(form: ConjugateToothForm, wheels: WheelPair) -> ConjugatePair:
-    """Return the pair of a tooth form and two wheels, which is computed at the first call and then cached."""
+    """Return the conjugate pair of a tooth form and two wheels. The pair is computed at the first call and
+    then cached.
+    """
     return form.pair(wheels)
 
 
@@ -342,14 +348,14 @@ def conjugate_pair_of(form: ConjugateToothForm, wheels: WheelPair) -> ConjugateP
 
 
 def arcs_of(figures: tuple[Figure, Figure], pitch: PitchSurfaces) -> tuple[float, float]:
-    """Convert arcs of approach and recess from pitches to arcs X on the pitch surfaces [module; rad for bevel
+    """Convert arcs of approach and recess given in pitches to arcs X on the pitch surfaces [module; rad for bevel
     gears].
     """
     return float(figures[0].value) * pitch.p, float(figures[1].value) * pitch.p
 
 
 def check_arcs(arcs: tuple[Figure, Figure]) -> None:
-    """Raise a validation error if an arc is below 0 or both are 0."""
+    """Raise a validation error if an arc of contact is negative or if both arcs are 0."""
     if min(arc.value for arc in arcs) < 0 or sum(arc.value for arc in arcs) <= 0:
         text = ", ".join(arc.text for arc in arcs)
         raise bad(
@@ -360,7 +366,7 @@ def check_arcs(arcs: tuple[Figure, Figure]) -> None:
 
 
 def check_angle(name: str, angle: Angle, below: float = 0.25) -> None:
-    """Raise a validation error if a pressure angle is not between 0 and `below` turns (0.25 by default)."""
+    """Raise a validation error if a pressure angle is not between 0 and `below` turns."""
     turns = angle.si / tau
     if not 0 < turns < below:
         raise bad(
@@ -371,7 +377,7 @@ def check_angle(name: str, angle: Angle, below: float = 0.25) -> None:
 
 
 def check_wheels(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> None:
-    """Raise `GearTrainError` if wheels of the declared kinds cannot have conjugate teeth of the form."""
+    """Raise `GearTrainError` if wheels of the declared kinds cannot have conjugate teeth of this form."""
     why, fix = "", IDEAL
     if "worm" in wheels.kinds:
         why = "the thread of a worm slides along the teeth of its wheel, so its pitch surfaces do not roll"
@@ -388,7 +394,7 @@ def check_wheels(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle
 
 
 def check_order(form: ToothForm, pair: tuple[str, str]) -> None:
-    """Raise `GearTrainError` for a pair that names its ring gear first if the two wheels have different tooth
+    """Raise `GearTrainError` if a pair names its ring gear first and either the two wheels have different tooth
     parameters or `pins` is declared.
     """
     given = {name: getattr(form, name) for name in type(form).model_fields}
@@ -410,10 +416,10 @@ def _are_skew(shaft_angle: ShaftAngle) -> bool:
 
 
 def shaft_angle_of(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> float | None:
-    """Return the shaft angle of a bevel pair [rad]; None for wheels on parallel axes, contrate wheels and helical
-    wheels.
+    """Return the shaft angle [rad] of a pair of bevel wheels; None for wheels on parallel axes, contrate wheels and
+    helical wheels.
 
-    Raises `GearTrainError` for bevel wheels without a declared shaft angle.
+    Raises `GearTrainError` if the shaft angle of bevel wheels is not declared.
     """
     if {"contrate", "helical"} & set(wheels.kinds):
         return None

@@ -47,16 +47,20 @@ _HEADER = (
 
 
 class ConjugateDetails(NamedForm, Protocol):
-    """Methods of a conjugate tooth form that its mesh uses."""
+    """Methods of a conjugate tooth form that the mesh of a pair uses."""
 
     more_contact: ClassVar[str]
-    """Advice on how to increase the contact ratio."""
+    """Text that advises how to increase the contact ratio."""
 
     def bottom_clearance(self, wheels: WheelPair, gear: int) -> float | None:
-        """Return the bottom clearance between the root of `gear` and the mate's tip [module]; None if undefined."""
+        """Return the bottom clearance between the root of `gear` and the tip of its mate [module]; None if the tooth
+        form does not define it.
+        """
 
     def backlash_apart(self, wheels: WheelPair, gap: float) -> float | None:
-        """Return the backlash at a centre distance increased by `gap` [module]; None if the form does not define it."""
+        """Return the backlash [module] at the design centre distance increased by `gap` [module]; None if the tooth
+        form does not define it.
+        """
 
     def lantern_pins(self, wheels: WheelPair) -> LanternPins | None:
         """Return the round pins that form the teeth of one wheel; None if both wheels have teeth."""
@@ -75,10 +79,10 @@ class ConjugateMesh(GearMesh):
 
     @property
     def tooth_phase(self) -> float:
-        """Distance of a tooth of the driven wheel past the line of centres while the driven angle is 0 [pitch].
+        """Distance [pitch] by which a tooth of the driven wheel is past the line of centres when the driven angle is 0.
 
-        A tooth of the driver is then on the line of centres, and flanks touch. The distance is the sum of half the
-        tooth thicknesses of both wheels.
+        In this position a tooth of the driver is on the line of centres, and flanks touch. The distance is the sum of
+        half the tooth thicknesses of both wheels.
         """
         pair = self.transmission.pair
         return float(sum(pair.halves) / pair.path.pitch.p)
@@ -101,19 +105,21 @@ class ConjugateMesh(GearMesh):
 
     @property
     def wheel_pair(self) -> WheelPair:
-        """Wheels of the pair as the form uses them, with axes taken as parallel."""
+        """Wheels of the pair as the tooth form uses them. The axes are treated as parallel."""
         pitch, helix = self.transmission.path.pitch, abs(self.wheels.helix[0])
         return WheelPair(pitch.z1, pitch.z2, any(self.wheels.internal), module=self.wheels.module, helix=helix)
 
     def size(self, tips: Mapping[str, float]) -> PairSize | None:
-        """Return the size of the pair in modules; None for bevel pairs."""
+        """Return the size of the pair in modules; None for a bevel pair."""
         del tips
         if self.transmission.path.pitch.bevel:
             return None
         return PairSize(1.0, self.transmission.distance, self.transmission.distance / self.wheels.touching)
 
     def requirement(self, wheel: str, scale: float, tolerance: float) -> ToothRequirement:
-        """Return the requirements on a tooth of `wheel`: its designed flank, and a root that clears the mate's tip."""
+        """Return the requirements on a tooth of `wheel`: its designed flank, and a root that clears the tip of the
+        mate.
+        """
         from geartrain.teeth.outlines.tooth_requirement import CLEARANCE, ToothRequirement
 
         del scale
@@ -129,7 +135,7 @@ class ConjugateMesh(GearMesh):
         )
 
     def wheel_outline(self, gear: int, cut: BlankSizes) -> WheelOutline:
-        """Return the outline of a wheel: its designed flanks above a root with the sizes `cut`.
+        """Return the outline of a wheel, with the designed flanks and a root that is determined by the sizes `cut`.
 
         If `cut` has no bottom clearance, the bottom clearance of the tooth form is used.
         """
@@ -147,18 +153,20 @@ class ConjugateMesh(GearMesh):
         return outline(self.transmission.pair, own, cut, self.tooth_form.lantern_pins(wheels))
 
     def backlash_apart(self, gap: float) -> float | None:
-        """Return the backlash at a centre distance increased by `gap` [module]; None if the form does not define it."""
+        """Return the backlash [module] at the centre distance increased by `gap` [module]; None if the tooth form does
+        not define it.
+        """
         return self.tooth_form.backlash_apart(self.wheel_pair, gap)
 
     @property
     def label(self) -> str:
-        """Name of the pair with the names of its gear 1 and gear 2, for messages."""
+        """Name of the pair in messages, which contains the names of gear 1 and gear 2."""
         first, second = self.gears
         return f"pair '{self.name}' (gear 1 is '{first}', gear 2 '{second}')"
 
     @property
     def displaced_contact(self) -> DisplacedContact:
-        """Contact of flanks that are slightly displaced from their designed positions; a changed centre distance
+        """Contact of flanks that are slightly displaced from their designed positions. A change of the centre distance
         displaces all flanks equally.
         """
         from geartrain.teeth.conjugate.displaced_contact import displaced_contact
@@ -168,7 +176,7 @@ class ConjugateMesh(GearMesh):
         return displaced_contact(transmission.pair, transmission.driver, gap)
 
     def account(self) -> PairAccount:
-        """Return the report of the pair: arcs of approach and recess, contact ratio, transmission error, backlash and
+        """Return the report on the pair: arcs of approach and recess, contact ratio, transmission error, backlash and
         efficiency.
         """
         figures = _figures(self)
@@ -180,7 +188,7 @@ class ConjugateMesh(GearMesh):
 
 @dataclass(frozen=True)
 class ConjugateFigures(PairFigures):
-    """Results of a pair with conjugate teeth, including its path of contact as designed."""
+    """Results of a pair with conjugate teeth, including the designed path of contact."""
 
     KEYS = (
         *PairFigures.KEYS,
@@ -193,7 +201,7 @@ class ConjugateFigures(PairFigures):
     )
 
     arcs: tuple[float, float]
-    """Arcs of approach and recess of the driver [pitch]."""
+    """Arcs of approach and recess for the actual driver [pitch]."""
     contact_ratio: float
     """Contact ratio: arc of contact divided by pitch."""
     pressure_angle: float
@@ -207,7 +215,7 @@ class ConjugateFigures(PairFigures):
 
 
 def _figures(mesh: ConjugateMesh) -> ConjugateFigures:
-    """Return the results of a pair with its actual driver. The kinematic results of involutes are computed even if
+    """Return the results of a pair with its actual driver. For involutes, the kinematic results are computed even if
     the pair cannot run.
     """
     transmission, path = mesh.transmission, mesh.transmission.path
@@ -227,7 +235,9 @@ def _figures(mesh: ConjugateMesh) -> ConjugateFigures:
 
 
 def _overlap_ratio(wheels: MeshingWheels) -> float | None:
-    """Return the overlap ratio b tan(helix angle) / p, with b the face width and p the transverse pitch."""
+    """Return the overlap ratio b tan(helix angle) / p, where b is the face width and p is the transverse pitch; None if
+    it is not defined.
+    """
     if not wheels.helix[0] or wheels.width is None or wheels.module is None:
         return None
     return wheels.width * tan(abs(wheels.helix[0])) / (pi * wheels.module)
@@ -252,36 +262,40 @@ def _row(mesh: ConjugateMesh, figures: ConjugateFigures) -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class DesignLosses(Result):
-    """Losses, stress, heat and sliding of a pair as designed, from its path of contact."""
+    """Losses, stress, heat and sliding of a pair at its design distance, computed from its path of contact."""
 
     KEYS = (Key("", "measures"), "sliding", Key("specific_sliding", to=finite))
 
     measures: PathMeasures
-    """Loss, contact stress, heat, flash temperature and working depth, normalised by friction coefficient and load."""
+    """Loss, contact stress, heat, flash temperature and working depth. They are normalised by friction coefficient and
+    load.
+    """
     sliding: float
     """Maximum sliding speed divided by the pitch-line speed."""
     specific_sliding: float
-    """Maximum of the sliding speed divided by the lower of the two contact speeds along the flanks; infinite where the
-    lower speed is 0.
+    """Maximum of the sliding speed divided by the lower of the two contact speeds along the flanks; infinite if the
+    lower speed is 0 at a contact.
     """
 
 
 @dataclass(frozen=True)
 class SharedEfficiency(Result):
-    """Efficiency of a pair whose tooth pairs in contact share the load, with the assumption on which it is based."""
+    """Efficiency of a gear pair whose tooth pairs in contact share the load, and the assumption on this
+    load sharing.
+    """
 
     KEYS = ("assumption", Key("", "sliding"))
 
     sliding: SlidingEfficiency
-    """Efficiency with sliding friction of the teeth, an exact function of the friction coefficient."""
+    """Efficiency with sliding friction of the teeth, as an exact function of the friction coefficient."""
     assumption: str = SHARED
-    """Assumption on how teeth in contact share the load, in words."""
+    """Text that states the assumption on how tooth pairs in contact share the load."""
 
 
 @dataclass(frozen=True)
 class PairDesign(Result):
-    """Design of a pair with conjugate teeth, with values for gear 1 and then gear 2. Lengths are in modules (in rad for
-    bevel gears) and angles in rad.
+    """Design of a pair with conjugate teeth. Values are given first for gear 1 and then for gear 2, lengths in modules
+    (in rad for bevel gears) and angles in rad.
     """
 
     KEYS = (
@@ -297,18 +311,18 @@ class PairDesign(Result):
     )
 
     mesh: ConjugateMesh
-    """Mesh of the pair with the wheel that drives."""
+    """Mesh of the pair. The mesh specifies the driving wheel."""
     outlines: tuple[WheelOutline, ...] = ()
-    """Outlines of the requested wheels as cut; empty if none was requested."""
+    """Outlines of the requested wheels as they are cut; empty if no outline was requested."""
 
     @property
     def path(self) -> PathOfContact:
-        """Path of contact of the design."""
+        """Path of contact of the pair at its design distance."""
         return self.mesh.path
 
     @property
     def runs(self) -> bool:
-        """True if the teeth can run, even if friction locks them."""
+        """True if the teeth can run. Friction is disregarded, so that it may lock these teeth."""
         return bool(self.mesh.verdict)
 
     @property
@@ -318,25 +332,25 @@ class PairDesign(Result):
 
     @property
     def pitch_radii(self) -> tuple[float, float]:
-        """Pitch radii of gear 1 and gear 2 [module; rad for bevel gears]; negative for a ring gear."""
+        """Pitch radii of gear 1 and gear 2 [module; rad for bevel gears]. The radius of a ring gear is negative."""
         return self.path.pitch.R1, self.path.pitch.R2
 
     @cached_property
     def flanks(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Radii at which the active flanks of gear 1 and gear 2 begin (root side) and end (tip side) [module; rad for
-        bevels].
+        """Radii of gear 1 and gear 2 at which the active flanks begin (root) and end (tip) [module; rad for bevel
+        gears].
         """
         return self.path.radii(1), self.path.radii(2)
 
     @property
     def thickness(self) -> tuple[float, float]:
-        """Thickness of a tooth or pin of gear 1 and gear 2 on the pitch circle [pitch]."""
+        """Thickness of a tooth or pin on the pitch circle, for gear 1 and gear 2 [pitch]."""
         first, second = self.mesh.transmission.pair.halves
         return 2 * first / self.path.pitch.p, 2 * second / self.path.pitch.p
 
     @cached_property
     def top_lands(self) -> tuple[float | None, float | None]:
-        """Angle of the top land of a tooth of gear 1 and gear 2 [rad]; None for round pins."""
+        """Angular thickness of the top land of a tooth, for gear 1 and gear 2 [rad]; None for round pins."""
         pair = self.mesh.transmission.pair
         first, second = (
             tip_thickness(self.path, gear, pair.halves) if solid else None for gear, solid in enumerate(pair.solid, 1)
@@ -345,7 +359,7 @@ class PairDesign(Result):
 
     @property
     def arcs(self) -> tuple[float, float]:
-        """Arcs of approach and recess with gear 1 driving [pitch]; one may be negative."""
+        """Arcs of approach and recess if gear 1 drives [pitch]. One arc may be negative."""
         return self.path.pitches
 
     @property
@@ -357,12 +371,12 @@ class PairDesign(Result):
 
     @cached_property
     def losses_and_stresses(self) -> DesignLosses | None:
-        """Losses and stresses of the pair; None for teeth that cannot run."""
+        """Losses and stresses of the pair; None if the teeth cannot run."""
         return DesignLosses(measure(self.path), *sliding(self.path)) if self.runs else None
 
     @property
     def efficiency(self) -> SharedEfficiency | None:
-        """Efficiency, an exact function of the friction coefficient; None for teeth that cannot run."""
+        """Efficiency of the pair as an exact function of the friction coefficient; None if the teeth cannot run."""
         return SharedEfficiency(self.mesh.efficiency(self.mesh.driver)) if self.runs else None
 
     @property

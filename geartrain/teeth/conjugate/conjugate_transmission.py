@@ -40,20 +40,21 @@ class ConjugatePair(Shown):
     path: PathOfContact
     """Path of contact of the pair."""
     halves: Halves
-    """Half the tooth thickness of gear 1 and of gear 2, as an arc X on the pitch surface [module; rad for bevel gears].
+    """Half-thicknesses of the teeth of gear 1 and gear 2, as arcs X on the pitch surface [module; rad for
+    bevel gears].
     """
     given: tuple[ToothFault, ...] | None = None
-    """Complete list of design faults, if the tooth form determines the list; None if the faults follow from the path of
-    contact and the tooth thickness.
+    """Complete list of design faults, if the tooth form determines this list; None if the faults follow from the path
+    of contact and the tooth thickness.
     """
     extra: tuple[ToothFault, ...] = ()
-    """Design faults in addition to those that follow from the path of contact and the tooth thickness."""
+    """Design faults other than those that follow from the path of contact and the tooth thickness."""
     solid: tuple[bool, bool] = (True, True)
     """Flag for gear 1 and for gear 2: True if the gear has teeth, False if it has round pins."""
 
     @cached_property
     def faults(self) -> tuple[ToothFault, ...]:
-        """Design faults that prevent the pair from running; empty if the pair can run."""
+        """Design faults that prevent the pair from running; an empty tuple if the pair can run."""
         if self.given is not None:
             return self.given
         first, second = (half if solid else inf for half, solid in zip(self.halves, self.solid, strict=True))
@@ -61,12 +62,14 @@ class ConjugatePair(Shown):
 
     @property
     def arcs(self) -> tuple[float, float]:
-        """Arcs X of approach and recess with gear 1 driving [module; rad for bevel gears]. One arc may be negative."""
+        """Arcs X of approach and recess if gear 1 drives [module; rad for bevel gears]. One arc may be negative."""
         return self.path.arcs
 
     @property
     def backlash(self) -> float:
-        """Circumferential backlash on the pitch surface [module; rad for bevel gears]; 0 if within rounding errors."""
+        """Circumferential backlash on the pitch surface [module; rad for bevel gears]. Values within rounding errors
+        are replaced by 0.
+        """
         p = self.path.pitch.p
         found = p - 2 * sum(self.halves)
         return found if abs(found) > _TOUCH * p else 0.0
@@ -154,8 +157,8 @@ class ConjugateTransmission(ExactRatio, ToothTransmission):
         return np.where(recess + slack >= X, np.minimum(X, recess), nan)
 
     def kinks(self) -> list[float]:
-        """Return the driver angles [rad] at which a tooth pair enters or leaves contact or passes a kink of the path of
-        contact.
+        """Return the driver angles [rad] at which a tooth pair enters or leaves contact, or passes a kink of the path
+        of contact.
         """
         approach, recess = self.path.approach, self.path.recess
         if self.driver == 2:
@@ -170,8 +173,8 @@ class ConjugateTransmission(ExactRatio, ToothTransmission):
     # ------------------------------------------------------------------------------------------------------- friction
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """Return the sliding speeds, and the friction terms of input and output power, of all tooth pairs in contact at
-        driver angles S [rad].
+        """Return the sliding speeds of all tooth pairs in contact at driver angles S [rad], and their friction terms in
+        the input and output power.
 
         The tooth pairs share the driver's torque equally.
         """
@@ -188,5 +191,5 @@ class ConjugateTransmission(ExactRatio, ToothTransmission):
 
     @cached_property
     def locking_friction(self) -> float:
-        """Minimum friction coefficient at which a contact locks; infinite if no contact locks."""
+        """Minimum friction coefficient at which friction locks a tooth pair; infinite if no tooth pair can lock."""
         return locking_friction(self.path, self.driver)

@@ -37,10 +37,11 @@ Value = TypeVar("Value")
 
 
 def azimuth_at(pitch: PitchSurfaces, gear: int, own: float, other: Floats) -> Floats:
-    """Return the azimuths [rad, 0 or more] of points at distance `own` from a gear's axle and `other` from its mate's.
+    """Return the azimuths [rad, 0 or more] of points from their distances `own` from a gear's axle and `other` from the
+    mate's axle.
 
-    The azimuth is measured at the axle of `gear` from the line of centres, by the law of cosines, plane or
-    spherical. It is NaN if no such point exists. The axle of a ring gear's mate is on the opposite side.
+    The azimuth is measured at the axle of `gear` from the line of centres, and computed by the plane or spherical law
+    of cosines. The azimuth is NaN if no such point exists. The axle of a ring gear's mate is on the opposite side.
     """
     D = pitch.R1 + pitch.R2
     if gear == 2:
@@ -55,11 +56,11 @@ def azimuth_at(pitch: PitchSurfaces, gear: int, own: float, other: Floats) -> Fl
 
 
 def corner_contact(path: PathOfContact, gear: int, radius: Floats, azimuth: Floats) -> tuple[Floats, Floats]:
-    """Return the arcs X by which both gears have rotated while the tip of `gear` touches given points of its mate's
+    """Return the arcs X by which both gears have rotated when the tip of `gear` touches given points of the mate's
     flank.
 
-    The points are given by radius and azimuth [rad] in the mate's position X = 0. The tip of gear 1 touches beyond the
-    recess; the tip of gear 2 touches before the approach.
+    The points are given by radius and azimuth [rad] in the position of the mate at X = 0. The tip of gear 1 touches
+    beyond the recess; the tip of gear 2 touches before the approach.
     """
     pitch, mate = path.pitch, 3 - gear
     _, tip = path.ends(gear)
@@ -71,7 +72,9 @@ def corner_contact(path: PathOfContact, gear: int, radius: Floats, azimuth: Floa
 
 
 def _touched_flank(pair: ConjugatePair, gear: int) -> tuple[Floats, Floats]:
-    """Return radii and azimuths [rad] of the mate's flank that the tip of `gear` touches beyond the end of the path."""
+    """Return radii, and azimuths [rad], of the part of the mate's flank that the tip of `gear` touches beyond the end
+    of the path of contact.
+    """
     path, pitch, mate = pair.path, pair.path.pitch, 3 - gear
     last, first = path.ends(gear)
     # quadratic spacing, as the corner leaves the path along a parabola
@@ -90,12 +93,12 @@ def _touched_flank(pair: ConjugatePair, gear: int) -> tuple[Floats, Floats]:
 
 
 def flank_levers(path: PathOfContact, gear: int, X: Floats) -> Floats:
-    """Return the displacement of a flank along its normal at the contacts X, per 1 rad of rotation about its pitch
-    point.
+    """Return the displacement of a flank, along its normal at the contacts X, per radian of rotation of the flank about
+    its pitch point.
 
-    The rotation is anticlockwise in a view with X to the right and gear 2 above. With contact P, pitch point P0 of
-    the flank, unit normal n and unit vector z out of the plane, the displacement is z . ((P - P0) x n), on the
-    sphere P0 . (P x n).
+    The rotation is anticlockwise in a view with X to the right and gear 2 above. For a contact P, the pitch point P0 of
+    the flank, the unit normal n and the unit vector z out of the plane, the displacement is z . ((P - P0) x n), or P0 .
+    (P x n) on the sphere.
     """
     pitch, at = path.pitch, path.at(X)
     middle = np.zeros((len(X), 3 if pitch.bevel else 2))
@@ -108,43 +111,47 @@ def flank_levers(path: PathOfContact, gear: int, X: Floats) -> Floats:
 
 @dataclass(frozen=True)
 class CornerLag:
-    """Lag of the driven wheel [rad] while a tip corner touches beyond an end of the path of contact, tabulated at
-    equal steps.
+    """Lag of the driven wheel [rad] while the corner of a tip is in contact beyond an end of the path of contact,
+    tabulated at equal steps.
     """
 
     step: float
-    """Step of the driver's angle beyond the end of the path [rad]."""
+    """Increment of the driver's angle between tabulated lags [rad]."""
     lags: Floats
-    """Lag of the driven wheel at each step [rad], starting with 0 at the end of the path."""
+    """Lags of the driven wheel at equal increments of the driver's angle [rad], starting with 0 at the end of the path
+    of contact.
+    """
 
     def __call__(self, beyond: Floats) -> Floats:
-        """Return the lag [rad] at driver angles measured from the end of the path [rad]; 0 for negative angles,
-        infinite where the corner no longer touches.
+        """Return the lag of the driven wheel [rad] at driver angles `beyond` the end of the path of contact [rad]; 0
+        for negative angles, infinite where the corner no longer touches.
         """
         return np.interp(beyond, self.step * np.arange(len(self.lags)), self.lags, left=0.0, right=inf)
 
     @property
     def most(self) -> float:
-        """Driver angle from the end of the path to the last contact of the corner [rad]."""
+        """Driver angle between the end of the path of contact and the last contact of the corner [rad]."""
         return self.step * (len(self.lags) - 1)
 
 
 @dataclass(frozen=True)
 class DisplacedWheelSizes:
-    """Sizes of one wheel that convert its manufacturing errors to displacements [module; rad for bevel gears]."""
+    """Sizes of one wheel by which its manufacturing errors are converted to displacements [module; rad for bevel
+    gears].
+    """
 
     z: int
     """Number of teeth."""
     depth: float
     """Radial extent of the active flank [module; rad for bevel gears]."""
     half_angle: float
-    """Angle between the chord of the active flank and the centre line of its tooth [rad], at least 10 degrees."""
+    """Angle [rad] between the chord of the active flank and the centre line of the tooth, at least 10 degrees."""
     modules: float = 1.0
-    """Number of modules in the length unit of the sizes of the wheel; 1 if lengths are in modules."""
+    """Number of modules in the unit in which the sizes of the wheel are given; 1 if the sizes are in modules."""
 
     @property
     def pitch(self) -> float:
-        """Circular pitch in the length unit of the sizes of the wheel."""
+        """Circular pitch of the wheel, in the unit in which the sizes of the wheel are given."""
         return pi / self.modules
 
 
@@ -153,9 +160,9 @@ class DisplacedContact:
     """Contact of one tooth pair throughout its engagement, and the lag of the driven wheel caused by displaced
     flanks.
 
-    Lengths are in modules; on cones they are angles on the unit sphere. All columns are lags of the driven wheel (rad)
-    for a unit displacement, at even steps of the driver's angle x from `start` to `end` (rad). In pairs of columns, the
-    first column belongs to the driver, and the second to the driven wheel.
+    Lengths are in modules; on cones they are angles on the unit sphere. All columns are lags of the driven wheel [rad]
+    for a unit displacement, at equally spaced driver angles from `start` to `end` [rad]. In pairs of columns, the first
+    column belongs to the driver, and the second to the driven wheel.
     """
 
     wheels: tuple[DisplacedWheelSizes, DisplacedWheelSizes]
@@ -165,37 +172,39 @@ class DisplacedContact:
     end: float
     """Driver angle at which a tooth pair leaves contact [rad]."""
     across: tuple[Floats, Floats]
-    """Lag [rad] per unit displacement of the teeth across the line of centres, in the direction of motion."""
+    """Lag [rad] per unit displacement of the teeth perpendicular to the line of centres, in the direction of motion."""
     along: tuple[Floats, Floats]
-    """Lag [rad] per unit displacement of the teeth along the line of centres, away from their axle."""
+    """Lag [rad] per unit displacement of the teeth along the line of centres, away from the axle of their wheel."""
     tilt: tuple[Floats, Floats]
-    """Lag [rad] for a flank rotated about its pitch point by 1 rad so that it becomes flatter."""
+    """Lag [rad] per radian of rotation of a flank about its pitch point in the sense that makes the flank flatter."""
     apart: Floats
     """Lag [rad] per unit increase of the centre distance or shaft angle."""
     normal: Floats
-    """Lag [rad] per unit of material missing along the normal of a flank: the reciprocal of the moment arm."""
+    """Lag [rad] per unit of material removed along the normal of a flank. It is the reciprocal of the moment arm of the
+    normal.
+    """
     entering: CornerLag
-    """Lag [rad] while a tip touches before the start of the path of contact."""
+    """Lag [rad] while the corner of a tip is in contact before the start of the path of contact."""
     leaving: CornerLag
-    """Lag [rad] while a tip touches beyond the end of the path of contact."""
+    """Lag [rad] while the corner of a tip is in contact beyond the end of the path of contact."""
     longer: tuple[float, float]
-    """Shift of the end and of the start of contact [rad of the driver] per unit increase of the driver's and the driven
-    wheel's tip radius.
+    """Shift of the end of contact per unit increase of the driver's tip radius, and shift of the start of contact per
+    unit increase of the driven wheel's tip radius [rad of the driver].
     """
     backlash: float
-    """Backlash [rad of the driven wheel]."""
+    """Backlash, as an angle of the driven wheel [rad]."""
     tooth_phase: float
-    """Angle of a tooth of the driven wheel past the line of centres while the driven angle is 0 [rad]."""
+    """Angle by which a tooth of the driven wheel is past the line of centres when the driven angle is 0 [rad]."""
     even: Floats
-    """Lag of error-free wheels [rad] at the driver angles of the columns, caused by a centre distance other than
-    the design distance.
+    """Lag of the driven wheel [rad] for wheels without manufacturing errors, at the driver angles of the columns. The
+    cause is a centre distance other than the design distance.
     """
     distance: float
-    """Centre distance [module]; infinite if the axles are not parallel."""
+    """Centre distance [module]; infinite if the axes are not parallel."""
 
     @property
     def ratio(self) -> Fraction:
-        """Mean speed ratio, driven divided by driver."""
+        """Mean speed ratio: driven speed divided by driver speed."""
         return Fraction(self.wheels[0].z, self.wheels[1].z)
 
     @property
@@ -204,13 +213,15 @@ class DisplacedContact:
         return 2 * pi / self.wheels[0].z, 2 * pi / self.wheels[1].z
 
     def apart_by(self, shift: float) -> DisplacedContact:
-        """Return the contact of the same teeth at a centre distance larger by `shift` [module]."""
+        """Return the contact of the same teeth at a centre distance that is increased by `shift` [module]."""
         return replace(self, even=self.even + shift * self.apart, distance=self.distance + shift)
 
 
 @lru_cache(maxsize=256)
 def displaced_contact(pair: ConjugatePair, driver: int, gap: float = 0.0) -> DisplacedContact:
-    """Return the contact of a conjugate pair driven by gear `driver` at a centre distance larger by `gap` [module]."""
+    """Return the contact of a conjugate pair that is driven by gear `driver`, at a centre distance that exceeds the
+    design distance by `gap` [module].
+    """
     path, pitch, gears = pair.path, pair.path.pitch, (driver, 3 - driver)
     if sum(path.arcs) <= 0:
         raise RangeError(
@@ -260,9 +271,10 @@ def _for_both(gears: tuple[int, int], value: Callable[[int], Value]) -> tuple[Va
 
 
 def _corner_lag(pair: ConjugatePair, gear: int, driver: int) -> CornerLag:
-    """Return the lag of the driven wheel while the tip of `gear` touches beyond the path of contact.
+    """Return the lag of the driven wheel while the tip of `gear` is in contact beyond an end of the path of contact.
 
-    The driver's tip touches as the teeth leave contact; the driven tip touches as they enter contact.
+    The driver's tip is in contact while teeth leave contact; the driven wheel's tip is in contact while teeth enter
+    contact.
     """
     path, pitch = pair.path, pair.path.pitch
     _, first = path.ends(gear)

@@ -1,7 +1,8 @@
-"""Involute wheels cut by a rack: sizes, tooth thickness, working pressure angle of a pair, arcs. Lengths in modules.
+"""Involute wheels cut by a rack: sizes, tooth thickness, operating pressure angle of a pair, arcs of contact. Lengths
+are in modules.
 
 The rack is shifted outwards by `shift` modules. The tooth spaces of a ring gear have the shape of the teeth of an
-external wheel. A shift of the ring also counts outwards, so that it widens these spaces.
+external wheel. A profile shift of the ring is also positive outwards, so that it widens these spaces.
 """
 
 from __future__ import annotations
@@ -17,12 +18,12 @@ _ROUNDING = 1e-12  # modules: a negative arc of less counts as 0
 
 
 def inv(angle: float) -> float:
-    """Return the involute function tan x - x of an angle x [rad]."""
+    """Return the involute function of an angle x [rad], tan x - x."""
     return tan(angle) - angle
 
 
 def inv_angle(value: float) -> float:
-    """Return the angle [rad] whose involute function is `value`, 0 or more."""
+    """Return the angle [rad] whose involute function equals `value`, which must be 0 or more."""
     # the tangent is infinite at a right angle
     high = pi / 2 - 1e-9
     return root(lambda x: inv(x) - value, 0.0, high, -value, inv(high) - value) if value else 0.0
@@ -30,7 +31,9 @@ def inv_angle(value: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class InvoluteWheel:
-    """Involute wheel cut by a rack: tooth count, profile shift, addendum, dedendum [module], pressure angle [rad]."""
+    """Involute wheel that is cut by a rack: tooth count, profile shift [module], addendum [module], dedendum [module],
+    pressure angle [rad].
+    """
 
     z: float
     psi: float
@@ -38,7 +41,7 @@ class InvoluteWheel:
     addendum: float
     dedendum: float
     cut: float
-    """Depth to which the rack's flank is straight [module]; a larger depth causes undercut."""
+    """Depth down to which the flank of the rack is straight [module]. A larger depth causes more undercut."""
     ring: bool = False
 
     @property
@@ -62,14 +65,14 @@ class InvoluteWheel:
         return self.r + self.shift + (self.dedendum if self.ring else -self.dedendum)
 
     def half(self, psi: float) -> float:
-        """Return half the angular tooth thickness [rad] on the circle with the pressure angle `psi` [rad]."""
+        """Return half of the angular tooth thickness [rad] on the circle at which the pressure angle is `psi` [rad]."""
         # a ring's tooth has the shape of an external wheel's tooth space, with opposite signs of shift and involute
         sign = -1 if self.ring else 1
         return (pi / 2 + sign * 2 * self.shift * tan(self.psi)) / self.z + sign * (inv(self.psi) - inv(psi))
 
     def undercut(self) -> float:
-        """Return the radius up to which the rack's corner removes the involute [module]; 0 if it removes nothing, and
-        for ring gears.
+        """Return the radius up to which the rack's corner cuts away the involute [module]; 0 if it cuts nothing away,
+        and for ring gears.
         """
         u = self.cut - self.shift
         if self.ring or u <= self.r * sin(self.psi) ** 2:
@@ -80,8 +83,8 @@ class InvoluteWheel:
         return root(self._corner_offset, low, self.r, at_low, at_high) if at_low < 0 < at_high else 0.0
 
     def _corner_offset(self, radius: float) -> float:
-        """Return the azimuth of the corner's trochoid minus the azimuth of the involute at a radius [rad]; negative
-        where the corner cuts.
+        """Return the azimuth of the trochoid cut by the rack's corner minus the azimuth of the involute, at a radius
+        [rad]; negative where the corner cuts into the involute.
         """
         r, psi, u = self.r, self.psi, self.cut - self.shift
         below = r - u
@@ -94,17 +97,21 @@ class InvoluteWheel:
 
 @dataclass(frozen=True, slots=True)
 class InvolutePair:
-    """Pair of involute wheels at a centre distance [module]; the first drives, and the second may be a ring gear."""
+    """Pair of involute wheels at a centre distance [module]. The first wheel drives, and the second may be a
+    ring gear.
+    """
 
     first: InvoluteWheel
     second: InvoluteWheel
     distance: float
     thinned: float = 0.0
-    """Total reduction of the tooth thickness of both wheels from a pair without backlash, as an arc X [module]."""
+    """Total reduction of the tooth thicknesses of both wheels relative to a pair without backlash, as an arc X
+    [module].
+    """
 
     @property
     def psi(self) -> float:
-        """Operating pressure angle (rad): cos psi_w = (sum or difference of the base radii) / distance."""
+        """Operating pressure angle psi_w [rad], from cos psi_w = (sum or difference of the base radii) / distance."""
         bases = self.second.base - self.first.base if self.second.ring else self.second.base + self.first.base
         return acos(bases / self.distance)
 
@@ -117,7 +124,7 @@ class InvolutePair:
 
     @property
     def halves(self) -> tuple[float, float]:
-        """Half the tooth thickness of each wheel on its operating pitch circle, as an arc X [module]."""
+        """Half-thicknesses of the teeth of both wheels on their operating pitch circles, as arcs X [module]."""
         pitch, psi = self.pitch, self.psi
         first, second = self.first.half(psi) * pitch.R1, self.second.half(psi) * abs(pitch.R2)
         return first - self.thinned / 4, second - self.thinned / 4
@@ -128,7 +135,9 @@ class InvolutePair:
         return self.pitch.p - 2 * sum(self.halves)
 
     def bottom_clearance(self, gear: int) -> float:
-        """Return the distance from the root of one wheel to the tip of its mate [module]; negative if they overlap."""
+        """Return the distance between the root circle of one wheel and the tip circle of its mate [module]; negative if
+        the circles overlap.
+        """
         own, mate = (self.first, self.second) if gear == 1 else (self.second, self.first)
         if not self.second.ring:
             return self.distance - mate.tip - own.root
@@ -138,7 +147,7 @@ class InvolutePair:
 
     @property
     def arcs(self) -> tuple[float, float]:
-        """Arcs X of approach and recess, as limited by the tip circles [module].
+        """Arcs X of approach and recess [module], which are limited by the tip circles.
 
         One arc is negative if the tip circle of a wheel does not reach the operating pitch circle. Contact is then on
         one side of the pitch point only. Raises `RangeError` if the teeth do not reach each other at all.
@@ -161,11 +170,12 @@ class InvolutePair:
 
 
 def free_distance(first: InvoluteWheel, second: InvoluteWheel) -> float:
-    """Return the centre distance without backlash [module]: inv psi_w = inv psi + 2 tan psi (x1 + x2) / (z1 + z2).
+    """Return the centre distance at which the pair has no backlash [module]: inv psi_w = inv psi + 2 tan psi (x1 + x2)
+    / (z1 + z2).
 
-    psi is the pressure angle of the rack, psi_w the operating pressure angle; x are the profile shifts [module] and z
-    the tooth numbers. With a ring gear, z1 and x1 of the pinion have a negative sign. Raises `GearTrainError` if no
-    such distance exists because the negative profile shifts are too large.
+    psi is the pressure angle of the rack, psi_w the operating pressure angle; x1 and x2 are the profile shifts
+    [module], and z1 and z2 the tooth numbers. With a ring gear, z1 and x1 of the pinion have a negative sign. Raises
+    `GearTrainError` if no such distance exists because the negative profile shifts are too large.
     """
     psi, sign = first.psi, -1 if second.ring else 1
     teeth, shifts = second.z + sign * first.z, second.shift + sign * first.shift
@@ -183,11 +193,11 @@ def free_distance(first: InvoluteWheel, second: InvoluteWheel) -> float:
 
 
 def spherical_arc(R: float, psi: float, tip: float) -> float:
-    """Return the arc X of a spherical involute from the pitch cone R to the tip cone `tip` [rad on the unit
-    sphere].
+    """Return the arc X of a spherical involute from the pitch cone with the half-angle `R` to the tip cone with the
+    half-angle `tip` [rad on the unit sphere].
 
-    It is negative if the tip cone is inside the pitch cone. The distance d of the last contact from the pitch point
-    follows from cos tip = cos d cos R - sin d sin psi sin R with the pressure angle psi, where cos(base cone) =
+    The arc is negative if the tip cone is inside the pitch cone. The distance d of the last contact from the pitch
+    point follows from cos tip = cos d cos R - sin d sin psi sin R with the pressure angle psi, where cos(base cone) =
     sqrt(cos^2 R + sin^2 psi sin^2 R).
     """
     base = sqrt(cos(R) ** 2 + (sin(psi) * sin(R)) ** 2)
@@ -196,5 +206,7 @@ def spherical_arc(R: float, psi: float, tip: float) -> float:
 
 
 def cone_height(R: float, z: float, height: float) -> float:
-    """Return the angle [rad] above the pitch cone R of a height given in modules of the large end."""
+    """Return the angle [rad] above the pitch cone with half-angle `R` that corresponds to a height in modules of the
+    large end.
+    """
     return atan(height * 2 * sin(R) / z)

@@ -52,7 +52,9 @@ class OffDesignTransmission(OutlineTransmission):
 
 @lru_cache(maxsize=64)
 def _outline_gears(pair: ConjugatePair, distance: float) -> OutlineGears:
-    """Return the outlines of a pair at a centre distance, from a cache that keeps their contact results."""
+    """Return the outlines of a pair at a centre distance [module]. The result is cached, together with its contact
+    results.
+    """
     return OutlineGears(*pair_outlines(pair), distance, sum(pair.halves), pair.backlash, pair.faults)
 
 
@@ -103,7 +105,9 @@ def _outline(pair: ConjugatePair, gear: int, z: int, R: float) -> GearOutline:
 
 
 def _body_points(path: PathOfContact, gear: int, X: Floats) -> Floats:
-    """Return points (x, y) of a flank in the wheel's frame [module]: x towards the tooth space ahead, y outwards."""
+    """Return the points (x, y) of a flank [module] in the wheel's frame, in which x points towards the tooth space
+    ahead and y outwards.
+    """
     points = path.flank(gear, X)
     if gear == 1:
         return np.asarray(points + np.array([0.0, path.pitch.R1]))
@@ -117,7 +121,9 @@ def _joints(path: PathOfContact) -> list[float]:
 
 
 def _root_line(flank: object, foot: float, tip: float) -> OutlineCurve:
-    """Return the root flank of a tooth: a straight line that continues the lower end of its flank tangentially."""
+    """Return the root flank of a tooth: a straight line that continues the lower end of the active
+    flank tangentially.
+    """
     assert callable(flank)
     # small enough for the tangent, large enough that the difference exceeds rounding
     start, near = flank(np.array([foot, foot + 1e-4 * (tip - foot)]))

@@ -1,8 +1,8 @@
 """Sides of the optimal tooth forms: uniform stress, uniform temperature and minimum friction; and the involute.
 
-A side (approach or recess) of a path of contact gives the pressure angle psi at the distance d from the pitch
-point. It depends on the curvature `a` of the pitch surface whose addendum works and the curvature `b` of the
-pitch surface whose dedendum works: a = A, b = B in recess, exchanged in approach.
+A side (approach or recess) of a path of contact gives the pressure angle psi at the distance d from the pitch point. It
+depends on the curvature `a` of the pitch surface of the gear in contact at its addendum, and the curvature `b` of the
+pitch surface of the gear in contact at its dedendum: a = A and b = B in recess, exchanged in approach.
 
 Uniform stress and uniform temperature are solutions of S v' + f(d, v) = 0. Here S is d, or sin d for bevel
 gears, and v is sin psi or sin psi / S. For pressure angles below 45 deg exactly one solution is bounded at the
@@ -49,21 +49,22 @@ _GIVEN_UP = 1e-4  # fraction of the end: resolution at which an end counts as un
 
 
 def involute(X: float, psi: float) -> PathSide:
-    """Return the side of the path of contact of an involute, with constant pressure angle `psi` [rad] and the
-    arc X along the pitch surfaces.
+    """Return one side of the path of contact of an involute, with a constant pressure angle `psi` [rad] and an arc of
+    length X on the pitch surfaces.
 
-    With the arc 0, the path begins or ends at the pitch point.
+    If X is 0, the path of contact begins or ends at the pitch point.
     """
     return PathSide((ray(psi, X * cos(psi)),))
 
 
 def uniform_stress(pitch: PitchSurfaces, a: float, b: float, X: float, psi: float) -> PathSide:
-    """Return the side of a path of contact with constant Hertzian pressure and the arc X.
+    """Return one side of a path of contact with constant Hertzian pressure and an arc of length X on the pitch
+    surfaces.
 
-    The relative curvature of the profiles divided by cos psi is then constant. `a` and `b` are the curvatures of
-    the pitch surfaces of addendum and dedendum, `psi` is the pressure angle psi0 at the pitch point [rad]. The
-    derivative w of S sin psi with respect to d is ((b - a) S + sqrt((a + b)^2 S^2 + 4 k tan psi)) / 2 with k = sin
-    psi0 cos psi0.
+    The relative curvature of the profiles divided by cos psi is then constant. `a` and `b` are the curvatures of the
+    pitch surfaces of the gears in contact at their addendum and at their dedendum, `psi` is the pressure angle psi0 at
+    the pitch point [rad]. The derivative w of S sin psi with respect to d is ((b - a) S + sqrt((a + b)^2 S^2 + 4 k tan
+    psi)) / 2 with k = sin psi0 cos psi0.
     """
     return PathSide((_piece_over_arc(_solutions(pitch, stress_law(pitch, a, b, psi), sin(psi)), X * cos(psi), X),))
 
@@ -71,7 +72,7 @@ def uniform_stress(pitch: PitchSurfaces, a: float, b: float, X: float, psi: floa
 def stress_law(pitch: PitchSurfaces, a: float, b: float, psi: float) -> ValueAndSlope:
     """Return the function f of the differential equation of uniform stress, S v' + f(d, v) = 0 with v = sin psi.
 
-    It returns f and df/dv, docs/shapes.md (8). `psi` is the pressure angle at the pitch point [rad].
+    The function returns f and df/dv, docs/shapes.md (8). `psi` is the pressure angle at the pitch point [rad].
     """
     k = sin(psi) * cos(psi)
 
@@ -87,11 +88,11 @@ def stress_law(pitch: PitchSurfaces, a: float, b: float, psi: float) -> ValueAnd
 
 
 def _piece_over_arc(made: Callable[[float], PathPiece], guess: float, X: float, start: float = 0.0) -> PathPiece:
-    """Return the piece of a path of contact that ends at the arc X, by Newton's method for the distance d of its
-    end.
+    """Return the piece of a path of contact that ends at the arc X. Newton's method determines the distance d of this
+    end from the pitch point.
 
-    `made` returns the piece with a given end. An end that cannot be reached is bisected towards the last end that
-    was reached.
+    `made` returns the piece that ends at a given distance d. An end that cannot be reached is bisected towards the last
+    end that was reached.
     """
     low, end, last = start, guess, inf
     for _ in range(_TRIES):
@@ -114,8 +115,8 @@ def _piece_over_arc(made: Callable[[float], PathPiece], guess: float, X: float, 
 def _solutions(
     pitch: PitchSurfaces, f: ValueAndSlope, first: float, start: float = 0.0, piece_maker: PieceMaker | None = None
 ) -> Callable[[float], PathPiece]:
-    """Return a function that solves S v' + f(d, v) = 0 up to a given end d, and returns the piece of the path of
-    contact.
+    """Return a function that solves S v' + f(d, v) = 0 up to a given distance d, and returns the solution as a piece of
+    a path of contact.
 
     Each solution is the initial guess of the next one.
     """
@@ -130,14 +131,17 @@ def _solutions(
 
 
 def _sine_piece(pitch: PitchSurfaces, f: ValueAndSlope, v: Chebyshev, end: float) -> PathPiece:
-    """Return the piece of a path of contact for a solution v = sin psi of the pressure angle at distances d."""
+    """Return the piece of a path of contact that corresponds to a solution v = sin psi as a function of the distance d,
+    where psi is the pressure angle.
+    """
     return sampled(v, _slope(pitch, f, v), v.domain[0], end, max(len(v.coef), 64))
 
 
 def _slope(pitch: PitchSurfaces, f: ValueAndSlope, v: Chebyshev) -> Callable[[Floats], Floats]:
     """Return a function that computes the derivative v' of a solution v of S v' + f(d, v) = 0.
 
-    It uses the differential equation, and the series close to the pitch point, where the equation gives 0/0.
+    The function uses the differential equation, except close to the pitch point, where the equation gives 0/0 and a
+    series is used.
     """
     steep = v.deriv()
 
@@ -150,7 +154,8 @@ def _slope(pitch: PitchSurfaces, f: ValueAndSlope, v: Chebyshev) -> Callable[[Fl
 
 
 def uniform_heat(pitch: PitchSurfaces, beta: float, gamma: float, X: float) -> PathSide:
-    """Return the side of a path of contact with uniform frictional heat per area of a profile, and the arc X.
+    """Return one side of a path of contact with uniform frictional heat per area of a profile, and an arc of length X
+    on the pitch surfaces.
 
     The derivative w of S sin psi with respect to d is beta S + gamma S / cos psi, and the pressure angle psi is 0
     at the pitch point. `beta` is the curvature of the pitch surface of the hotter profile, as interpreted in
@@ -166,7 +171,7 @@ def uniform_heat(pitch: PitchSurfaces, beta: float, gamma: float, X: float) -> P
 def heat_law(pitch: PitchSurfaces, beta: float, gamma: float) -> ValueAndSlope:
     """Return the function f of the differential equation of uniform heat, S g' + f(d, g) = 0 with g = sin psi / S.
 
-    It returns f and df/dg, docs/shapes.md (9). `beta` and `gamma` are as in `uniform_heat`.
+    The function returns f and df/dg, docs/shapes.md (9). `beta` and `gamma` have the same meaning as in `uniform_heat`.
     """
 
     def f(d: Floats, g: Floats) -> tuple[Floats, Floats]:
@@ -180,8 +185,8 @@ def heat_law(pitch: PitchSurfaces, beta: float, gamma: float) -> ValueAndSlope:
 
 
 def _quotient_piece(pitch: PitchSurfaces, f: ValueAndSlope, g: Chebyshev, end: float) -> PathPiece:
-    """Return the piece of a path of contact for a solution g = sin psi / S of 2 S' g + S g' = beta + gamma / cos
-    psi.
+    """Return the piece of a path of contact that corresponds to a solution g = sin psi / S of 2 S' g + S g' = beta +
+    gamma / cos psi.
     """
     steep = _slope(pitch, f, g)
     return sampled(
@@ -194,11 +199,12 @@ def _quotient_piece(pitch: PitchSurfaces, f: ValueAndSlope, g: Chebyshev, end: f
 
 
 def bounded_heat(pitch: PitchSurfaces, b: float, gamma: float, X: float, psi: float) -> PathSide:
-    """Return a side of a path of contact with finite stress: constant pressure angle `psi` up to the permitted
-    heat, then uniform heat.
+    """Return one side of a path of contact with finite stress: a piece with constant pressure angle `psi` up to the
+    permitted heat, then a piece with uniform heat.
 
-    The first piece ends where S / S' = sin psi / (b + gamma / cos psi), with S = d, or sin d for bevel gears, and
-    `b` and `gamma` as `beta` and `gamma` in `uniform_heat`. If it does not reach that heat, it is the whole side.
+    The first piece ends where S / S' = sin psi / (b + gamma / cos psi), with S = d, or sin d for bevel gears. `b` and
+    `gamma` have the meaning of `beta` and `gamma` in `uniform_heat`. If the first piece does not reach the permitted
+    heat, it is the whole side.
     """
     tangent = sin(psi) / (b + gamma / cos(psi))
     first = atan(tangent) if pitch.bevel else tangent
@@ -219,13 +225,13 @@ def bounded_heat(pitch: PitchSurfaces, b: float, gamma: float, X: float, psi: fl
 def least_friction(
     pitch: PitchSurfaces, b: float, X: float, psi: float, u: float, weight: Weight | None = None
 ) -> PathSide:
-    """Return the side of a path of contact with minimum friction loss: first the maximum pressure angle `psi`, then
-    the minimum contact speed `u` along the dedendum, as a fraction of the pitch-line speed.
+    """Return one side of a path of contact with minimum friction loss: first a piece with the maximum pressure angle
+    `psi`, then a piece with the minimum contact speed `u` along the dedendum, as a fraction of the pitch-line speed.
 
     The length of the first piece makes the first variation of the loss over the second piece vanish: docs/shapes.md
     (12) and (13), or (19) if friction depends on speed and `weight` gives the coefficient of friction times S at
-    distances d. Raises `RangeError` if the arc is longer than teeth within both bounds can reach, or if a shape
-    other than these two pieces would have less loss.
+    distances d. Raises `RangeError` if the arc X is longer than teeth within both bounds can reach, or if a shape other
+    than these two pieces would have less loss.
     """
     loss = pitch.S if weight is None else weight
     longest = X * cos(psi)
@@ -274,8 +280,8 @@ def _first_variation(pitch: PitchSurfaces, piece: PathPiece, loss: Weight) -> fl
     """Return the first variation of the friction loss over the piece of minimum contact speed, docs/shapes.md (13)
     or (19).
 
-    It is the integral over d of eta / (S^2 cos psi) (2 S / cos^3 psi - lambda / cos^2 psi). Here psi is the
-    pressure angle, S is d or sin d, eta = S sin psi, and lambda is S / cos psi at the end of the piece. The S in
+    The first variation is the integral over d of eta / (S^2 cos psi) (2 S / cos^3 psi - lambda / cos^2 psi). Here psi
+    is the pressure angle, S is d or sin d, eta = S sin psi, and lambda is S / cos psi at the end of the piece. The S in
     the last two terms is replaced by `loss` if friction depends on speed.
     """
     x, weights = _GAUSS
@@ -294,12 +300,12 @@ def solved(
     start: float = 0.0,
     near: Chebyshev | None = None,
 ) -> Chebyshev:
-    """Return the solution v(d) of S v' + f(d, v) = 0 on [start, end] with v = `first` at `start`, by Chebyshev
+    """Return the solution v(d) of S v' + f(d, v) = 0 on [start, end] with v = `first` at `start`, computed by Chebyshev
     collocation. S is d, or sin d for bevel gears.
 
     f      function of d, v that returns f and its derivative with respect to v; f(0, first) = 0 makes the solution
            bounded at the pitch point
-    near   the solution up to another end, as the initial guess
+    near   solution on an interval with another end, used as the initial guess; None if there is none
 
     The number of nodes is doubled until the last coefficients are below 1e-14 of the largest one. Raises `RangeError`
     if the solution leaves the domain of f, or comes so near to its boundary that the coefficients do not decrease.
@@ -326,7 +332,7 @@ def fitted(
     nodes: int,
     near: Chebyshev | None = None,
 ) -> Chebyshev:
-    """Return the solution of the differential equation in `solved` with a fixed number of Chebyshev nodes."""
+    """Return the solution of the differential equation in `solved`, computed with a fixed number of Chebyshev nodes."""
     x, _ = points(nodes)
     d = start + (end - start) * (x + 1) / 2
     # constant beyond its end, where a series soon diverges
@@ -338,14 +344,16 @@ def _collocated(pitch: PitchSurfaces, f: ValueAndSlope, first: float, d: Floats,
     """Return the solution v of the differential equation in `solved` at the Chebyshev nodes d, with v = `first` at
     the first node.
 
-    Damped Newton steps start at the guess `v` and end at the limit of rounding.
+    Damped Newton steps start at the guess `v` and stop when rounding errors prevent further improvement.
     """
     matrix = pitch.S(d)[:, None] * differentiation(len(d)) * (2 / (d[-1] - d[0]))
     # the condition v = first replaces the first row, which is degenerate: S is 0 at the pitch point
     matrix[0] = 0.0
 
     def residual(v: Floats) -> tuple[Floats, Floats]:
-        """Return the residual of the differential equation at each node, and the diagonal df/dv of the Jacobian."""
+        """Return the residual of the differential equation at each node, and the derivative df/dv at each node (the
+        diagonal part of the Jacobian).
+        """
         off, slope = f(d, v)
         off[0], slope[0] = v[0] - first, 1.0
         return matrix @ v + off, slope
@@ -373,7 +381,7 @@ def _collocated(pitch: PitchSurfaces, f: ValueAndSlope, first: float, d: Floats,
 
 
 def unreachable_end(end: float) -> RangeError:
-    """Return the error for an end of the path of contact that cannot be reached."""
+    """Return the error that reports an end of the path of contact which cannot be reached."""
     return RangeError(
         Problem(
             f"the path of contact does not reach {end:.6g} (modules; bevel gears: rad) from the pitch point",
@@ -389,8 +397,8 @@ def unreachable_end(end: float) -> RangeError:
 def variation_integrand(pitch: PitchSurfaces, piece: PathPiece, d: Floats, loss: Weight) -> Floats:
     """Return the integrand of the first variation of the friction loss at distances d.
 
-    It is the additional loss if the path of contact is higher at d, minus the loss saved because the arc becomes
-    longer.
+    The integrand is the additional loss if the path of contact is higher at d, minus the loss saved because the arc
+    becomes longer.
     """
     S, sine = pitch.S(d), piece.sin_psi(d)
     cosine = np.sqrt(1 - sine**2)
@@ -401,8 +409,8 @@ def variation_integrand(pitch: PitchSurfaces, piece: PathPiece, d: Floats, loss:
 
 
 def check_pieces(pitch: PitchSurfaces, piece: PathPiece, weight: Weight) -> None:
-    """Raise `RangeError` if a constant pressure angle followed by this piece of minimum contact speed does not have
-    minimum friction loss (conditions in docs/shapes.md, section 15).
+    """Raise `RangeError` if a constant pressure angle followed by the given piece of minimum contact speed does not
+    minimise the friction loss (conditions in docs/shapes.md, section 15).
     """
     if (np.diff(weight(np.linspace(0.0, piece.end, _CHECKED))) < 0).any():
         raise other_shape_error("the friction loss decreases with increasing sliding velocity at some contacts")
@@ -413,8 +421,8 @@ def check_pieces(pitch: PitchSurfaces, piece: PathPiece, weight: Weight) -> None
 
 
 def other_shape_error(why: str) -> RangeError:
-    """Return the error for a friction law under which constant pressure angle and minimum contact speed do not give
-    minimum loss.
+    """Return the error that reports a friction law for which a constant pressure angle and a minimum contact speed do
+    not minimise the loss.
     """
     return RangeError(
         Problem(

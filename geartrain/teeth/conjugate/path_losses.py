@@ -2,12 +2,12 @@
 
 The tooth force is known only with an assumption on how tooth pairs in contact at the same time share the load. Two
 assumptions are used here: one pair bears the whole load along its whole path, or the pairs in contact bear equal parts
-at every instant. They agree if the contact ratio is 1.
+at every instant. Both assumptions give the same results if the contact ratio is 1.
 
-Friction of one contact is exact in its coefficient, for spur and bevel wheels and ring gears (docs/shapes.md (6) for
-spur pairs). The contact pushes with N along the normal n and rubs with mu N across it, against the sliding, whose
-sense reverses at the pitch point. The power that enters at gear i, or leaves there, divided by N and by the
-pitch-line speed, is, at the distance d from the pitch point and the pressure angle psi,
+The efficiency of one contact is an exact function of the friction coefficient, for spur and bevel wheels and ring gears
+(docs/shapes.md (6) for spur pairs). The contact pushes with N along the normal n and rubs with mu N across it, against
+the sliding, whose sense reverses at the pitch point. The power that enters at gear i, or leaves there, divided by N and
+by the pitch-line speed, is, at the distance d from the pitch point and the pressure angle psi,
 
     gear 1: cos psi + s mu (S' sin psi + A S),   gear 2: cos psi + s mu (S' sin psi - B S),
 
@@ -46,16 +46,16 @@ ONE_PAIR = "one pair of teeth bears the whole load along its whole path"
 SHARED = "pairs of teeth in contact share the load equally at every instant"
 
 LOADED = ("loss", "stress", "off_pitch", "heat", "flash")
-"""Names of the results that depend on the load sharing of tooth pairs, in the order of the table columns."""
+"""Names of the results that depend on how tooth pairs share the load, in the order of the table columns."""
 FREE = ("depth", "contact_ratio", "slowest")
-"""Names of the results that do not depend on load sharing."""
+"""Names of the results that do not depend on how tooth pairs share the load."""
 _STEP, _STEPS = 1.25, 40  # growth factor of the bracket, and maximum number of growths: 1.25^40 = 7500
 
 
 @dataclass(frozen=True, slots=True)
 class PathLosses(Result):
-    """Loss, stress, heat and flash temperature along a path of contact, for one assumption on the load sharing of tooth
-    pairs.
+    """Loss, stress, heat and flash temperature along a path of contact, for one assumption on how tooth pairs share the
+    load.
 
     All quantities are normalised by friction and load. Lengths are in modules, or in radians for bevel gears.
 
@@ -67,28 +67,30 @@ class PathLosses(Result):
     KEYS = ("assumption", *(Key(name, to=finite) for name in LOADED))
 
     assumption: str
-    """Description of the assumption on the load sharing of tooth pairs."""
+    """Description of the assumption on how tooth pairs share the load."""
     loss: float
-    """Mean loss divided by the friction coefficient, to first order.
+    """Mean power loss divided by the input power and by the friction coefficient, to first order.
 
     If one tooth pair carries the load, this is the mean along its path, (A + B) (J_a + J_r) / (X_a + X_r)
     (Buckingham), with the curvatures A and B of the pitch surfaces, and sliding integrals J and arcs X of approach
     and recess. If tooth pairs share the load, it is the mean over a pitch (Ohlendorf).
     """
     stress: float
-    """Maximum Hertzian pressure divided by the square root of the tangential force, up to a material constant: the
+    """Maximum Hertzian pressure divided by the square root of the tangential force, apart from a material constant: the
     square root of the maximum of `PathContact.H`. It is infinite if the pressure angle is 0 at a contact.
     """
     off_pitch: float
-    """Maximum of the quantity in `stress` over contacts at least a tenth of a pitch away from the pitch point; 0 if no
-    such contacts exist.
+    """Maximum of the quantity described in `stress` over contacts at least a tenth of a pitch away from the pitch
+    point; 0 if there are no such contacts.
     """
     heat: float
-    """Maximum frictional heat per area of either profile, divided by friction coefficient times tangential force."""
+    """Maximum frictional heat per area of either profile, divided by the product of friction coefficient and tangential
+    force.
+    """
     flash: float
-    """Maximum of F_n^(3/4) kr^(1/4) |sqrt U1 - sqrt U2| along the path, to which Blok's flash temperature is
-    proportional. F_n is the normal force, kr is the relative curvature, and U1 and U2 are the contact speeds along the
-    profiles.
+    """Maximum of F_n^(3/4) kr^(1/4) |sqrt U1 - sqrt U2| along the path of contact. Blok's flash temperature is
+    proportional to this quantity. F_n is the normal force, kr is the relative curvature, and U1 and U2 are the contact
+    speeds along the profiles.
     """
 
     def over(self, other: PathLosses) -> dict[str, float]:
@@ -111,10 +113,10 @@ class PathMeasures(Result):
     one_pair: PathLosses
     """Losses and loads if one tooth pair carries the whole load."""
     shared: PathLosses
-    """Losses and loads if the tooth pairs in contact share the load equally."""
+    """Losses and loads if the tooth pairs in contact share the load in equal parts."""
     depth: float
-    """Working depth, |eta_a| + eta_r, from the heights eta of the first and the last contact above the pitch line
-    [module; rad for bevel gears].
+    """Working depth |eta_a| + eta_r, where eta_a and eta_r are the heights of the first and the last contact above the
+    pitch line [module; rad for bevel gears].
     """
     slowest: float
     """Minimum speed of the contact point along a dedendum, divided by the pitch-line speed."""
@@ -124,7 +126,7 @@ class PathMeasures(Result):
     def over(self, other: PathMeasures) -> PathRatios:
         """Return the ratio of each quantity to the same quantity of another path of contact.
 
-        other   measures of the reference path, for example of an involute
+        other   results of the reference path, for example of an involute
         """
         free = {name: getattr(self, name) / getattr(other, name) for name in FREE}
         return PathRatios(self.one_pair.over(other.one_pair), self.shared.over(other.shared), free)
@@ -132,16 +134,16 @@ class PathMeasures(Result):
 
 @dataclass(frozen=True, slots=True)
 class PathRatios(Result):
-    """Ratios of the results of one path to the results of a reference path, by name."""
+    """Ratios of the results of one path of contact to the results of a reference path, keyed by name of the result."""
 
     KEYS = (Key("one_pair", to=finite), Key("shared", to=finite), Key("", "free", finite))
 
     one_pair: dict[str, float]
-    """Ratios of losses and loads if one tooth pair carries the whole load."""
+    """Ratios of losses and loads for the case that one tooth pair carries the whole load."""
     shared: dict[str, float]
-    """Ratios of losses and loads if the tooth pairs in contact share the load equally."""
+    """Ratios of losses and loads for the case that the tooth pairs in contact share the load equally."""
     free: dict[str, float]
-    """Ratios of the results that do not depend on load sharing."""
+    """Ratios of the results that do not depend on how tooth pairs share the load."""
 
 
 def measure(path: PathOfContact) -> PathMeasures:
@@ -178,7 +180,9 @@ def measure(path: PathOfContact) -> PathMeasures:
 
 
 Stretch = tuple[float, float, int]
-"""Interval of the arc X, as its first and last value, and the number of tooth pairs in contact in it."""
+"""Interval of the arc X: its first value, its last value, and the number of tooth pairs in contact within
+the interval.
+"""
 
 
 def sharing(path: PathOfContact) -> list[Stretch]:
@@ -199,7 +203,9 @@ def sharing(path: PathOfContact) -> list[Stretch]:
 
 
 def _losses_of(path: PathOfContact, assumption: str, stretches: list[Stretch]) -> PathLosses:
-    """Return the losses and loads if the tooth pairs in contact in each interval share the load equally."""
+    """Return the losses and loads for the case that the tooth pairs in contact in each interval share the
+    load equally.
+    """
     pitch = path.pitch
     # the pressure is unbounded at the pitch point of some forms, so it is also computed beyond a tenth of a pitch; less
     # rounding, so that a change of the number of tooth pairs exactly there counts for every form
@@ -222,8 +228,8 @@ def _losses_of(path: PathOfContact, assumption: str, stretches: list[Stretch]) -
 
 
 def _sliding_between(path: PathOfContact, low: float, high: float) -> float:
-    """Return the sliding integral J of S / cos^2 psi over d for arcs X from `low` to `high`, docs/shapes.md (7). S is
-    d, or sin d for bevel gears.
+    """Return the sliding integral J, the integral of S / cos^2 psi over d, for arcs X from `low` to `high`,
+    docs/shapes.md (7). S is d, or sin d for bevel gears.
     """
     x, weights = _GAUSS
     total = 0.0
@@ -234,7 +240,9 @@ def _sliding_between(path: PathOfContact, low: float, high: float) -> float:
 
 
 def depth(path: PathOfContact) -> float:
-    """Return the working depth [module]: height of the last contact above the first, summed over both sides."""
+    """Return the working depth [module; rad for bevel gears]: the height of the last contact above the first contact,
+    summed over approach and recess.
+    """
     total = 0.0
     for _, piece, first, last in path.legs():
         ends = np.array([first, last])
@@ -243,8 +251,8 @@ def depth(path: PathOfContact) -> float:
 
 
 def sliding(path: PathOfContact) -> tuple[float, float]:
-    """Return the maximum of the sliding speed divided by the pitch-line speed, and its maximum divided by the lower of
-    the two contact speeds along the flanks at the same contact.
+    """Return two maxima over the path of contact: of the sliding speed divided by the pitch-line speed, and of the
+    sliding speed divided by the lower of the two contact speeds along the flanks.
     """
     pitch = path.pitch
     slide = maximum(path, lambda c: (pitch.A + pitch.B) * np.abs(pitch.S(c.d)))
@@ -260,7 +268,7 @@ def maximum(
     high: float = inf,
 ) -> float:
     """Return the maximum of the contact quantity `what` over contacts with |X| >= `beyond` and X from `low` to `high`;
-    -inf if there are none.
+    -inf if there are no such contacts.
 
     Each piece of the path is scanned on a grid, and the bracket of its maximum is then refined.
     """
@@ -276,7 +284,7 @@ def maximum(
 def peak(f: Callable[[Floats], Floats], first: float, last: float) -> float:
     """Return the maximum of f on [first, last] by repeated grid refinement.
 
-    At 0, the pitch point of a path, f may be 0/0; it is evaluated at a small distance from it.
+    At 0, the pitch point of a path of contact, f may be 0/0, so it is evaluated at a small distance from 0.
     """
     d = np.linspace(first, last, _SCAN)
     if first == 0.0:
@@ -296,7 +304,9 @@ def peak(f: Callable[[Floats], Floats], first: float, last: float) -> float:
 
 
 def powers(pitch: PitchSurfaces, contact: PathContact, friction: float, driver: int = 1) -> tuple[Floats, Floats]:
-    """Return input and output power of a contact divided by normal force and pitch-line speed; gear `driver` drives."""
+    """Return the input power and the output power of a contact, each divided by normal force and pitch-line speed, if
+    gear `driver` drives.
+    """
     rising, S = pitch.S_slope(contact.d) * contact.sin_psi, pitch.S(contact.d)
     rub = np.sign(contact.d) * (friction if driver == 1 else -friction)
     first = contact.cos_psi + rub * (rising + pitch.A * S)
@@ -336,7 +346,7 @@ def efficiency(pitch: PitchSurfaces, contact: PathContact, friction: float, driv
 
 
 def locking_friction(path: PathOfContact, driver: int = 1) -> float:
-    """Return the minimum friction coefficient at which a contact of the path locks; infinite if no contact locks.
+    """Return the minimum friction coefficient at which a contact of the path locks; infinite if no contact can lock.
 
     Contacts lock in the driver's approach only, where friction pushes the driven tooth towards the line of centres.
     """
@@ -356,11 +366,12 @@ def locking_friction(path: PathOfContact, driver: int = 1) -> float:
 
 
 def to_depth(depth: Callable[[float], float], wanted: float, start: float, most: float) -> float:
-    """Return gamma, the sum A + B of the pitch-surface curvatures divided by the heat, for which `depth` equals
-    `wanted`. The depth increases with gamma.
+    """Return the value of gamma for which `depth` equals `wanted`. Gamma is the sum A + B of the pitch-surface
+    curvatures divided by the heat; the depth increases with gamma.
 
-    `start` is the initial guess, around which the root is bracketed. `most` is an upper bound of the depth, such as the
-    sum of the arcs, because a contact rises by less than its arc. Raises `GearTrainError` if no heat gives that depth.
+    `start` is an initial guess of gamma, around which the root is bracketed. `most` is an upper bound of the depth,
+    such as the sum of the arcs, because a contact rises by less than its arc. Raises `GearTrainError` if no heat gives
+    the wanted depth.
     """
 
     def off(gamma: float) -> float:

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 class PathPiece:
     """Piece of a path of contact from the distance `start` to the distance `end` from the pitch point.
 
-    Its three functions take and return arrays.
+    The three functions of a piece take and return arrays.
     """
 
     start: float
@@ -40,18 +40,18 @@ class PathPiece:
     sin_psi: Curve
     """Function that returns the sine of the pressure angle psi at distances d from the pitch point."""
     slope: Curve
-    """Function that returns the derivative of sin psi with respect to the distance d; it equals d(psi)/dX, with
-    the arc X along the pitch surfaces.
+    """Function that returns the derivative of sin psi with respect to the distance d. The derivative equals d(psi)/dX,
+    where X is the arc along the pitch surfaces.
     """
     travel: Curve
-    """Function that returns the arc X along the pitch surfaces from `start` to d: the integral of 1/cos psi,
-    docs/shapes.md (1).
+    """Function that returns the arc X along the pitch surfaces between the distances `start` and d: the integral of
+    1/cos psi, docs/shapes.md (1).
     """
 
 
 def ray(psi: float, end: float) -> PathPiece:
-    """Return the piece of a path of contact with constant pressure angle `psi` [rad] up to the distance `end`
-    from the pitch point, as for an involute.
+    """Return the piece of a path of contact with a constant pressure angle `psi` [rad], which extends to the distance
+    `end` from the pitch point. An involute has such a path.
     """
     return PathPiece(
         0.0,
@@ -63,8 +63,8 @@ def ray(psi: float, end: float) -> PathPiece:
 
 
 def sampled(sin_psi: Curve, slope: Curve, start: float, end: float, nodes: int = 64) -> PathPiece:
-    """Return the piece of a path of contact with a given sine of the pressure angle psi. Its arc X is an
-    integrated Chebyshev series of 1 / cos psi.
+    """Return the piece of a path of contact on which the sine of the pressure angle psi is the given function of d. The
+    arc X is computed as an integrated Chebyshev series of 1 / cos psi.
     """
     d = start + (end - start) * (points(nodes)[0] + 1) / 2
     travel = series_through(1 / np.sqrt(1 - sin_psi(d) ** 2), start, end).integ(lbnd=start)
@@ -72,12 +72,12 @@ def sampled(sin_psi: Curve, slope: Curve, start: float, end: float, nodes: int =
 
 
 def steady_speed(pitch: PitchSurfaces, b: float, u: float, start: float, sin_start: float, end: float) -> PathPiece:
-    """Return the piece of a path of contact with constant contact speed `u` along the dedendum, divided by the
-    pitch-line speed.
+    """Return the piece of a path of contact on which the contact speed along the dedendum, divided by the pitch-line
+    speed, has the constant value `u`.
 
-    By docs/shapes.md (12), sin psi = eta / S with eta = S(start) sin psi(start) + u (d - start) + b (integral of
-    S). S is d, or sin d for bevel gears, and b is the curvature of the pitch surface of the gear whose dedendum
-    works.
+    By docs/shapes.md (12), sin psi = eta / S with eta = S(start) sin psi(start) + u (d - start) + b (integral of S). S
+    is d, or sin d for bevel gears, and b is the curvature of the pitch surface of the gear whose dedendum is in
+    contact.
     """
     first, below = float(pitch.S(start)) * sin_start, float(pitch.S_integral(start))
 
@@ -94,33 +94,34 @@ def steady_speed(pitch: PitchSurfaces, b: float, u: float, start: float, sin_sta
 
 @dataclass(frozen=True)
 class PathSide:
-    """One side of a path of contact: consecutive pieces from the pitch point, or from the first contact, outwards.
+    """One side (approach or recess) of a path of contact: consecutive pieces from the pitch point, or from the first
+    contact, outwards.
 
-    If a side begins beyond the pitch point, its X is counted from its first contact.
+    If the side does not reach the pitch point, the arc X is measured from the contact closest to the pitch point.
     """
 
     pieces: Sequence[PathPiece]
 
     @property
     def start(self) -> float:
-        """Distance d of the first contact from the pitch point [module]; above 0 if the path does not reach
-        that point.
+        """Distance of the contact closest to the pitch point from this point [module]; 0 if the side begins at the
+        pitch point.
         """
         return self.pieces[0].start
 
     @property
     def end(self) -> float:
-        """Distance d of the last contact from the pitch point [module]."""
+        """Distance of the contact farthest from the pitch point from this point [module]."""
         return self.pieces[-1].end
 
     @cached_property
     def arc(self) -> float:
-        """Arc X along the pitch surfaces over the whole side [module]."""
+        """Arc X along the pitch surfaces that corresponds to the whole side [module]."""
         return float(self.travel(np.array(self.end)))
 
     @property
     def joints(self) -> tuple[float, ...]:
-        """Distances d from the pitch point at which the pieces end [module]."""
+        """Distances d from the pitch point at which the pieces of the side end [module]."""
         return tuple(piece.end for piece in self.pieces)
 
     def sin_psi(self, d: Floats) -> Floats:
@@ -128,26 +129,32 @@ class PathSide:
         return self._by_piece(d, [piece.sin_psi for piece in self.pieces])
 
     def slope(self, d: Floats) -> Floats:
-        """Return the derivative of the sine of the pressure angle by the distance d from the pitch point."""
+        """Return the derivative of the sine of the pressure angle with respect to the distance d from the
+        pitch point.
+        """
         return self._by_piece(d, [piece.slope for piece in self.pieces])
 
     def travel(self, d: Floats) -> Floats:
-        """Return the arc X along the pitch surfaces [module] while the contact moves from `start` to the distance d."""
+        """Return the arc X along the pitch surfaces [module] that corresponds to the motion of the contact from `start`
+        to the distance d.
+        """
         found: Floats = self._offsets[self._which(d)] + self._by_piece(d, [piece.travel for piece in self.pieces])
         return found
 
     @cached_property
     def _offsets(self) -> Floats:
-        """Arc X at the start of each piece [module]."""
+        """Arcs X along the pitch surfaces at the starts of the pieces [module]."""
         return np.cumsum([0.0, *(float(piece.travel(np.array(piece.end))) for piece in self.pieces[:-1])])
 
     def _which(self, d: Floats) -> Indices:
-        """Return the index of the piece that contains each distance d; a joint belongs to the piece that follows it."""
+        """Return the index of the piece that contains each distance d. A distance at which two pieces meet belongs to
+        the outer piece.
+        """
         return np.searchsorted(self.joints[:-1], d, side="right")
 
     def distance(self, X: Floats) -> Floats:
-        """Return the distance d of the contact from the pitch point at the arc X along the pitch surfaces, by
-        Newton's method with dd/dX = cos psi.
+        """Return the distance d of the contact from the pitch point at the arc X along the pitch surfaces. Newton's
+        method is used, with dd/dX = cos psi.
         """
         X = np.asarray(X, dtype=float)
         arc = self.arc
@@ -172,8 +179,8 @@ class PathSide:
 
 @dataclass(frozen=True)
 class PathContact(Shown):
-    """Geometry, speeds, stress and heat of the contact at given pitch-line displacements X. All arrays have the same
-    shape; X < 0 is in approach, X > 0 in recess.
+    """Geometry, speeds, stress and heat of the contacts at given pitch-line displacements X. All arrays have the same
+    shape. Contacts with X < 0 are in approach, contacts with X > 0 in recess.
     """
 
     X: Floats
@@ -181,47 +188,51 @@ class PathContact(Shown):
     d: Floats
     """Signed distance of the contact from the pitch point [module; rad for bevel gears]."""
     sin_psi: Floats
-    """Sine of the pressure angle psi."""
+    """Sines of the pressure angle psi."""
     cos_psi: Floats
-    """Cosine of the pressure angle psi."""
+    """Cosines of the pressure angle psi."""
     q: Floats
-    """Derivative d(psi)/dX of the pressure angle [rad per module]."""
+    """Derivative d(psi)/dX of the pressure angle psi with respect to the arc X [rad per module]."""
     w: Floats
-    """Derivative d(S sin psi)/dd, where S is d, or sin d for bevel gears."""
+    """Derivative of S sin psi with respect to the distance d, where S is d, or sin d for bevel gears."""
     U1: Floats
     """Speed of the contact point along the profile of gear 1, divided by the pitch-line speed."""
     U2: Floats
     """Speed of the contact point along the profile of gear 2, divided by the pitch-line speed."""
     k1: Floats
-    """Curvature of the profile of gear 1 [1/module]; positive where the profile is convex. For bevel gears, the
+    """Curvature of the profile of gear 1 [1/module], positive where the profile is convex. For bevel gears, it is the
     geodesic curvature on the sphere.
     """
     k2: Floats
-    """Curvature of the profile of gear 2 [1/module]; negative where the profile is convex. For bevel gears, the
+    """Curvature of the profile of gear 2 [1/module], negative where the profile is convex. For bevel gears, it is the
     geodesic curvature on the sphere.
     """
     kr: Floats
     """Relative curvature k1 - k2 of the two profiles [1/module]."""
     H: Floats
-    """Relative curvature `kr` of the profiles divided by cos psi. The Hertzian pressure is proportional to the
-    square root of this ratio.
+    """Relative curvature `kr` of the profiles divided by cos psi. The Hertzian pressure is proportional to the square
+    root of this quotient.
     """
     Q1: Floats
-    """Frictional heat per area of the profile of gear 1, divided by friction coefficient times tangential force."""
+    """Frictional heat per area of the profile of gear 1, divided by the product of friction coefficient and tangential
+    force.
+    """
     Q2: Floats
-    """Frictional heat per area of the profile of gear 2, divided by friction coefficient times tangential force."""
+    """Frictional heat per area of the profile of gear 2, divided by the product of friction coefficient and tangential
+    force.
+    """
     flash: Floats
-    """Quantity F_n^(3/4) kr^(1/4) |sqrt U1 - sqrt U2|, with F_n the normal force at unit tangential force. Blok's
-    flash temperature of equal materials is proportional to it.
+    """Quantity F_n^(3/4) kr^(1/4) |sqrt U1 - sqrt U2|, where F_n is the normal force at unit tangential force. Blok's
+    flash temperature of equal materials is proportional to this quantity.
     """
     rub: Floats
-    """Ratio |S| / cos psi, where S is d, or sin d for bevel gears. The friction loss is proportional to its integral
-    over X.
+    """Ratio |S| / cos psi, where S is d, or sin d for bevel gears. The friction loss is proportional to the integral of
+    this ratio over X.
     """
 
     @property
     def psi(self) -> Floats:
-        """Pressure angle at the contact [rad]."""
+        """Pressure angles at the contacts [rad]."""
         found: Floats = np.arctan2(self.sin_psi, self.cos_psi)
         return found
 
@@ -259,12 +270,12 @@ class PathOfContact(Shown):
 
     @cached_property
     def arcs(self) -> tuple[float, float]:
-        """Arcs X of approach and recess in which the teeth touch [module]. One of them may be negative."""
+        """Arcs X of approach and recess in which the teeth touch [module]. One of the two arcs may be negative."""
         return (self.approach.arc, self.recess.arc) if self.real is None else self.real
 
     @property
     def pitches(self) -> tuple[float, float]:
-        """Arcs of approach and recess in which the teeth touch [pitch]. One of them may be negative."""
+        """Arcs of approach and recess in which the teeth touch [pitch]. One of the two arcs may be negative."""
         approach, recess = self.arcs
         return approach / self.pitch.p, recess / self.pitch.p
 
@@ -290,7 +301,8 @@ class PathOfContact(Shown):
         return (start, end) if end > start else None
 
     def legs(self, low: float = -inf, high: float = inf) -> Iterator[tuple[bool, PathPiece, float, float]]:
-        """Yield each piece on which the teeth touch, with its side and the range of distances d.
+        """Yield each piece on which the teeth touch, together with its side and with the range of distances d of
+        contact.
 
         Parameters
         ----------
@@ -380,11 +392,12 @@ class PathOfContact(Shown):
         return self._contact(sign * side.travel(d), sign * d, side.sin_psi(d), sign * side.slope(d))
 
     def _contact(self, X: Floats, d: Floats, sine: Floats, q: Floats) -> PathContact:
-        """Return speeds, curvatures, stress and heat of contacts at arcs X and distances d, docs/shapes.md (2) to (5).
+        """Return the speeds, curvatures, stress and heat of contacts at arcs X and distances d. `sine` is the sine of
+        the pressure angle psi, and `q` is d(psi)/dX. See docs/shapes.md (2) to (5).
 
-        The contact speeds along the profiles are U1 = w + A S and U2 = w - B S, with w the derivative of S sin psi with
-        respect to d, and A and B the curvatures of the pitch surfaces. The relative curvature is kr = (A + B) sin psi /
-        (U1 U2).
+        The contact speeds along the profiles are U1 = w + A S and U2 = w - B S, where w is the derivative of S sin psi
+        with respect to d, S is d (sin d for bevel gears), and A and B are the curvatures of the pitch surfaces. The
+        relative curvature is kr = (A + B) sin psi / (U1 U2).
         """
         pitch = self.pitch
         A, B = pitch.A, pitch.B
@@ -406,7 +419,8 @@ class PathOfContact(Shown):
         return PathContact(X, d, sine, cosine, q, w, U1, U2, k1, k2, kr, H, Q1, Q2, flash, rub)
 
     def flank(self, gear: int, X: ArrayLike) -> Floats:
-        """Return the points of one gear's profile that are in contact at the arcs X, in the gear's position at X = 0.
+        """Return the points of one gear's profile that are in contact at the arcs X. Coordinates refer to the position
+        of the gear at X = 0.
 
         Parameters
         ----------

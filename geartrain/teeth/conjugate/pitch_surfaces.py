@@ -16,13 +16,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class PitchSurfaces:
-    """Pitch cylinders or cones of a gear pair, gear 1 driving.
+    """Pitch cylinders or cones of a gear pair in which gear 1 drives.
 
-    z1, z2   tooth numbers; the virtual tooth numbers of bevels need not be integers
-    R1, R2   spur: pitch radii in modules; bevel: half-angles of the pitch cones (rad) on the unit sphere
+    z1, z2   tooth numbers; the virtual tooth numbers of bevel gears need not be integers
+    R1, R2   spur: pitch radii in modules; bevel: half-angles of the pitch cones [rad]
     bevel    True for cones
 
-    A ring gear is gear 2 with a negative R2. The formulas of an external pair then apply to it without change.
+    A ring gear is gear 2 with a negative R2. The formulas of an external pair then apply to a ring gear without change.
     """
 
     z1: float
@@ -33,36 +33,42 @@ class PitchSurfaces:
 
     @classmethod
     def spur(cls, z1: float, z2: float, internal: bool = False) -> PitchSurfaces:
-        """Return the pitch cylinders of parallel axes at module 1; if `internal`, gear 2 is a ring gear."""
+        """Return the pitch cylinders of gears on parallel axes with module 1. If `internal` is True, gear 2 is a ring
+        gear.
+        """
         return cls(z1, z2, z1 / 2, -z2 / 2 if internal else z2 / 2)
 
     @classmethod
     def cones(cls, z1: float, z2: float, shaft_angle: float = pi / 2) -> PitchSurfaces:
-        """Return the pitch cones of axes that meet at `shaft_angle` S [rad].
+        """Return the pitch cones of gears whose axes intersect at the angle `shaft_angle` [rad].
 
-        tan R1 = sin S / (z2/z1 + cos S), R1 + R2 = S.
+        The half-angles follow from tan R1 = sin S / (z2/z1 + cos S) and R1 + R2 = S, where S is the shaft angle.
         """
         R1 = atan2(sin(shaft_angle), z2 / z1 + cos(shaft_angle))
         return cls(z1, z2, R1, shaft_angle - R1, True)
 
     @property
     def A(self) -> float:
-        """Curvature of pitch surface 1 [1/module]: 1/R1, or cot R1 on cones."""
+        """Curvature of the pitch surface of gear 1: 1/R1 [1/module], or cot R1 on cones."""
         return 1 / tan(self.R1) if self.bevel else 1 / self.R1
 
     @property
     def B(self) -> float:
-        """Curvature of pitch surface 2 [1/module]: 1/R2, or cot R2 on cones; negative for rings, 0 for crown gears."""
+        """Curvature of the pitch surface of gear 2: 1/R2 [1/module], or cot R2 on cones; negative for ring gears, 0 for
+        crown gears.
+        """
         return 1 / tan(self.R2) if self.bevel else 1 / self.R2
 
     @property
     def reach(self) -> float:
-        """Arc X per radian of rotation of gear 1: R1, or sin R1 on cones."""
+        """Arc X along the pitch surfaces per radian of rotation of gear 1: R1, or sin R1 on cones."""
         return sin(self.R1) if self.bevel else self.R1
 
     @property
     def reach2(self) -> float:
-        """Arc X per radian of rotation of gear 2: R2 (negative for a ring gear), or sin R2 on cones."""
+        """Arc X along the pitch surfaces per radian of rotation of gear 2: R2 (negative for a ring gear), or sin R2 on
+        cones.
+        """
         return sin(self.R2) if self.bevel else self.R2
 
     def teeth_of(self, gear: int) -> float:
@@ -70,12 +76,12 @@ class PitchSurfaces:
         return self.z1 if gear == 1 else self.z2
 
     def reach_of(self, gear: int) -> float:
-        """Return the absolute arc |X| per radian of rotation of gear 1 or 2."""
+        """Return the absolute value of the arc X along the pitch surfaces per radian of rotation of gear 1 or 2."""
         return self.reach if gear == 1 else abs(self.reach2)
 
     def axle_of(self, gear: int) -> float:
-        """Return the height of a gear's axle above the pitch point [module], or for bevels its angle from the pitch
-        point [rad].
+        """Return the height of a gear's axle above the pitch point [module]; for bevel gears, the angle of the axle
+        from the pitch point [rad].
         """
         return -self.R1 if gear == 1 else self.R2
 
@@ -85,26 +91,26 @@ class PitchSurfaces:
         return 2 * pi * self.reach / self.z1
 
     def S(self, d: ArrayLike) -> Floats:
-        """Return the function S(d) of the distance d from the pitch point: S = d on cylinders, S = sin d on cones."""
+        """Return the function S of the distance d from the pitch point: S = d on cylinders, S = sin d on cones."""
         # with S instead of d, docs/shapes.md (2) to (5) hold for spur and bevel gears
         found: Floats = np.sin(d) if self.bevel else np.asarray(d, dtype=float)
         return found
 
     def S_slope(self, d: ArrayLike) -> Floats:
-        """Return dS/dd: 1 on cylinders, cos d on cones."""
+        """Return dS/dd at distances d from the pitch point: 1 on cylinders, cos d on cones."""
         found: Floats = np.cos(d) if self.bevel else np.ones(np.shape(d))
         return found
 
     def S_integral(self, d: ArrayLike) -> Floats:
-        """Return the integral of S from 0 to d: d^2/2 on cylinders, 1 - cos d on cones."""
+        """Return the integral of S from 0 to the distance d: d^2/2 on cylinders, 1 - cos d on cones."""
         d = np.asarray(d, dtype=float)
         # 1 - cos d would cancel near the pitch point
         found: Floats = 2 * np.sin(d / 2) ** 2 if self.bevel else d * d / 2
         return found
 
     def point(self, d: Floats, sin_psi: Floats, cos_psi: Floats) -> Floats:
-        """Return contact points in the fixed frame, shape (..., 2) from the pitch point, or (..., 3) on the unit
-        sphere.
+        """Return contact points in the fixed frame: arrays (..., 2) relative to the pitch point, or (..., 3) on the
+        unit sphere for bevel gears.
         """
         S = self.S(d)
         if not self.bevel:
@@ -112,9 +118,10 @@ class PitchSurfaces:
         return np.stack([S * cos_psi, S * sin_psi, np.cos(d)], axis=-1)
 
     def on_gear(self, gear: int, points: Floats, X: Floats) -> Floats:
-        """Transform points of the fixed frame to the frame of a gear at X = 0: rotation about its axle.
+        """Transform points from the fixed frame to the frame that a gear has at X = 0, by a rotation about the gear's
+        axle.
 
-        The angle is X / reach for gear 1 and -X / reach2 for gear 2.
+        The angle of rotation is X / reach for gear 1 and -X / reach2 for gear 2.
         """
         return self._turned(points, X / self.reach if gear == 1 else -X / self.reach2, self.axle_of(gear))
 
@@ -136,8 +143,8 @@ class PitchSurfaces:
         return np.arctan2(np.hypot(x, outwards), points @ axis), np.arctan2(x, outwards)
 
     def from_polar(self, gear: int, radius: float, azimuth: Floats) -> Floats:
-        """Return points of the fixed frame with one radius and given azimuths about the axle of a gear: the inverse of
-        `polar`.
+        """Return points of the fixed frame that have the given radius and azimuths about the axle of a gear. This is
+        the inverse function of `polar`.
         """
         if not self.bevel:
             up = self.axle_of(gear) + self._side(gear) * radius * np.cos(azimuth)
@@ -148,21 +155,21 @@ class PitchSurfaces:
         return found
 
     def _side(self, gear: int) -> float:
-        """Return 1 if the pitch point is above the axle of a gear, -1 if it is below."""
+        """Return 1 if the pitch point is above the axle of a gear, or -1 if it is below."""
         return 1.0 if self.axle_of(gear) < 0 else -1.0
 
     def _axis_and_up(self, gear: int) -> tuple[Floats, Floats]:
-        """Return two unit vectors of a pitch cone: the axis of the gear, and the direction normal to the axis
-        towards the pitch point.
+        """Return two unit vectors of a pitch cone: the direction of the gear's axis, and the direction perpendicular to
+        the axis towards the pitch point.
         """
         R, side = self.axle_of(gear), self._side(gear)
         return np.array([0.0, sin(R), cos(R)]), np.array([0.0, side * cos(R), -side * sin(R)])
 
     def _turned(self, points: Floats, angle: Floats, R: float) -> Floats:
-        """Return points rotated about an axle by `angle` [rad], by Rodrigues' formula.
+        """Return points rotated by `angle` [rad] about an axle (for bevel gears, by Rodrigues' formula).
 
-        The axis has the polar angle `R` from the pitch point; for spur gears, it is at the height `R` above the pitch
-        point.
+        For bevel gears, the axle is at the angle `R` from the pitch point; for spur gears, it is at the height `R`
+        above the pitch point.
         """
         cosine, sine = np.cos(angle), np.sin(angle)
         if not self.bevel:

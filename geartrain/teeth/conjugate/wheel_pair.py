@@ -44,7 +44,7 @@ class WheelPair(Shown):
     module: float | None = None
     """Transverse module [m], the unit of length of the pair; None if the module is unknown."""
     helix: float = 0.0
-    """Helix angle of helical wheels [rad], 0 or more."""
+    """Helix angle of helical wheels [rad], 0 or more; 0 for spur wheels."""
 
     @classmethod
     def of(
@@ -56,7 +56,7 @@ class WheelPair(Shown):
         pitch_distance: float | None,
         helix: float = 0.0,
     ) -> WheelPair:
-        """Return the pair with the module that follows from the pitch distance.
+        """Return the pair of wheels. Its module follows from the pitch distance.
 
         Parameters
         ----------
@@ -76,12 +76,12 @@ class WheelPair(Shown):
 
     @property
     def bevel(self) -> bool:
-        """True if the axes intersect, that is, for bevel gears."""
+        """True if the wheels are bevel gears, whose axes intersect."""
         return self.shaft_angle is not None
 
     @property
     def pitch(self) -> PitchSurfaces:
-        """Pitch surfaces of both wheels at the design distance; raises `GearTrainError` if the wheels cannot form a
+        """Pitch surfaces of both wheels at the design distance. Raises `GearTrainError` if the wheels cannot form a
         pair.
         """
         from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
@@ -97,7 +97,7 @@ class WheelPair(Shown):
         return (self.z2 - self.z1 if self.internal else self.z1 + self.z2) / 2
 
     def check(self) -> None:
-        """Raise `GearTrainError` if the wheels cannot form a pair."""
+        """Raise `GearTrainError` if the two wheels cannot form a pair."""
         for z in (self.z1, self.z2):
             if z < FEWEST:
                 raise refused(

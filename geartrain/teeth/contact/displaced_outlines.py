@@ -36,7 +36,7 @@ _BLUNT = radians(10)  # lower bound of the half aperture, by which errors are di
 
 
 class ToothPairContact(NamedTuple):
-    """Contact of a single tooth pair at driver angles x [rad past the nominal position].
+    """Contact of a single tooth pair at driver angles x [rad], which are measured from the nominal position.
 
     The driver's axle is at the origin, and the driven axle is on the x axis.
     """
@@ -47,17 +47,17 @@ class ToothPairContact(NamedTuple):
     point: Floats
     """Contact points [module], shape (2, n)."""
     normal: Floats
-    """Unit vectors in the direction in which the driver pushes, shape (2, n)."""
+    """Unit vectors in the direction in which the driver pushes the driven wheel, shape (2, n)."""
     angle: Floats
-    """Angle of the driven tooth past the line of centres [rad]."""
+    """Angle of the driven tooth from the line of centres, positive in the direction of motion [rad]."""
     corner: Indices
-    """Tip corners in contact: 1 for a corner of the driver, 2 for a corner of the driven wheel, 3 for both, 0 for none;
-    -1 where the teeth do not touch.
+    """Tip corner in contact: 1 for a corner of the driver, 2 for a corner of the driven wheel, 3 for both corners, 0
+    for none; -1 where the teeth do not touch.
     """
 
 
 class ToothPairSearch:
-    """Search for the contact of single tooth pairs of two outlines; the front flanks drive."""
+    """Search for the contact of single tooth pairs of two outlines. The front flanks of the driver are in contact."""
 
     def __init__(self, gears: OutlineGears, driver: int) -> None:
         self.first, self.second = gears.of(driver)
@@ -67,7 +67,7 @@ class ToothPairSearch:
         self.offset = 2 * gears.half_teeth / self.second.z
 
     def at(self, x: Floats) -> ToothPairContact:
-        """Return the contact of one tooth pair at driver angles x [rad]."""
+        """Return the contacts of one tooth pair at driver angles x [rad]."""
         count, none = len(x), np.zeros(len(x), int)
         touch_search = self.pair.touch_search
         tooth_pairs = CandidatePairs(x, none, none, np.zeros(count), np.arange(count))
@@ -90,10 +90,10 @@ class ToothPairSearch:
         return ToothPairContact(x, ratio * x + self.offset - angle, point, normal, angle, corner)
 
     def _normals(self, point: Floats, along: Floats, speed: Floats) -> Floats:
-        """Return the unit normals of contacts, which pass through the point that divides the line of centres in the
-        ratio of speeds.
+        """Return the unit normals of contacts. Each normal passes through the point that divides the line of centres in
+        the ratio of speeds.
 
-        At that point itself the result is the normal of the flank.
+        If the contact is at that point itself, the result is the normal of the flank.
         """
         with np.errstate(all="ignore"):
             to = np.stack([self.distance * speed / (1 + speed) - point[0], -point[1]])
@@ -151,7 +151,9 @@ def displaced_outlines(gears: OutlineGears, driver: int) -> DisplacedContact:
 
 
 def _ends(search: ToothPairSearch) -> tuple[float, float, float, float]:
-    """Return the range of driver angles [rad] in which flanks touch, and the larger range that includes tip contact."""
+    """Return four driver angles [rad]: the ends of the range in which flanks touch, and the ends of the larger range
+    that includes tip contact.
+    """
     found = search.at(np.linspace(*search.pair.window, _SEARCHED))
     near = (found.corner >= 0) & (found.lag < _FARTHEST * search.second.pitch + np.nanmin(found.lag))
     whole = _around(near, int(np.nanargmin(found.lag)))
@@ -167,7 +169,7 @@ def _ends(search: ToothPairSearch) -> tuple[float, float, float, float]:
 
 
 def _around(held: Bools, at: int) -> Bools:
-    """Return a mask of the contiguous true entries of an array around index `at`."""
+    """Return a mask of the contiguous True entries of an array that include the index `at`."""
     gaps = np.flatnonzero(~held)
     low, high = gaps[gaps < at], gaps[gaps > at]
     found = np.zeros(len(held), bool)
@@ -176,7 +178,7 @@ def _around(held: Bools, at: int) -> Bools:
 
 
 def _corner(search: ToothPairSearch, end: float, last: float) -> CornerLag:
-    """Return the additional lag of the driven wheel while a tip touches beyond an end of flank contact."""
+    """Return the additional lag of the driven wheel while a tip is in contact beyond an end of flank contact."""
     if abs(last - end) < _NO_CORNER:
         return CornerLag(_NO_CORNER, np.zeros(2))
     lag = search.at(np.linspace(end, last, _CORNER_NODES)).lag
@@ -184,15 +186,15 @@ def _corner(search: ToothPairSearch, end: float, last: float) -> CornerLag:
 
 
 def _leading_places(found: ToothPairContact, pitch: float) -> Indices:
-    """Return the indices of the driver angles at which the examined tooth pair drives the wheel, rather than the
-    pair one pitch before or behind.
+    """Return the indices of the driver angles at which the examined tooth pair drives, rather than the tooth pair one
+    pitch ahead or behind.
     """
     others = [np.interp(found.x + way * pitch, found.x, found.lag, left=np.inf, right=np.inf) for way in (-1, 1)]
     return np.flatnonzero(found.lag <= np.minimum(*others))
 
 
 def _half_widths(search: ToothPairSearch, found: ToothPairContact, gear: int) -> Floats:
-    """Return half the tooth thickness of one wheel at each contact [module]."""
+    """Return the half-thickness of the tooth of one wheel at each contact [module]."""
     if gear == 0:
         return np.asarray(np.hypot(*found.point) * (np.arctan2(found.point[1], found.point[0]) - found.x))
     x, y = search.distance - found.point[0], found.point[1]
@@ -206,7 +208,9 @@ def _sizes(wheel: GearOutline, radius: Floats, tip: float, half: Floats) -> Disp
 
 
 def _pitch_points(search: ToothPairSearch, found: ToothPairContact, gear: int) -> tuple[Floats, Floats]:
-    """Return the coordinates x and y [module] at which the flank in contact crosses the pitch circle of one wheel."""
+    """Return the coordinates x and y [module] of the points at which the flank in contact intersects the pitch circle
+    of one wheel.
+    """
     wheel, table = ((search.first, search.pair.touch_search.first), (search.second, search.pair.touch_search.second))[
         gear
     ]

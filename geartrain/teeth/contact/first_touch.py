@@ -31,12 +31,13 @@ _LEFT = 1e-8  # of u: error of an inversion where a curve is stationary, the squ
 
 @dataclass(frozen=True, slots=True)
 class AxlePlacement:
-    """Relative position of two axles.
+    """Relative position of the axles of two wheels.
 
     distance   centre distance; for bevel wheels, the shaft angle (rad)
     ring       number of the wheel that is a ring gear; 0 without a ring gear
 
-    Azimuths are 0 on the line of centres, on the side where the wheels meet, and increase as both turn forward.
+    Azimuths are 0 on the line of centres, on the side where the wheels meet, and increase when both wheels turn
+    forward.
     """
 
     distance: float
@@ -44,10 +45,11 @@ class AxlePlacement:
     ring: Literal[0, 1, 2] = 0
 
     def bounds(self, lowest: float, highest: float, minimum: float, most: float) -> float:
-        """Return the maximum |azimuth| [rad] at which a point can be within the range of radii about the second axle.
+        """Return the maximum absolute azimuth [rad] at which a point can be within the range of radii about the second
+        axle.
 
-        The point has a radius from `lowest` to `highest` about the first axle; the range about the second axle is from
-        `minimum` to `most`. The result is computed from samples and widened, so that it is never too small except for
+        The radius of the point is from `lowest` to `highest` about the first axle, and from `minimum` to `most` about
+        the second axle. The result is computed from samples and widened, so that it is never too small except for
         rounding. It is -1 if no point is in range.
         """
         r = np.linspace(lowest, highest, 129)[:, None]
@@ -63,7 +65,7 @@ class AxlePlacement:
 
 
 class DrivenFrame:
-    """Polar coordinates `radius` and `azimuth` of points about the second axle, and their derivatives."""
+    """Polar coordinates `radius` and `azimuth` of points about the second axle, with their derivatives."""
 
     __slots__ = ("across", "along", "axles", "bevel", "cos_b", "height", "radius", "side", "sin_b", "tilt", "up")
 
@@ -84,20 +86,20 @@ class DrivenFrame:
             self.radius = np.hypot(self.side, self.along)
 
     def _signs(self) -> tuple[float, float]:
-        """Return the sign of the direction towards the second axle, and the sign of the component of the first radius
-        in this direction.
+        """Return two signs: of the direction towards the second axle, and of the component of the radius about the
+        first axle in this direction.
         """
         return {0: (1.0, -1.0), 1: (-1.0, 1.0), 2: (1.0, 1.0)}[self.axles.ring]
 
     @property
     def azimuth(self) -> Floats:
-        """Azimuth about the second axle [rad]."""
+        """Azimuths of the points about the second axle [rad]."""
         found: Floats = np.arctan2(self.side, self.along)
         return found
 
     def moved(self, dr: Floats | float, db: Floats | float) -> tuple[Floats, Floats]:
-        """Return the differentials of radius and azimuth about the second axle for differentials dr of the radius and
-        db of the azimuth about the first axle.
+        """Return the differentials of radius and azimuth about the second axle that correspond to differentials `dr` of
+        the radius and `db` of the azimuth about the first axle.
         """
         e, s = self._signs()
         stretch = self.height * dr
@@ -123,8 +125,8 @@ class DrivenFrame:
 
 
 class CandidatePairs(NamedTuple):
-    """Tooth pairs that may touch, with driver angle x [rad], shape indices of both teeth, angle `place` of the driven
-    tooth [rad], and index of the driver position.
+    """Tooth pairs that may touch: driver angle x [rad], indices of the tooth shapes of both teeth, angle `place` of the
+    driven tooth [rad], and index of the driver position.
     """
 
     x: Floats
@@ -135,26 +137,32 @@ class CandidatePairs(NamedTuple):
 
 
 class FlankSegments(NamedTuple):
-    """Segments of the driver's flanks on which the required driven angle G is smooth; n segments."""
+    """Segments of the driver's flanks on which the required driven angle G is a smooth function; n is the number of
+    segments.
+    """
 
     tooth_pair: Indices
-    """Index of the tooth pair, shape (n,)."""
+    """Index of the tooth pair of each segment, shape (n,)."""
     piece1: Indices
-    """Index of the polynomial piece of the driver's flank, shape (n,)."""
+    """Index of the polynomial piece of the driver's flank for each segment, shape (n,)."""
     piece2: Indices
-    """Index of the polynomial piece of the driven flank, shape (n,)."""
+    """Index of the polynomial piece of the driven flank for each segment, shape (n,)."""
     u: Floats
-    """Parameters of `piece1` at both ends of the segment, shape (2, n)."""
+    """Parameters of `piece1` at the two ends of each segment, shape (2, n)."""
     polar2: Floats
-    """Radius and azimuth about the second axle at both ends of the segment, and their derivatives by the parameter u of
-    `piece1`, shape (4, 2, n).
+    """Radius and azimuth about the second axle at the two ends of each segment, and the derivatives of both with
+    respect to the parameter u of `piece1`, shape (4, 2, n).
     """
     v: Floats
-    """End of `piece2` reached at either end of the segment, -1 or 1, shape (2, n); NaN if it is an interior point."""
+    """Parameter of `piece2`, -1 or 1, if the segment ends at an end of `piece2`; NaN if it ends at an interior point of
+    `piece2`. The shape is (2, n).
+    """
 
 
 class FirstTouches(NamedTuple):
-    """Touches, one for each segment: driven angle [rad], speed ratio, parameters on both flanks, and both radii."""
+    """Contacts, one for each segment: driven angle [rad], speed ratio, parameters on both flanks, and radii about both
+    axles.
+    """
 
     angle: Floats
     speed: Floats
@@ -169,14 +177,14 @@ class FirstTouches(NamedTuple):
 
 @dataclass(frozen=True)
 class FirstTouchSearch:
-    """Search for the points of the driver's flanks that determine the driven angle, at given axles."""
+    """Search, at given axle positions, for the points of the driver's flanks that determine the driven angle."""
 
     first: FlankTable
     second: FlankTable
     axles: AxlePlacement
 
     def segments(self, tooth_pairs: CandidatePairs) -> FlankSegments:
-        """Return all segments on which the tooth pairs can touch."""
+        """Return all segments of the driver's flanks on which the tooth pairs can touch."""
         cells = self._divided_at_extremes(tooth_pairs, self._cells(tooth_pairs))
         low, high = cells.polar2[0].min(axis=0), cells.polar2[0].max(axis=0)
         tooth = tooth_pairs.tooth2[cells.tooth_pair]
@@ -191,8 +199,8 @@ class FirstTouchSearch:
         return self._clipped_to_pieces(tooth_pairs, joined(found))
 
     def _cells(self, tooth_pairs: CandidatePairs) -> FlankSegments:
-        """Return the intervals between search nodes that may be at radii of the driven flank. Their `piece2` is chosen
-        later.
+        """Return the intervals between search nodes that may be at radii of the driven flank. Their `piece2` is
+        assigned later.
         """
         nodes = self.first.nodes
         pieces, us, begins = (
@@ -218,7 +226,7 @@ class FirstTouchSearch:
         )
 
     def _divided_at_extremes(self, tooth_pairs: CandidatePairs, cells: FlankSegments) -> FlankSegments:
-        """Return the intervals, divided where the distance from the second axle has an extremum."""
+        """Return the intervals, subdivided where the distance from the second axle has an extremum."""
         # where the derivative of the radius changes its sign within a cell, the radius has an extreme
         which = np.flatnonzero(np.sign(cells.polar2[2, 0]) * np.sign(cells.polar2[2, 1]) < 0)
         if not len(which):
@@ -238,7 +246,7 @@ class FirstTouchSearch:
         return joined([cells, turning])
 
     def _clipped_to_pieces(self, tooth_pairs: CandidatePairs, cells: FlankSegments) -> FlankSegments:
-        """Return the intervals, clipped to the radii of their driven piece by vectorised false position."""
+        """Return the intervals, shortened to the radii of their driven piece by vectorised false position."""
         low, high = self.second.ends[:, cells.piece2]
         u, polar2 = cells.u.copy(), cells.polar2.copy()
         for side in (0, 1):
@@ -258,23 +266,23 @@ class FirstTouchSearch:
         return cells._replace(u=u, polar2=polar2)
 
     def _driven_polar(self, x: Floats, piece: Indices, u: Floats) -> Floats:
-        """Return radius and azimuth of the driver's points about the second axle, and their derivatives with respect
-        to the parameter u, shape (4, n).
+        """Return an array (4, n): radius and azimuth of the driver's points about the second axle, and the derivatives
+        of both with respect to the parameter u.
         """
         view, dr, da = self.view(x, piece, u)
         return np.stack([view.radius, view.azimuth, *view.moved(dr, da)])
 
     def view(self, x: Floats, piece: Indices, u: Floats) -> tuple[DrivenFrame, Floats, Floats]:
-        """Return the driver's points about the second axle, and the derivatives of their radius and azimuth about
-        the first axle with respect to the parameter u.
+        """Return the driver's points in polar coordinates about the second axle, and the derivatives of their radius
+        and azimuth about the first axle with respect to the parameter u.
         """
         r, dr = value(self.first.radius, piece, u)
         a, da = value(self.first.azimuth, piece, u)
         return DrivenFrame(self.axles, r, a + x), dr, da
 
     def _stalled(self, segments: FlankSegments) -> Bools:
-        """Return flags, shape (2, n), of segment ends at which one of the two curves is stationary, so that slopes are
-        meaningless.
+        """Return a mask, shape (2, n), of the segment ends at which one of the two curves is stationary, so that its
+        slope there is meaningless.
         """
         first, second = self.first.stalls[:, segments.piece1], self.second.stalls[:, segments.piece2]
         at_end = (segments.u == np.array([[-1.0], [1.0]])) & first
@@ -284,14 +292,16 @@ class FirstTouchSearch:
     # ------------------------------------------------------------------------------------------------ exact contact
 
     def touch(self, tooth_pairs: CandidatePairs, segments: FlankSegments) -> FirstTouches:
-        """Return the touches of all segments, exact to rounding error: at both ends, and at an interior maximum of the
+        """Return the contacts of all segments, exact to rounding error, at both ends and at an interior maximum of the
         required driven angle G.
         """
         x = tooth_pairs.x[segments.tooth_pair]
         low, high = self.second.ends[:, segments.piece2]
 
         def rising(u: Floats, which: Indices) -> Floats:
-            """Return the slope of the required driven angle G, times d radius / dv of the driven piece (0 or more)."""
+            """Return the derivative of the required driven angle G with respect to u, multiplied by the derivative (0
+            or more) of the driven piece's radius with respect to v.
+            """
             view, dr, da = self.view(x[which], segments.piece1[which], u)
             piece = segments.piece2[which]
             # clipped, because rounding may move a radius beyond the ends of the piece
@@ -318,7 +328,9 @@ class FirstTouchSearch:
         return joined([*ends, within])
 
     def _touch_at(self, tooth_pairs: CandidatePairs, segments: FlankSegments, u: Floats, v: Floats) -> FirstTouches:
-        """Return the touch at parameter u of the driver's piece; v is NaN unless an end of the driven piece touches."""
+        """Return the contact at the parameter `u` of the driver's piece. `v` is NaN unless an end of the driven piece
+        is in contact.
+        """
         piece1, piece2 = segments.piece1, segments.piece2
         view, dr, da = self.view(tooth_pairs.x[segments.tooth_pair], piece1, u)
         at_end = ~np.isnan(v)

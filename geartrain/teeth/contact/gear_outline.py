@@ -40,8 +40,8 @@ class OutlineCurve(Shown):
     points: Callable[[Floats], Floats]
     """Function that maps parameters (n,) to points: (n, 2) for spur wheels, (n, 3) on the unit sphere for bevel wheels.
 
-    The x axis points forward, the y axis outward along the middle of the tooth, and the axle is at the origin. For
-    bevel wheels the axis is along z.
+    The x axis points forward, the y axis points outward along the middle of the tooth, and the axle is at the origin.
+    The axis of a bevel wheel is the z axis.
     """
     start: float = 0.0
     """Parameter at the beginning of the curve."""
@@ -98,7 +98,7 @@ class OutlineCurve(Shown):
 
 
 def polyline(points: ArrayLike) -> tuple[OutlineCurve, ...]:
-    """Return the straight segments that join the given points in order; on the sphere, the segments are great-circle
+    """Return the straight segments that join the given points in order. On the sphere, the segments are great-circle
     arcs.
 
     Parameters
@@ -154,7 +154,7 @@ class ToothFlanks(Shown):
     """
 
     ahead: tuple[OutlineCurve, ...]
-    """Flank that leads when the wheel turns forward; it has larger azimuths than the other flank."""
+    """Flank that leads when the wheel turns forward. It has larger azimuths than the other flank."""
     behind: tuple[OutlineCurve, ...]
     """Flank that trails when the wheel turns forward."""
 
@@ -226,12 +226,12 @@ class GearOutline(Shown):
     """
 
     teeth: tuple[ToothFlanks, ...]
-    """Shapes of the teeth: one shape for all teeth, or one for each of the z teeth."""
+    """Shapes of the teeth: one shape that applies to all teeth, or one shape for each of the z teeth."""
     z: int
     """Number of teeth, 1 or more."""
     turns: tuple[float, ...] = ()
-    """Pitch deviations [rad], z values: the angle by which each tooth is ahead of its nominal position. Empty if all
-    pitches are equal.
+    """Pitch deviations of the z teeth [rad]: the angle by which each tooth is ahead of its nominal position. The tuple
+    is empty if all pitches are equal.
     """
     ring: bool = False
     """True for a ring gear, whose teeth point inwards."""
@@ -262,18 +262,18 @@ class GearOutline(Shown):
 
     @cached_property
     def bevel(self) -> bool:
-        """True for a bevel wheel, whose points are on the unit sphere."""
+        """True if the wheel is a bevel wheel, whose points are on the unit sphere."""
         curve = self.teeth[0].ahead[0]
         return bool(curve.at([curve.start]).shape[1] == 3)
 
     @cached_property
     def ahead(self) -> FlankTable:
-        """Leading flanks of all teeth as polynomial pieces."""
+        """Leading flanks of all teeth, as a table of polynomial pieces."""
         return _table([tooth.ahead for tooth in self.teeth])
 
     @cached_property
     def behind(self) -> FlankTable:
-        """Trailing flanks of all teeth as polynomial pieces."""
+        """Trailing flanks of all teeth, as a table of polynomial pieces."""
         return _table([tooth.behind for tooth in self.teeth])
 
     def displaced(self, x: float, y: float) -> GearOutline:
@@ -315,7 +315,9 @@ class GearOutline(Shown):
 
 
 def _check_side(side: tuple[OutlineCurve, ...]) -> None:
-    """Raise `QuestionError` unless a side is a chain of connected curves with finite points off the axle."""
+    """Raise `QuestionError` unless `side` is a chain of connected curves whose points are finite and not on
+    the axle.
+    """
     if not side:
         raise QuestionError(
             Problem(
@@ -351,7 +353,7 @@ def _check_side(side: tuple[OutlineCurve, ...]) -> None:
 
 
 def _table(sides: Sequence[tuple[OutlineCurve, ...]]) -> FlankTable:
-    """Return one flank of every tooth of a wheel as a table. Raises `RangeError` if a curve is not smooth."""
+    """Return a table of one flank of every tooth of a wheel. Raises `RangeError` if a curve is not smooth."""
     pieces: list[tuple[PolynomialPiece, bool, bool]] = []
     first, curves = [0], list[int]()
     for side in sides:
@@ -376,8 +378,8 @@ def _table(sides: Sequence[tuple[OutlineCurve, ...]]) -> FlankTable:
 
 
 def _side(side: tuple[OutlineCurve, ...]) -> list[list[tuple[PolynomialPiece, bool, bool]]]:
-    """Return the polynomial pieces of each curve of a flank, each with two flags: whether the piece begins and whether
-    it ends at a corner.
+    """Return the polynomial pieces of each curve of a flank. Two flags with each piece state whether it begins at a
+    corner and whether it ends at a corner.
     """
     found = [
         [each for piece in fitted(curve.polar, curve.start, curve.end) for each in _monotonic_pieces(curve, piece)]
@@ -396,7 +398,9 @@ def _is_corner(last: PolynomialPiece, new: PolynomialPiece) -> bool:
 
 
 def _direction(piece: PolynomialPiece, end: int) -> Floats:
-    """Return the unit tangent of a curve at u = `end`, -1 or 1, from the first derivative that is not 0."""
+    """Return the unit tangent of a curve at its end u = -1 or u = 1 (`end`), from the first derivative that is
+    not 0.
+    """
     powers = np.arange(COUNT)
     signs = np.where(powers % 2, 1.0, end)
     first = powers * signs @ piece.coefficients
@@ -410,7 +414,7 @@ def _direction(piece: PolynomialPiece, end: int) -> Floats:
 
 
 def _monotonic_pieces(curve: OutlineCurve, piece: PolynomialPiece) -> list[PolynomialPiece]:
-    """Return the parts of a piece between the extrema of its radius, each fitted again."""
+    """Return the parts into which the extrema of the radius divide a piece. A new polynomial is fitted to each part."""
     slope = np.asarray(np.polynomial.polynomial.polyder(piece.coefficients[:, 0]), dtype=np.float64)
     u = np.linspace(-1, 1, 65)
     values = np.polynomial.polynomial.polyval(u, slope)
@@ -426,7 +430,7 @@ def _monotonic_pieces(curve: OutlineCurve, piece: PolynomialPiece) -> list[Polyn
 
 
 def _sign_change(slope: Floats, low: float, high: float) -> float:
-    """Return the parameter between `low` and `high` at which a polynomial changes sign, by bisection."""
+    """Return the parameter between `low` and `high` at which a polynomial changes sign, computed by bisection."""
     rising = np.polynomial.polynomial.polyval(high, slope) > 0
     # bisection to neighbouring floats, because the slope of a fit is noise where the radius hardly changes
     while low < (middle := low + (high - low) / 2) < high:
@@ -450,26 +454,32 @@ _STALLED = 1e-3  # fraction of its mean slope: below it a piece is stationary, a
 
 @dataclass(frozen=True)
 class FlankTable:
-    """Polynomial pieces of the leading or trailing flanks of all teeth, with u from -1 to 1 and increasing radius."""
+    """Polynomial pieces of the leading or trailing flanks of all teeth. The parameter u of a piece is from -1 to 1, and
+    the radius increases with u.
+    """
 
     radius: Floats
-    """Polynomial coefficients of the radius by powers of the parameter u, shape (COUNT, pieces)."""
+    """Coefficients of the radius as a polynomial in the parameter u, shape (COUNT, pieces)."""
     azimuth: Floats
-    """Polynomial coefficients of the azimuth [rad] by powers of the parameter u, shape (COUNT, pieces)."""
+    """Coefficients of the azimuth [rad] as a polynomial in the parameter u, shape (COUNT, pieces)."""
     corners: Bools
-    """Flags, shape (2, pieces): True if a piece begins (row 0) or ends (row 1) at a corner of the outline."""
+    """Mask, shape (2, pieces), of the pieces that begin (row 0) or end (row 1) at a corner of the outline."""
     flat: Bools
-    """Flags, shape (pieces,): True for circular arcs about the axle."""
+    """Mask, shape (pieces,), of the pieces that are circular arcs about the axle."""
     first: Indices
-    """Index of the first piece of each tooth, shape (teeth + 1,)."""
+    """Index of the first piece of each tooth, shape (teeth + 1,). The last entry is the number of pieces."""
     curve: Indices
-    """Number of the curve to which each piece belongs, shape (pieces,), counted through all teeth."""
+    """Number of the curve to which each piece belongs, shape (pieces,). Curves are numbered consecutively over all
+    teeth.
+    """
     error: tuple[float, float]
-    """Maximum differences between pieces and curves: radius [unit of the outline] and azimuth [rad]."""
+    """Maximum differences between the polynomial pieces and the curves: of the radius [unit of the outline] and of the
+    azimuth [rad].
+    """
 
     @cached_property
     def mirrored(self) -> FlankTable:
-        """Mirror image of the table: azimuths have the opposite sign."""
+        """Mirror image of the table, in which azimuths have the opposite sign."""
         return replace(self, azimuth=-self.azimuth)
 
     @cached_property
@@ -479,7 +489,9 @@ class FlankTable:
 
     @cached_property
     def stalls(self) -> Bools:
-        """Flags, shape (2, pieces): True if a piece's radius is stationary in u at its start (row 0) or end (row 1)."""
+        """Mask, shape (2, pieces), of the pieces whose radius is stationary in u at the start (row 0) or at the end
+        (row 1).
+        """
         powers = np.arange(COUNT)
         slopes = np.stack([np.where(powers % 2, powers, -powers) @ self.radius, powers @ self.radius])
         found: Bools = slopes < _STALLED * (self.ends[1] - self.ends[0])
@@ -487,7 +499,7 @@ class FlankTable:
 
     @cached_property
     def reach(self) -> tuple[float, float, float, float]:
-        """Minimum and maximum radius, and minimum and maximum azimuth [rad], over all teeth."""
+        """Minimum radius, maximum radius, minimum azimuth [rad] and maximum azimuth [rad] over all teeth."""
         u = np.linspace(-1, 1, 33)
         azimuth = np.polynomial.polynomial.polyval(u, self.azimuth)
         # allowance for extremes of the azimuth between two samples
@@ -501,7 +513,7 @@ class FlankTable:
 
     @cached_property
     def span(self) -> tuple[Floats, Floats]:
-        """Minimum and maximum radius of each tooth, each of shape (teeth,)."""
+        """Minimum radius and maximum radius of each tooth, two arrays of shape (teeth,)."""
         low, high = (
             np.minimum.reduceat(self.ends[0], self.first[:-1]),
             np.maximum.reduceat(self.ends[1], self.first[:-1]),
@@ -512,7 +524,9 @@ class FlankTable:
 
     @cached_property
     def nodes(self) -> tuple[Indices, Floats, Bools]:
-        """Search nodes of each tooth, shape (teeth, nodes): piece, u, and whether a search interval begins there."""
+        """Search nodes of each tooth, three arrays of shape (teeth, nodes): index of the piece, parameter u, and
+        whether a search interval begins at the node.
+        """
         # the quotient is rounded up, so that a side with few pieces still has the minimum number of cells
         cells = np.repeat(np.maximum(1, -(-_CELLS // np.diff(self.first))), np.diff(self.first))
         each = [self._sample_points(piece, int(number)) for piece, number in enumerate(cells)]
@@ -525,8 +539,8 @@ class FlankTable:
         return piece[at], u[at], begins[at]
 
     def _sample_points(self, piece: int, cells: int) -> Floats:
-        """Return the values of u at which a piece is sampled, which are uniform with geometric refinement at stationary
-        ends.
+        """Return the values of u at which a piece is sampled. They are uniformly spaced, with geometric refinement at
+        ends where the radius is stationary.
         """
         marks: list[Floats] = [np.linspace(-1, 1, cells + 1)]
         for end, stalls in zip((-1, 1), self.stalls[:, piece], strict=True):
@@ -536,8 +550,8 @@ class FlankTable:
 
     @cached_property
     def node_values(self) -> tuple[Floats, Floats, Floats, Floats]:
-        """Values at the search nodes: radius and its derivative with respect to the parameter u, azimuth [rad] and
-        its derivative with respect to u.
+        """Values at the search nodes: radius, its derivative with respect to the parameter u, azimuth [rad], and its
+        derivative with respect to u.
         """
         piece, u, _ = self.nodes
         r, dr = value(self.radius, piece, u)
@@ -547,9 +561,9 @@ class FlankTable:
     # -------------------------------------------------------------------------------------- flanks of a driven wheel
 
     def inverse(self, piece: Indices, r: Floats) -> Floats:
-        """Return the parameter u at which pieces have radius r, by bracketed Newton iteration.
+        """Return the parameter u at which each piece has the radius `r`, computed by bracketed Newton iteration.
 
-        r must be within the pieces.
+        The radii must be within the range of their pieces.
         """
         first, last = self.ends[:, piece]
         low, high, which = np.full(len(r), -1.0), np.ones(len(r)), np.arange(len(r))

@@ -29,7 +29,9 @@ KINDS = ("flank", "corner of first", "corner of second", "corner on corner")
 
 
 class OutlinePair:
-    """Contact of the front or back flanks of two wheels at one distance; back flanks are solved as mirror images."""
+    """Contact of the front or back flanks of two wheels at one centre distance. Back flanks are treated as mirror
+    images.
+    """
 
     def __init__(
         self, first: GearOutline, second: GearOutline, distance: float, side: Literal["front", "back"]
@@ -50,7 +52,7 @@ class OutlinePair:
 
     @property
     def cycle(self) -> int:
-        """Number of pitches of the driver after which the contact repeats."""
+        """Number of pitches of the driver after which the contact conditions repeat."""
         # one wheel with unequal teeth repeats after its revolution, two after a common multiple of both revolutions
         z1, z2 = self.first.z, self.second.z
         if self.first.equal and self.second.equal:
@@ -60,7 +62,7 @@ class OutlinePair:
         return z2 if self.first.equal else lcm(z1, z2)
 
     def at(self, phi1: Floats, within: float) -> tuple[Any, ...]:
-        """Return the fields of `FlankContact` at driver angles of shape (n,) [rad]. Tooth pairs with a gap below
+        """Return the fields of `FlankContact` at driver angles `phi1` of shape (n,) [rad]. Tooth pairs with a gap below
         `within` [rad] count as in contact.
         """
         period = self.cycle * self.first.pitch
@@ -80,9 +82,9 @@ class OutlinePair:
         return (rest[start : start + size] for start in range(0, max(len(rest), 1), size))
 
     def _tooth_pairs(self, rest: Floats) -> tuple[CandidatePairs, Indices]:
-        """Return all tooth pairs within range, and the number of the driver's tooth of each.
+        """Return all tooth pairs within range, and the number of the driver's tooth in each pair.
 
-        In the mirror image teeth are numbered backwards.
+        In the mirror image, teeth are numbered backwards.
         """
         pitch = self.first.pitch
         # pitch deviations may shift teeth into the window from either side
@@ -128,7 +130,7 @@ class OutlinePair:
         return angle, speed, pair, kinds, r1, r2, sharing, curves
 
     def kinds(self, found: FirstTouches) -> Indices:
-        """Return the kind of each touch: 0 for two flanks, 1 or 2 for a corner of wheel 1 or 2, 3 for two corners."""
+        """Return the kind of each contact: 0 for two flanks, 1 or 2 for a corner of wheel 1 or 2, 3 for two corners."""
         kind = np.zeros(len(found.u), int)
         for at, (table, piece, u) in enumerate(
             ((self.touch_search.first, found.piece1, found.u), (self.touch_search.second, found.piece2, found.v))
@@ -137,8 +139,8 @@ class OutlinePair:
         return kind
 
     def _sharing(self, found: FirstTouches, minimum: Floats, tooth_pairs: CandidatePairs, count: int) -> Indices:
-        """Return the number of tooth pairs that touch at the driven angle `minimum` or beyond, at each driver
-        position.
+        """Return, at each driver position, the number of tooth pairs that touch at the driven angle `minimum` or
+        beyond.
         """
         touching = np.unique(found.tooth_pair[found.angle >= minimum])
         return np.bincount(tooth_pairs.position[touching], minlength=count)
@@ -156,7 +158,9 @@ def _no_contact(count: int) -> tuple[Any, ...]:
 
 
 def _check_pair(first: GearOutline, second: GearOutline, distance: float) -> None:
-    """Raise an error for a spur wheel with a bevel wheel, two ring gears, or a distance out of range."""
+    """Raise an error for a spur wheel paired with a bevel wheel, for two ring gears, or for a centre distance out of
+    range.
+    """
     if first.bevel != second.bevel or (first.ring and second.ring):
         raise QuestionError(
             Problem(
@@ -190,15 +194,19 @@ class FlankContact(Shown):
     """
 
     angle: Floats
-    """Angle of the driven wheel in contact [rad]; NaN where no tooth is within reach."""
+    """Angle of the driven wheel at which the flanks are in contact [rad]; NaN where no tooth is within reach."""
     speed: Floats
-    """Speed ratio: derivative of the driven angle with respect to the driver angle; NaN without contact."""
+    """Speed ratio: derivative of the driven angle with respect to the driver angle; NaN where the teeth do
+    not touch.
+    """
     pair: Indices
     """Number of the driver's tooth that is in contact; 0 where the teeth do not touch. Teeth are counted forward from
-    tooth 0, beyond z after a revolution.
+    tooth 0, and the count continues beyond z after a revolution.
     """
     kind: Indices
-    """Kind of contact (between flanks, or at a corner), as an index into `KINDS`; -1 where the teeth do not touch."""
+    """Kind of contact (between two flanks, or at a corner), as an index into `KINDS`; -1 where the teeth do
+    not touch.
+    """
     radius1: Floats
     """Distance of the contact from the driver's axle, in the unit of the outlines; for bevel wheels, polar angle [rad].
     """
@@ -206,10 +214,10 @@ class FlankContact(Shown):
     """Distance of the contact from the driven axle, in the unit of the outlines; for bevel wheels, polar angle [rad].
     """
     sharing: Indices
-    """Number of tooth pairs whose gap is within the tolerance."""
+    """Number of tooth pairs whose gap is smaller than the tolerance."""
     curves: Indices
-    """Numbers of the curves in contact on both outlines, counted through all teeth, shape (2, ...); -1 where the teeth
-    do not touch.
+    """Numbers of the curves in contact on both outlines, shape (2, ...); -1 where the teeth do not touch. Curves are
+    numbered consecutively over all teeth.
     """
 
     def to_dict(self) -> dict[str, Any]:

@@ -1,5 +1,5 @@
-"""Mesh of a gear pair whose form defines only the outlines of both wheels; its motion is computed from
-their contact.
+"""Mesh of a gear pair whose tooth form defines only the outlines of both wheels. The motion is computed from the
+contact of the outlines.
 """
 
 from __future__ import annotations
@@ -32,41 +32,45 @@ _HEADER = (
 
 @dataclass(frozen=True)
 class OutlineMesh(GearMesh):
-    """Spur pair with teeth of any shape; `teeth` are the teeth to cut on the first and the second wheel, in modules."""
+    """Spur pair with teeth of any shape. `teeth` contains the teeth to cut on the first and on the second wheel, with
+    lengths in modules.
+    """
 
     transmission: OutlineTransmission
     teeth: tuple[FixedTooth, FixedTooth]
 
     @property
     def tooth_phase(self) -> float:
-        """Distance of a tooth of the driven wheel past the line of centres while the driven angle is 0 [pitch].
+        """Distance [pitch] by which a tooth of the driven wheel is past the line of centres when the driven angle is 0.
 
-        A tooth of the driver is then on the line of centres, and flanks touch. The distance is the sum of half the
-        tooth thicknesses of both wheels.
+        In this position a tooth of the driver is on the line of centres, and flanks touch. The distance is the sum of
+        half the tooth thicknesses of both wheels.
         """
         return self.transmission.gears.half_teeth / pi
 
     def size(self, tips: Mapping[str, float]) -> PairSize:
-        """Return the size of the pair in modules."""
+        """Return the sizes of the pair in modules."""
         del tips
         distance = self.transmission.gears.distance
         return PairSize(1.0, distance, distance / self.wheels.touching)
 
     def requirement(self, wheel: str, scale: float, tolerance: float) -> FixedTooth:
-        """Return the tooth of `wheel` exactly as the form defines it, including arcs."""
+        """Return the tooth of `wheel` exactly as the tooth form defines it, including circular arcs."""
         del scale, tolerance
         return self.teeth[self.gear.pair.index(wheel)]
 
     @property
     def displaced_contact(self) -> DisplacedContact:
-        """Contact of a single tooth pair of the outlines, and lag of the driven wheel caused by displaced flanks."""
+        """Contact of a single tooth pair of the outlines, and the lag of the driven wheel that displaced
+        flanks cause.
+        """
         from geartrain.teeth.contact.displaced_outlines import displaced_outlines
 
         return displaced_outlines(self.transmission.gears, self.transmission.driver)
 
     def account(self) -> PairAccount:
-        """Return the report of the pair: speed ratio, transmission error, backlash, and efficiency with either wheel
-        driving.
+        """Return the report on the pair: speed ratio, transmission error, backlash, and the efficiency for either wheel
+        as the driver.
         """
         from geartrain.teeth.pair_results import AccountTable, PairAccount, PairFigures, motion_figures
 

@@ -35,7 +35,7 @@ _SAMPLES = 256  # angles of a pitch at which backlash is evaluated
 
 @dataclass(frozen=True, eq=False)
 class OutlineGears:
-    """Outlines of two wheels at a centre distance, lengths in modules."""
+    """Outlines of two wheels at a given centre distance. Lengths are in modules."""
 
     first: GearOutline
     """Outline of gear 1 [module]."""
@@ -44,11 +44,11 @@ class OutlineGears:
     distance: float
     """Centre distance of the wheels [module]."""
     half_teeth: float
-    """Sum of half the tooth thicknesses of both wheels on the pitch circles [module], from which the driven angle is
-    counted.
+    """Sum of the half-thicknesses of a tooth of each wheel on the pitch circles [module]. It determines the position at
+    which the driven angle is 0.
     """
     backlash: float
-    """Backlash on the pitch circles as designed [module]."""
+    """Designed backlash on the pitch circles [module]."""
     faults: tuple[ToothFault, ...] = ()
     """Faults of the teeth that do not depend on the centre distance."""
 
@@ -60,8 +60,8 @@ class OutlineGears:
 class OutlineTransmission(ToothTransmission):
     """Transmission function of two outlines.
 
-    `driver` is the driving wheel, 1 or 2; `direction` -1 reverses the motion. At S = 0 a driver's tooth is on the
-    line of centres; the driven angle is 0 where flanks touch.
+    `driver` is the number of the driving wheel, 1 or 2. A `direction` of -1 reverses the motion. At the driver angle S
+    = 0, a tooth of the driver is on the line of centres, and the driven angle at which flanks touch is 0.
     """
 
     slow = True
@@ -79,7 +79,7 @@ class OutlineTransmission(ToothTransmission):
 
     @property
     def table(self) -> PiecewiseTransmission:
-        """Driven angle as piecewise polynomials of the driver angle, with the front flanks driving."""
+        """Driven angle as piecewise polynomials of the driver angle, for contact of the front flanks."""
         return _tabulated(self.gears, self.driver)
 
     def _driven(self, driver: int, direction: int) -> OutlineTransmission:
@@ -87,7 +87,9 @@ class OutlineTransmission(ToothTransmission):
 
     @cached_property
     def verdict(self) -> PairVerdict:
-        """Verdict on whether the pair can run: faults of its teeth, backlash, and gaps in contact at this distance."""
+        """Verdict on whether the pair can run, which depends on faults of its teeth, backlash, and gaps in contact at
+        this centre distance.
+        """
         backlashes = _backlashes(self.gears, self.driver)
         backlash = float(np.nanmin(backlashes, initial=inf))
         # rad: without backlash the teeth touch on both sides up to rounding error
@@ -102,12 +104,16 @@ class OutlineTransmission(ToothTransmission):
         return self.direction * np.asarray(S, dtype=float)
 
     def _in_direction(self, error: Floats | float) -> Floats:
-        """Convert transmission errors of the front flanks to the direction of motion; reversed motion is mirrored."""
+        """Convert transmission errors of the front flanks to the direction of motion. For reversed motion, errors are
+        mirrored.
+        """
         ahead = np.asarray(error) - self._offset
         return ahead if self.direction > 0 else self._backlash - ahead
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the transmission error [rad of the driven wheel] at driver angles S [rad]; NaN without contact."""
+        """Return the transmission error [rad of the driven wheel] at driver angles S [rad]; NaN where the teeth do not
+        touch.
+        """
         return self._in_direction(self.table.error(self._forward(S)))
 
     def speed(self, S: ArrayLike) -> Floats:
@@ -115,13 +121,15 @@ class OutlineTransmission(ToothTransmission):
         return self.table.speed(self._forward(S))
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...]:
-        """Return the upward steps of the speed ratio as the next tooth takes over; they are equal in reversed
-        motion.
+        """Return the upward steps of the speed ratio at which the next tooth takes over. The steps are the same in
+        reversed motion.
         """
         return self.table.speed_leaps()
 
     def steepest_fall(self) -> float:
-        """Return the maximum rate at which the speed ratio decreases [1/rad]; it is the same in reversed motion."""
+        """Return the maximum rate at which the speed ratio decreases with the driver angle [1/rad]. The rate is the
+        same in reversed motion.
+        """
         return self.table.steepest_fall()
 
     def kinks(self) -> list[float]:
@@ -129,7 +137,7 @@ class OutlineTransmission(ToothTransmission):
         return [self.direction * float(at) for at in self.table.kinks]
 
     def smooth_intervals(self) -> list[tuple[float, float]]:
-        """Return the intervals of driver angle in which the driven angle is one polynomial [rad]."""
+        """Return the intervals of the driver angle [rad] in each of which the driven angle is a single polynomial."""
         edges = sorted((self.direction * self.table.breaks).tolist())
         return list(pairwise(edges))
 
@@ -151,10 +159,10 @@ class OutlineTransmission(ToothTransmission):
     # ------------------------------------------------------------------------------------------------------- friction
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """Return sliding speed and friction terms of the contact at driver angles S [rad].
+        """Return the sliding speed and the friction terms of the contact at driver angles S [rad].
 
         The common normal passes through the instantaneous pitch point, which divides the centre distance in the ratio
-        of the speeds. With this point as pitch point the contact obeys the formulas of conjugate teeth.
+        of the speeds. If this point is taken as the pitch point, the formulas of conjugate teeth apply to the contact.
         """
         forward = self._forward(S)
         cosine, into, out = _friction_terms(self.gears, self.driver, forward)
@@ -169,16 +177,19 @@ class OutlineTransmission(ToothTransmission):
 
     @cached_property
     def locking_friction(self) -> float:
-        """Minimum friction coefficient at which a contact locks, at the quadrature nodes; infinite if none locks."""
+        """Minimum friction coefficient at which a contact locks, evaluated at the quadrature nodes; infinite if no
+        contact can lock.
+        """
         steepest = float(np.nanmax(-self.rubbing(self.graded_nodes(self.speed)[0]).out))
         return 1 / steepest if steepest > _FLAT else inf
 
 
 def _friction_terms_at(x: Floats, y: Floats, R1: Floats, R2: Floats) -> tuple[Floats, Floats, Floats]:
-    """Return the cosine of the pressure angle, and the terms of input and output power per unit friction
-    coefficient, for a contact at (x, y).
+    """Return three quantities for a contact at (x, y): the cosine of the pressure angle, and the terms of the input
+    power and of the output power per unit friction coefficient.
 
-    (x, y) is relative to the instantaneous pitch point; R1 and R2 are the distances of that point from the axles.
+    The coordinates x and y are relative to the instantaneous pitch point. R1 and R2 are the distances of this point
+    from the axles.
     """
     d = np.hypot(x, y)
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -190,8 +201,8 @@ def _friction_terms_at(x: Floats, y: Floats, R1: Floats, R2: Floats) -> tuple[Fl
 
 
 def _friction_terms(gears: OutlineGears, driver: int, forward: Floats) -> tuple[Floats, Floats, Floats]:
-    """Return the cosine of the pressure angle, and the terms of input and output power per unit friction
-    coefficient, at driver angles `forward` [rad].
+    """Return three quantities at driver angles `forward` [rad]: the cosine of the pressure angle, and the terms of the
+    input power and of the output power per unit friction coefficient.
     """
     first, second = gears.of(driver)
     at = contact(first, second, gears.distance, forward)
@@ -220,7 +231,9 @@ def _tabulated(gears: OutlineGears, driver: int) -> PiecewiseTransmission:
 
 @lru_cache(maxsize=64)
 def _backlashes(gears: OutlineGears, driver: int) -> Floats:
-    """Return the backlash [rad of the driven wheel] at equally spaced angles of one period; NaN without contact."""
+    """Return the backlash [rad of the driven wheel] at equally spaced driver angles over one period; NaN without
+    contact.
+    """
     first, second = gears.of(driver)
     S = np.linspace(0, 2 * pi / first.z, _SAMPLES, endpoint=False)
     return solve(first, second, gears.distance, S).backlash

@@ -46,35 +46,47 @@ _MOST = 100_000  # maximum number of stretches per driver pitch
 
 @dataclass(frozen=True)
 class PiecewiseTransmission:
-    """Driven angle as a periodic piecewise polynomial of the driver angle phi1: ratio phi1 + error [rad]."""
+    """Driven angle as a periodic function of the driver angle phi1: ratio phi1 + error [rad], where the error is a
+    piecewise polynomial.
+    """
 
     ratio: Fraction
-    """Mean speed ratio, driven divided by driver, without sign."""
+    """Mean speed ratio: absolute value of the driven speed divided by the driver speed."""
     period: float
-    """Period in driver angle [rad]."""
+    """Period of the function, as a driver angle [rad]."""
     breaks: Floats
-    """Ends of the intervals [rad], shape (n + 1,), ascending over one period of the driver angle."""
+    """Ends of the intervals of the driver angle [rad], shape (n + 1,), in ascending order over one period."""
     errors: PeriodicPieces
-    """Transmission error [rad], a polynomial on each interval."""
+    """Transmission error [rad], which is a polynomial in each interval."""
     speeds: PeriodicPieces
-    """Speed ratio, a polynomial on each interval."""
+    """Speed ratio, which is a polynomial in each interval."""
     pair: Indices
     """Number of the driver's tooth in contact in each interval, shape (n,)."""
     kind: Indices
-    """Kind of contact in each interval, shape (n,): index into `outline_contact.KINDS`; -1 if no tooth is in range."""
+    """Kind of contact in each interval, shape (n,), as an index into `outline_contact.KINDS`; -1 if no tooth is in
+    range.
+    """
     kinks: Floats
     """Driver angles at which the contact changes to another tooth or curve [rad]."""
     uncertainty: float
-    """Estimated error of the driven angle [rad]: twice the maximum difference found between interpolation nodes."""
+    """Estimated error of the driven angle [rad]: twice the maximum difference between fit and function that was found
+    between interpolation nodes.
+    """
     speed_uncertainty: float
-    """Estimated error of the speed ratio: twice the maximum difference found between interpolation nodes."""
+    """Estimated error of the speed ratio: twice the maximum difference between fit and function that was found between
+    interpolation nodes.
+    """
 
     def error(self, phi1: ArrayLike) -> Floats:
-        """Return the transmission error [rad of the driven wheel] at driver angles phi1 [rad]; NaN without contact."""
+        """Return the transmission error [rad of the driven wheel] at driver angles phi1 [rad]; NaN where the teeth do
+        not touch.
+        """
         return self.errors(phi1)
 
     def speed(self, phi1: ArrayLike) -> Floats:
-        """Return the speed ratio d angle / d phi1 at driver angles phi1 [rad]."""
+        """Return the speed ratio, the derivative of the driven angle with respect to phi1, at driver angles
+        phi1 [rad].
+        """
         return self.speeds(phi1)
 
     def angle(self, phi1: ArrayLike) -> Floats:
@@ -82,15 +94,17 @@ class PiecewiseTransmission:
         return self.error(phi1) + float(self.ratio) * np.asarray(phi1, dtype=float)
 
     def extremes(self) -> tuple[float, float]:
-        """Return the minimum and the maximum transmission error [rad], which are at kinks or where its slope is 0."""
+        """Return the minimum and the maximum transmission error [rad], which occur at kinks or where the slope of the
+        error is 0.
+        """
         return self.errors.extremes()
 
     def speed_range(self) -> tuple[float, float]:
-        """Return the minimum and maximum speed ratio."""
+        """Return the minimum and the maximum speed ratio."""
         return self.speeds.extremes()
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...]:
-        """Return the upward steps of the speed ratio at the breakpoints, in order of angle.
+        """Return the upward steps of the speed ratio at the breakpoints, in ascending order of driver angle.
 
         Steps due to rounding are omitted.
         """
@@ -99,14 +113,14 @@ class PiecewiseTransmission:
         return tuple(SpeedLeap(*each) for each in zip(before[leaps].tolist(), after[leaps].tolist(), strict=True))
 
     def steepest_fall(self) -> float:
-        """Return the maximum rate at which the speed ratio decreases with the driver angle within the intervals
-        [1/rad]; 0 if it never decreases.
+        """Return the maximum rate at which the speed ratio decreases with the driver angle [1/rad] within the
+        intervals; 0 if the speed ratio never decreases.
         """
         return max(0.0, -self.speeds.extremes(1)[0])
 
     def moments(self) -> tuple[float, float]:
-        """Return the mean of the transmission error over a period and its rms deviation [rad]; NaN for gaps in
-        contact.
+        """Return the mean of the transmission error over a period and its rms deviation from the mean [rad]; NaN if
+        contact is interrupted.
         """
         return self.errors.moments()
 
@@ -115,8 +129,8 @@ class PiecewiseTransmission:
 
 
 class _Stretches(NamedTuple):
-    """Intervals with fitted polynomials: their ends (2, n), coefficients (COUNT, n), tooth and kind of contact, and
-    maximum differences from the function.
+    """Intervals of the driver angle with fitted polynomials: ends (2, n), coefficients (COUNT, n), tooth and kind of
+    contact, and maximum differences between fit and function.
     """
 
     ends: Floats
@@ -206,7 +220,7 @@ def tabulate(
 
 
 class _Fitter:
-    """Adaptive fit of polynomials: intervals are divided at their kinks, or bisected, until the fit is accurate."""
+    """Adaptive polynomial fit. Intervals are divided at their kinks, or bisected, until the fit is accurate."""
 
     def __init__(self, pair_contact: OutlinePair, tolerance: float) -> None:
         self.pair_contact, self.tolerance = pair_contact, tolerance
@@ -215,7 +229,7 @@ class _Fitter:
         self.period = pair_contact.cycle * self.pitch
 
     def fit(self) -> tuple[_Stretches, Floats, Floats]:
-        """Return all intervals in order, their ends, and the ends that are kinks."""
+        """Return all intervals in ascending order, their ends, and those ends that are kinks."""
         count = _PARTS * self.pair_contact.cycle
         edges = (np.arange(count + 1) + _OFFSET) * (self.period / count)
         pending, before = np.stack([edges[:-1], edges[1:]]), np.full(count, np.inf)
@@ -233,7 +247,9 @@ class _Fitter:
         return self._ordered(done, np.concatenate(kinks))
 
     def _accepted(self, stretches: _Stretches, before: Floats) -> Bools:
-        """Return flags of intervals that are within tolerance, too thin to divide, or limited by rounding."""
+        """Return a mask of the intervals that are within tolerance, too narrow to be divided, or limited by rounding
+        errors.
+        """
         thin = np.diff(stretches.ends, axis=0)[0] < _THIN * self.pitch
         # bisection of a smooth stretch reduces the error by far more than 4; less at this size is rounding error
         stuck = (stretches.off > before / 4) & (before < 1e-10)
@@ -241,7 +257,9 @@ class _Fitter:
         return good
 
     def _fitted(self, ends: Floats) -> tuple[_Stretches, Indices]:
-        """Return polynomials fitted on intervals, and labels of the contact at their nodes, shape (4, n, nodes)."""
+        """Return the polynomials fitted in the intervals, and labels of the contact at the nodes of each interval,
+        shape (4, n, nodes).
+        """
         half, middle = np.diff(ends, axis=0)[0] / 2, ends.mean(axis=0)
         phi1 = middle[:, None] + half[:, None] * _ALL
         angle, speed, labels = self._evaluated(phi1)
@@ -258,13 +276,17 @@ class _Fitter:
         return _Stretches(ends, fits[0], fits[1], pair, kind, off[0], off[1]), labels
 
     def _evaluated(self, phi1: Floats) -> tuple[Floats, Floats, Indices]:
-        """Return driven angle [rad], speed ratio, and labels that identify the contact."""
+        """Return the driven angle [rad], the speed ratio, and labels that identify the contact, at driver angles phi1
+        [rad].
+        """
         angle, speed, pair, kind, _, _, _, curves = self.pair_contact.at(phi1.ravel(), 0.0)
         labels = np.stack([pair, kind, *curves]).reshape(4, *phi1.shape)
         return angle.reshape(phi1.shape), speed.reshape(phi1.shape), labels
 
     def _kinks(self, ends: Floats, labels: Indices) -> list[Floats]:
-        """Return the driver angles at which the contact changes in each interval, exact except for rounding error."""
+        """Return, for each interval, the driver angles at which the contact changes, exact except for
+        rounding errors.
+        """
         changed = (labels[:, :, 1:] != labels[:, :, :-1]).any(axis=0)
         stretch, at = np.nonzero(changed)
         half, middle = np.diff(ends, axis=0)[0] / 2, ends.mean(axis=0)
@@ -274,7 +296,9 @@ class _Fitter:
         return [np.unique(found[stretch == one]) for one in range(ends.shape[1])]
 
     def _located(self, low: Floats, high: Floats, left: Indices) -> Floats:
-        """Return the first angle between `low` and `high` at which the labels differ from `left`, by subdivision."""
+        """Return the smallest angle between `low` and `high` at which the labels differ from `left`, found by
+        subdivision.
+        """
         share = np.arange(1, _CUTS) / _CUTS
         for _ in range(20):  # 17^20 exceeds 2^53 by far, so the loop ends by the break below
             inner = low[:, None] + (high - low)[:, None] * share
@@ -291,7 +315,9 @@ class _Fitter:
         return low + (high - low) / 2
 
     def _ordered(self, done: list[_Stretches], kinks: Floats) -> tuple[_Stretches, Floats, Floats]:
-        """Return the intervals sorted by driver angle, with kinks moved to intersections of adjacent polynomials."""
+        """Return the intervals sorted by driver angle, their ends, and the ends that are kinks. Kinks are moved to the
+        intersections of adjacent polynomials.
+        """
         everything = joined(done)
         everything = some(everything, np.argsort(everything.ends[0]))
         breaks = np.append(everything.ends[0], everything.ends[1, -1])
@@ -310,7 +336,9 @@ class _Fitter:
 
 
 def _divided(ends: Floats, cuts: list[Floats], off: Floats) -> tuple[Floats, Floats]:
-    """Return the intervals divided at their kinks, or bisected if they have none, and the previous error of each."""
+    """Return the intervals that result from dividing each interval at its kinks, or from bisecting it if it has none,
+    and the previous fit error of each new interval.
+    """
     found, before = [], []
     for (low, high), inner, last in zip(ends.T, cuts, off, strict=True):
         within = inner[(inner > low) & (inner < high)]

@@ -22,7 +22,7 @@ _BOTH_WAYS = "give all pulleys as wheels, or all as links with diameters"
 
 
 def _read_pulleys(raw: object) -> object:
-    """Return the pulleys as a mapping from links to pitch diameters, or as a tuple of wheels."""
+    """Return the pulleys as a mapping from links to pitch diameters, or as a tuple of wheel names."""
     if isinstance(raw, Mapping):
         if any(size is None for size in raw.values()):
             raise bad("belt", "a pulley has no diameter", _BOTH_WAYS)
@@ -43,7 +43,7 @@ def _read_pulleys(raw: object) -> object:
 
 
 def _written_pulleys(pulleys: Any) -> Any:
-    """Return pulleys as declared, for serialization."""
+    """Return the pulleys in the form in which they are declared, for serialization."""
     return {link: str(size) for link, size in pulleys.items()} if isinstance(pulleys, Mapping) else list(pulleys)
 
 
@@ -63,7 +63,7 @@ Pulleys = Annotated[
 
 
 class Belt(Coupling):
-    """Belt, chain or cable around two or more pulleys, without slip."""
+    """Belt, chain or cable that runs around two or more pulleys without slip."""
 
     ENDS = ("around",)
     SIDES = ("pulley", "pulley")
@@ -101,19 +101,21 @@ class Belt(Coupling):
 
     @property
     def row_names(self) -> tuple[str, ...]:
-        """Name of the belt if it has two pulleys; otherwise, a name `first~other` for each other pulley."""
+        """Name of the belt if it has two pulleys. With more pulleys, there is one name `first~other` for each pulley
+        after the first.
+        """
         first, *others = self.ends
         return (self.name,) if len(others) == 1 else tuple(f"{first}~{other}" for other in others)
 
     @property
     def about(self) -> str:
-        """Pulleys with their diameters and senses, as text."""
+        """Text that lists the pulleys with their diameters and senses of rotation."""
         sizes = [""] * len(self.ends) if self.by_teeth else [f" {size}" for size in self.around.values()]
         marks = [" (reversed)" if name in self.reversed else "" for name in self.ends]
         return ", ".join(map("".join, zip(self.ends, sizes, marks, strict=True)))
 
     def problems(self, wheels: Mapping[str, tuple[str, Any]]) -> Iterator[tuple[str, str, str]]:
-        """Yield the faults of the pulleys: two pulleys on one link, or a wheel that a belt cannot go around."""
+        """Yield the faults of the pulleys: two pulleys on one link, or a wheel around which a belt cannot run."""
         yield from super().problems(wheels)
         for name in self.ends if self.by_teeth else ():
             wheel = wheels[name][1]
@@ -128,11 +130,13 @@ class Belt(Coupling):
         return iter(() if self.by_teeth else self.around.values())
 
     def sense(self, pulley: str) -> int:
-        """Return 1 if a pulley turns in the sense of the first pulley relative to the carrier, otherwise -1."""
+        """Return 1 if a pulley turns in the same sense as the first pulley, relative to the carrier, or -1 if it turns
+        in the opposite sense.
+        """
         return 1 if (pulley in self.reversed) == (self.ends[0] in self.reversed) else -1
 
     def rows(self, wheels: Mapping[str, tuple[str, Any]]) -> Sequence[CouplingRow]:
-        """Return one row for each pulley except the first, which is the driving side of every row."""
+        """Return one row for each pulley except the first pulley, which is the driving side of every row."""
         first, *others = self.ends
         links = dict(zip(self.ends, self.links(wheels), strict=True))
         found = []
@@ -151,8 +155,9 @@ class Belt(Coupling):
 def belt_length(diameters: tuple[float, float], distance: float, crossed: bool = False) -> float:
     """Return the length of a taut belt around two pulleys, in the unit of the diameters and of the axis distance.
 
-    With half the diameters' difference (open) or sum (crossed) h = C sin(alpha), the straight parts are 2 C cos(alpha)
-    long, and the belt wraps the angles pi - 2 alpha and pi + 2 alpha (open), or pi + 2 alpha on both pulleys (crossed).
+    C is the axis distance. Half the difference (open belt) or half the sum (crossed belt) of the diameters is C
+    sin(alpha). The straight parts are 2 C cos(alpha) long, and the belt wraps the angles pi - 2 alpha and pi + 2 alpha
+    (open), or pi + 2 alpha on both pulleys (crossed).
 
     >>> round(belt_length((50.0, 75.0), 200.0), 6), round(belt_length((50.0, 75.0), 200.0, crossed=True), 6)
     (597.131045, 616.044608)

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 class CrankSlider(TravelCoupling):
-    """Crank that moves a slide to and fro through a rod; the line of the slide passes through the crank's axis."""
+    """Crank that moves a slide to and fro through a rod. The line of the slide passes through the crank's axis."""
 
     kind: Literal["crank_slider"] = Field(description="Crank, rod and slide: mean travel 0")
     radius: Annotated[MeasuredLength, above_zero("give a radius such as 20 mm")] = Field(
@@ -42,19 +42,20 @@ class CrankSlider(TravelCoupling):
 
     @property
     def mean(self) -> Fraction:
-        """Mean ratio 0, because the slide only moves to and fro."""
+        """Mean ratio. It is 0, because the slide only moves to and fro."""
         return Fraction(0)
 
     @property
     def transmission(self) -> CrankSliderTransmission:
-        """Transmission function with the crank driving."""
+        """Transmission function if the crank drives."""
         return CrankSliderTransmission(float(millimetres(self.radius)), float(millimetres(self.rod)))
 
 
 class CrankSliderTransmission(LosslessTransmission):
     """Transmission function of a crank that moves a slide through a rod.
 
-    The driven angle is 2 pi times the travel of the slide from its outer dead centre in mm. Friction is not modelled.
+    The driven angle is 2 pi times the travel of the slide from its outer dead centre, where the travel is in mm.
+    Friction is not modelled.
 
     radius   crank radius r [mm], above 0
     rod      length l of the rod [mm], above r
@@ -67,45 +68,53 @@ class CrankSliderTransmission(LosslessTransmission):
         self.r, self.l = radius, rod
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the travel of the slide from its outer dead centre, at most 0 [rad; 2 pi is 1 mm]."""
+        """Return the travel of the slide from its outer dead centre at crank angles S, where 2 pi rad correspond to 1
+        mm. It is 0 or negative.
+        """
         import numpy as np
 
         S = np.asarray(S, dtype=float)
         return np.asarray(self.period * (self.r * (np.cos(S) - 1) + self._along(S) - self.l))
 
     def speed(self, S: ArrayLike) -> Floats:
-        """Return the speed ratio: travel of the slide per revolution of the crank at its instantaneous speed [mm]."""
+        """Return the speed ratio at crank angles S [rad]: the instantaneous speed of the slide divided by the speed of
+        the crank [mm/turn].
+        """
         import numpy as np
 
         S = np.asarray(S, dtype=float)
         return np.asarray(-self.period * self.r * np.sin(S) * (1 + self.r * np.cos(S) / self._along(S)))
 
     def _along(self, S: Floats) -> Floats:
-        """Return the component of the rod along the slide [mm]."""
+        """Return the component of the rod in the direction of the slide [mm] at crank angles S [rad]."""
         import numpy as np
 
         # l^2 - r^2 sin^2 S as a sum, which does not cancel for short rods
         return np.asarray(np.sqrt((self.l - self.r) * (self.l + self.r) + (self.r * np.cos(S)) ** 2))
 
     def peak(self) -> float:
-        """Return the crank angle of maximum speed between the dead centres [rad]."""
+        """Return the crank angle between the dead centres at which the speed of the slide is a maximum [rad]."""
         return root(self._acceleration, 0.0, pi / 2, self._acceleration(0.0), self._acceleration(pi / 2))
 
     def _acceleration(self, S: float) -> float:
-        """Return the second derivative of the position with respect to the crank angle [mm]."""
+        """Return the second derivative of the slide's position with respect to the crank angle [mm/rad^2]."""
         along = sqrt(self.l**2 - (self.r * sin(S)) ** 2)
         tilted = self.l**2 * cos(S) ** 2 - along**2 * sin(S) ** 2
         return -self.r * cos(S) - self.r**2 * tilted / along**3
 
     def speed_range(self) -> tuple[float, float]:
-        """Return the minimum and maximum speed ratio, which differ in sign only."""
+        """Return the minimum and the maximum speed ratio, which differ only in sign."""
         most = abs(float(self.speed(self.peak())))
         return -most, most
 
     def error_range(self) -> tuple[float, float]:
-        """Return the travels of the slide at both dead centres [rad; 2 pi is 1 mm]."""
+        """Return the minimum and the maximum travel of the slide, which occur at the dead centres. They are in rad,
+        where 2 pi rad correspond to 1 mm.
+        """
         return -2 * self.period * self.r, 0.0
 
     def steepest_fall(self) -> float:
-        """Return the maximum rate at which the speed ratio decreases [1/rad], at the outer dead centre."""
+        """Return the maximum rate at which the speed ratio decreases with the crank angle [1/rad]. It occurs at the
+        outer dead centre.
+        """
         return self.period * self.r * (1 + self.r / self.l)

@@ -47,19 +47,19 @@ Lobes = Annotated[int, Field(ge=1, le=_MOST_LOBES)]
 
 
 class _VaryingPair(Coupling):
-    """Coupling of two links with a variable ratio."""
+    """Coupling of two links with a variable speed ratio."""
 
     pair: tuple[str, str] = Field(description="Driving link and driven link")
     phase: Angle | None = Field(None, description="Angle of the driver at the start; default 0")
 
     @property
     def start(self) -> float:
-        """Angle of the driver at the start [rad]."""
+        """Angle of the driver at the beginning of the motion [rad]."""
         return 0.0 if self.phase is None else self.phase.si
 
     @property
     def remark(self) -> str:
-        """Range of the deviation from uniform motion, in words."""
+        """Text that gives the range of the deviation from uniform motion."""
         if self.transmission is None:
             return "has an unknown angle"
         low, high = self.transmission.error_range()
@@ -67,9 +67,10 @@ class _VaryingPair(Coupling):
 
 
 class UniversalJoint(_VaryingPair):
-    """Universal joint (Cardan's or Hooke's): tan q = tan S / cos(beta), with the angle beta between the shafts.
+    """Universal joint (Cardan's or Hooke's joint): tan q = tan S / cos(beta), where beta is the angle between the
+    shafts, S the angle of the driver and q the angle of the driven shaft.
 
-    S is the angle of the driver's fork from the plane of both shafts. The mean ratio is 1.
+    S is measured from the plane of both shafts to the fork of the driver. The mean ratio is 1.
     """
 
     OBLIQUE = HOLDS = True
@@ -83,7 +84,9 @@ class UniversalJoint(_VaryingPair):
     )
 
     def on_axes(self, angle: float) -> Self:
-        """Return the joint with the angle between its axes [rad], unless its angle is declared."""
+        """Return a copy of the joint with the given angle between its axes [rad], or the joint itself if its angle is
+        declared.
+        """
         if self.angle is not None:
             return self
         shown = f"{degrees(angle):.6g} deg"
@@ -91,12 +94,12 @@ class UniversalJoint(_VaryingPair):
 
     @property
     def periods_per_turn(self) -> Fraction:
-        """Number of periods in one revolution of the driver, 2."""
+        """Number of periods of the transmission function in one revolution of the driver, which is 2."""
         return Fraction(2)
 
     @property
     def transmission(self) -> SeriesTransmission | None:
-        """Transmission function; None if the angle of the joint is not known."""
+        """Transmission function of the joint; None if the angle of the joint is not known."""
         if self.angle is None:
             return None
         from geartrain.teeth.couplings.series_transmission import SeriesTransmission
@@ -106,12 +109,12 @@ class UniversalJoint(_VaryingPair):
 
     @property
     def formula(self) -> str:
-        """Driven angle q in closed form."""
+        """Closed-form formula for the driven angle q."""
         return f"tan q = tan S / cos({self.angle.text if self.angle else 'beta'})"
 
 
 class _LobedPair(_VaryingPair):
-    """Two non-circular wheels in external mesh."""
+    """Two non-circular wheels in external mesh, whose pitch curves consist of equal lobes."""
 
     UNKNOWN = "teeth, friction and backlash"
 
@@ -119,21 +122,23 @@ class _LobedPair(_VaryingPair):
 
     @property
     def mean(self) -> Fraction:
-        """Mean ratio: minus the lobes of the driver divided by the lobes of the driven wheel."""
+        """Mean ratio: the number of lobes of the driver divided by the number of lobes of the driven wheel, with a
+        negative sign.
+        """
         return -Fraction(*self.lobes)
 
     @property
     def periods_per_turn(self) -> Fraction:
-        """Number of periods in one revolution of the driver: its lobes."""
+        """Number of periods of the transmission function in one revolution of the driver: its number of lobes."""
         return Fraction(self.lobes[0])
 
 
 class EllipticalPair(_LobedPair):
-    """Two elliptical or lobed wheels in external mesh about their foci.
+    """Two elliptical or lobed wheels in external mesh, which turn about foci of their pitch curves.
 
-    The driver has the pitch curve r = p / (1 + e cos(n1 theta)), with eccentricity e, n1 lobes and theta from a short
-    radius; its mate, with n2 lobes, is conjugate to it. With equal numbers of lobes the wheels are equal. S is 0 with
-    a long radius of the driver on the line of centres.
+    The driver has the pitch curve r = p / (1 + e cos(n1 theta)), where e is the eccentricity, n1 the number of lobes,
+    and theta is measured from a short radius. Its mate has n2 lobes and is conjugate to it. If the numbers of lobes are
+    equal, the wheels are equal. At S = 0, a long radius of the driver is on the line of centres.
     """
 
     kind: Literal["elliptical"] = Field(
@@ -161,7 +166,7 @@ class EllipticalPair(_LobedPair):
 
     @property
     def _root(self) -> float:
-        """Square root that occurs in the formula of `distance`."""
+        """Square root that occurs in the formula for `distance`."""
         e, m = float(self.eccentricity.value), self.lobes[0] / self.lobes[1]
         return sqrt(1 - (1 - e**2) * (1 - 1 / m**2))
 
@@ -172,8 +177,8 @@ class EllipticalPair(_LobedPair):
 
     @property
     def transmission(self) -> SeriesTransmission:
-        """Transmission function with rho = e (m + 1)/(m s + 1), where e is the eccentricity, m the mean ratio without
-        sign, and s the square root in `distance`.
+        """Transmission function, a series with rho = e (m + 1)/(m s + 1), where e is the eccentricity, m the absolute
+        value of the mean ratio, and s the square root in `distance`.
         """
         from geartrain.teeth.couplings.series_transmission import SeriesTransmission
 
@@ -183,7 +188,7 @@ class EllipticalPair(_LobedPair):
 
     @property
     def formula(self) -> str:
-        """Driven angle q in closed form."""
+        """Closed-form formula for the driven angle q."""
         rho = self.transmission.rho
         S, q = ({1: f"{of} / 2", 2: of}.get(n, f"{n} {of} / 2") for n, of in zip(self.lobes, "Sq", strict=True))
         return f"tan({q}) = {(1 + rho) / (1 - rho):.6g} tan({S})"
@@ -192,8 +197,9 @@ class EllipticalPair(_LobedPair):
 class PitchCurvePair(_LobedPair):
     """Two non-circular wheels in external mesh: the driver has a given pitch curve, and its mate is conjugate to it.
 
-    The radii at equal angles over one lobe of the driver, starting at S = 0, are joined by a periodic cubic spline.
-    The centre distance C follows from the condition that the mate closes: the mean of r/(C - r) is the mean ratio.
+    The radii at equal angles over one lobe of the driver, starting at S = 0, are joined by a periodic cubic spline. The
+    centre distance C follows from the condition that the pitch curve of the mate is closed: the mean of r/(C - r) is
+    the mean ratio.
     """
 
     kind: Literal["pitch_curve"] = Field(
@@ -226,7 +232,7 @@ class PitchCurvePair(_LobedPair):
 
     @property
     def distance(self) -> float:
-        """Distance between the axes [m], or in the unit of the radii if these are declared without a unit."""
+        """Distance between the axes [m], or in the unit of the radii if these are given without a unit."""
         from geartrain.teeth.couplings.pitch_curves import mate_distance
 
         return mate_distance(self._values, float(-self.mean))
@@ -237,7 +243,9 @@ class PitchCurvePair(_LobedPair):
 
     @property
     def transmission(self) -> TableTransmission:
-        """Transmission function by quadrature of the ratio r/(C - r)."""
+        """Transmission function, computed by quadrature of the ratio r/(C - r), where r is the radius of the driver and
+        C the axis distance.
+        """
         from geartrain.teeth.couplings.pitch_curves import mate_deviation
         from geartrain.teeth.couplings.table_transmission import TableTransmission
 
@@ -246,7 +254,7 @@ class PitchCurvePair(_LobedPair):
 
     @property
     def formula(self) -> str:
-        """Speed ratio dq/dS in closed form."""
+        """Closed-form formula for the speed ratio dq/dS."""
         return f"dq/dS = r / (C - r), C = {self.distance:.6g}{'' if self.radii[0].unit is None else ' m'}"
 
 
@@ -258,9 +266,10 @@ Harmonic = Annotated[tuple[Figure, Angle], BeforeValidator(_amplitude)]
 
 
 class TabledLaw(_VaryingPair):
-    """Coupling with the driven angle q = mean S + unit d(S), with d given by harmonics or by a table.
+    """Coupling with the driven angle q = mean S + unit d(S), where S is the angle of the driver, and the function d is
+    given by harmonics or by a table.
 
-    A mean of 0 describes a cam with an oscillating arm.
+    A mean ratio of 0 describes a cam with an oscillating arm.
     """
 
     NEEDS_DISTANCE = False
@@ -307,17 +316,19 @@ class TabledLaw(_VaryingPair):
 
     @property
     def mean(self) -> Fraction:
-        """Exact mean ratio."""
+        """Exact mean speed ratio."""
         return self.mean_ratio.value
 
     @property
     def periods_per_turn(self) -> Fraction:
-        """Number of periods in one revolution of the driver."""
+        """Number of periods of the transmission function in one revolution of the driver."""
         return 1 / self.per.value
 
     @property
     def transmission(self) -> TableTransmission:
-        """Transmission function; if the mean ratio is negative, the angles of the driven side are forward angles."""
+        """Transmission function. If the mean ratio is negative, angles of the driven side are positive in its mean
+        sense of rotation.
+        """
         from geartrain.numerics.periodic_function import HarmonicSeries, PeriodicTable
         from geartrain.teeth.couplings.table_transmission import TableTransmission
 
@@ -335,7 +346,7 @@ class TabledLaw(_VaryingPair):
 
     @property
     def formula(self) -> str:
-        """Driven angle q in closed form."""
+        """Closed-form formula for the driven angle q."""
         mean = f"{fraction_text(self.mean)} S + " if self.mean else ""
         turn = "S" if self.per.value == 1 else f"S/{self.per.text}"
         if self.harmonics is None:

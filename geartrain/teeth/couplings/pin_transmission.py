@@ -1,5 +1,5 @@
-"""Transmission functions of a pin in a slot, with pin radius r (distance of the pin from its axis) and distance
-e between the axes of pin and slot.
+"""Transmission functions of a pin in a slot. The pin radius r is the distance of the pin from its own axis, and e is
+the distance between the axes of pin and slot.
 
 The driver's angle S is measured from the direction that points from the pin's axis to the slot's axis.
 """
@@ -26,10 +26,10 @@ _MINIMUM = 1e-40  # in any unit: the fourth power of a distance neither underflo
 
 
 class PinTransmission(SeriesTransmission):
-    """Transmission function of a coupling by pin and slot, with either side driving.
+    """Transmission function of a coupling by pin and slot, in which either side can drive.
 
-    With the pin driving it is a `SeriesTransmission` with rho = min(r, e) / max(r, e). With the slot driving it is the
-    inverse function, which has the same maximum and the same rms of the error.
+    If the pin drives, the function is a `SeriesTransmission` with rho = min(r, e) / max(r, e). If the slot drives, it
+    is the inverse function, which has the same maximum and the same rms of the transmission error.
 
     `friction` is the coefficient of friction of the pin along the slot.
     """
@@ -37,7 +37,7 @@ class PinTransmission(SeriesTransmission):
     PAGE = "report.pair_page:describe_pin"
 
     driver: ClassVar[Literal["pin", "slot"]]
-    """Driving side, "pin" or "slot"."""
+    """Name of the driving side, "pin" or "slot"."""
 
     def __init__(self, pin_radius: float, offset: float, friction: float = 0.0) -> None:
         self.r, self.e, self.friction = pin_radius, offset, friction
@@ -49,7 +49,7 @@ class PinTransmission(SeriesTransmission):
     @property
     def _maximum_tangent(self) -> float:
         """Maximum of tan d over a turn, e/sqrt(r^2 - e^2), for a pin whose circle encloses the slot's axis. Here d is
-        the angle between pin radius and slot, r the pin radius and e the axis offset.
+        the angle between pin radius and slot, r is the pin radius, and e is the axis offset.
         """
         return self.e / sqrt((self.r - self.e) * (self.r + self.e))
 
@@ -118,10 +118,10 @@ class PinToSlotTransmission(PinTransmission):
     driver = "pin"
 
     def _reach(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Return two distances at driver angles S: r - e cos S, and the square of the distance of the pin from the
-        slot's axis.
+        """Return two quantities at driver angles S: the distance r - e cos S, and the square of the distance of the pin
+        from the slot's axis.
 
-        Both are computed as sums without cancellation; r is the pin radius and e the axis offset.
+        The pin radius is r and the axis offset is e. Both quantities are computed as sums without cancellation.
         """
         # half angles avoid the cancellation of both differences near r = e and S = 0
         half = np.sin(np.asarray(S, dtype=float) / 2)
@@ -209,10 +209,10 @@ class SlotToPinTransmission(PinTransmission):
         return np.asarray(1 - self.e * np.cos(np.asarray(S, dtype=float)) / along)
 
     def _sides(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Return r sin d and r cos d at driver angles S [rad], with the pin radius r and the angle d between pin radius
-        and slot.
+        """Return r sin d and r cos d at driver angles S [rad], where r is the pin radius and d is the angle between pin
+        radius and slot.
 
-        The angle follows from sin d = (e/r) sin S, with the axis offset e.
+        The angle follows from sin d = (e/r) sin S, where e is the axis offset.
         """
         S = np.asarray(S, dtype=float)
         # sqrt(r^2 - e^2 sin^2 S) as a sum, which does not cancel near r = e

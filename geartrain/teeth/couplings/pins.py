@@ -32,7 +32,7 @@ _CLEARANCE = checked(
 
 
 class PinCoupling(Coupling):
-    """Declared coupling of two links by one or more pins; base class of all kinds with pins."""
+    """Declared coupling of two links by one or more pins. It is the base class of all couplings with pins."""
 
     ENDS = ("pin", "slot")
     SIDES = ("slot", "pin")
@@ -55,7 +55,7 @@ class PinCoupling(Coupling):
 
 
 class _PinInSlot(PinCoupling):
-    """Pin in a slot; over one turn of the pin, the slot turns `WINDING` times."""
+    """Pin in a slot. In one turn of the pin, the slot turns `WINDING` times."""
 
     WINDING: ClassVar[int] = 1
 
@@ -92,12 +92,12 @@ class _PinInSlot(PinCoupling):
 
     @property
     def mean(self) -> Fraction:
-        """Mean ratio, which is the winding number of the pin about the slot's axis."""
+        """Mean ratio, which equals the winding number of the pin about the slot's axis."""
         return Fraction(self.WINDING)
 
     @property
     def transmission(self) -> PinToSlotTransmission | None:
-        """Transmission function with the pin driving; None if the dimensions are not declared."""
+        """Transmission function if the pin drives; None if the dimensions are not declared."""
         if self.pin_radius is None or self.offset is None:
             return None
         from geartrain.teeth.couplings.pin_transmission import PinToSlotTransmission
@@ -107,13 +107,13 @@ class _PinInSlot(PinCoupling):
 
 
 class PinAndSlot(_PinInSlot):
-    """Pin in a slot whose axis is inside the pin's circle: both links have the same mean speed."""
+    """Pin in a slot whose axis is inside the pin's circle, so that both links have the same mean speed."""
 
     kind: Literal["pin_and_slot"] = Field(description="Pin whose circle encloses the slot's axis: mean ratio 1")
 
 
 class PinFollower(_PinInSlot):
-    """Pin in a slotted follower whose axis is outside the pin's circle: the follower oscillates."""
+    """Pin in a slotted follower whose axis is outside the pin's circle, so that the follower oscillates."""
 
     WINDING = 0
 
@@ -121,7 +121,7 @@ class PinFollower(_PinInSlot):
 
 
 class _ParallelCoupling(PinCoupling):
-    """Coupling that keeps two links parallel, so that both have the same speed at every instant."""
+    """Coupling that keeps two links parallel, so that both links have the same speed at every instant."""
 
     FOR_COPIES = True
 
@@ -138,9 +138,9 @@ class _ParallelCoupling(PinCoupling):
 class PinsInHoles(_ParallelCoupling):
     """Pins in round holes that keep two links parallel, as the output pins of a cycloidal reducer do.
 
-    Both links turn at the same speed at every instant about axes that are `offset` apart. Holes are wider than their
-    pins by twice that distance. `slot` is the link with the holes, and `pin_radius` is the radius of the circle through
-    the centres of the pins.
+    Both links turn at the same speed at every instant about axes that are `offset` apart. The diameter of a hole
+    exceeds the diameter of its pin by twice this distance. `slot` is the link with the holes, and `pin_radius` is the
+    radius of the circle through the centres of the pins.
     """
 
     SIDES = ("holes", "pins")
@@ -153,7 +153,8 @@ class PinsInHoles(_ParallelCoupling):
 
 
 class Parallel(_ParallelCoupling):
-    """Any other coupling that keeps two links parallel, such as parallel cranks, an Oldham cross or a flexible wall.
+    """Any coupling other than pins in holes that keeps two links parallel, such as parallel cranks, an Oldham coupling
+    or a flexible wall.
 
     The links `pin` and `slot` are interchangeable. The coupling is not drawn.
     """
@@ -175,10 +176,10 @@ class Parallel(_ParallelCoupling):
 def pin_transmission(
     pin_radius: float, offset: float, friction: float = 0.0, driver: Literal["pin", "slot"] = "pin"
 ) -> PinTransmission:
-    """Return the transmission function of a pin in a slot with either side driving.
+    """Return the transmission function of a pin in a slot that is driven by the pin or by the slot.
 
     `offset` is the distance between the two axes, in the unit of `pin_radius`. Raises `RangeError` if the coupling
-    cannot turn; the place of the error is `driver` or `friction` if that value must be changed.
+    cannot turn; the location of the error is `driver` or `friction` if this value must be changed.
     """
     from geartrain.teeth.couplings.pin_transmission import PinToSlotTransmission, SlotToPinTransmission
 

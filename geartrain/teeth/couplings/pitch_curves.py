@@ -1,7 +1,7 @@
 """Centre distance and transmission function of a non-circular wheel with its conjugate mate.
 
-Wheels with the pitch radii r and C - r roll on each other with the speed ratio r/(C - r). Its integral over the angle
-of the driver is the driven angle, by adaptive Chebyshev interpolation.
+Wheels with the pitch radii r and C - r roll on each other with the speed ratio r/(C - r). The driven angle is the
+integral of this ratio over the angle of the driver, computed by adaptive Chebyshev interpolation.
 """
 
 from __future__ import annotations
@@ -23,7 +23,8 @@ _HALVINGS = 12  # of the distance between the pitch curve and the axis of its ma
 
 
 def mate_deviation(radii: tuple[float, ...], distance: float, period: float) -> tuple[PeriodicFunction, float]:
-    """Return the deviation from uniform motion of the mate of a wheel, 0 at its first radius, and its mean speed ratio.
+    """Return the deviation of a wheel's mate from uniform motion, which is 0 at the first radius of the wheel, and the
+    mate's mean speed ratio.
 
     radii      radii of the pitch curve at equal angles over one lobe, joined by a periodic cubic spline
     distance   distance C between the axes
@@ -39,20 +40,19 @@ def mate_deviation(radii: tuple[float, ...], distance: float, period: float) -> 
 
 
 def pitch_curve(radii: tuple[float, ...], period: float) -> PeriodicTable:
-    """Return the radius of a pitch curve as a function of the angle [rad], by a spline through radii at equal
-    angles.
-    """
+    """Return the radius of a pitch curve as a function of the angle [rad]: a spline through radii at equal angles."""
     steps = (np.arange(len(radii)) * (period / len(radii))).tolist()
     return PeriodicTable(steps, radii, period, "cubic")
 
 
 @lru_cache(maxsize=32)
 def mate_distance(radii: tuple[float, ...], ratio: float) -> float:
-    """Return the distance C between the axes for which the mean of r/(C - r) over a lobe is `ratio`.
+    """Return the distance C between the axes for which the mean of r/(C - r) over a lobe equals `ratio`, where r is the
+    radius of the driver.
 
     radii   radii at equal angles over one lobe of the driver
 
-    Raises `RangeError` if the spline reaches radius 0, or if no mate closes.
+    Raises `RangeError` if the spline reaches radius 0, or if no mate has a closed pitch curve.
     """
     low, high = pitch_curve(radii, 2 * pi).extremes()
     if low <= 0:

@@ -19,7 +19,7 @@ from geartrain.teeth.coupling import Coupling, CouplingRow, ratio_row
 
 
 class ApproximateRatio(NumberOrKeys):
-    """Ratio with its tolerance, if it is not known exactly. A bare number is an exact ratio."""
+    """Ratio with a tolerance if it is not known exactly. A bare number is an exact ratio."""
 
     value: Figure = Field(description="Ratio used in calculations")
     tolerance: Annotated[Figure, above_zero("give a tolerance above 0, or only the ratio")] | None = Field(
@@ -32,11 +32,11 @@ def _ratio(raw: object) -> object:
 
 
 DeclaredRatio = Annotated[ApproximateRatio, BeforeValidator(_ratio)]
-"""Field type: ratio with tolerance, or a bare number for an exact ratio."""
+"""Field type of a ratio with its tolerance. A bare number is accepted as an exact ratio."""
 
 
 class Ratio(Coupling):
-    """Pair of links, or planetary set, of which only the ratio is known."""
+    """Pair of links, or planetary set, for which only the speed ratio is known."""
 
     PARALLEL = ""
     NEEDS_DISTANCE = False
@@ -73,12 +73,14 @@ class Ratio(Coupling):
 
     @property
     def mean(self) -> Fraction:
-        """Exact speed of the second link divided by the speed of the first, relative to the carrier: 1/ratio."""
+        """Exact mean ratio: speed of the second link divided by the speed of the first link, relative to the carrier.
+        It is the reciprocal of the declared ratio.
+        """
         return 1 / self.ratio.value.value
 
     @property
     def bounds(self) -> tuple[Fraction, Fraction] | None:
-        """Bounds of `mean` for a ratio with tolerance; None for an exact ratio."""
+        """Minimum and maximum of `mean` for a ratio with a tolerance; None for an exact ratio."""
         if self.ratio.tolerance is None:
             return None
         ratio, tolerance = self.ratio.value.value, self.ratio.tolerance.value
@@ -86,18 +88,18 @@ class Ratio(Coupling):
 
     @property
     def about(self) -> str:
-        """Ratio as declared, as text."""
+        """Text that shows the ratio as declared."""
         tolerance = self.ratio.tolerance
         return f"ratio {self.ratio.value}" if tolerance is None else f"ratio {self.ratio.value} ± {tolerance}"
 
     def references(self) -> Iterator[tuple[str, str, tuple[str | int, ...]]]:
-        """Yield both links and the declared carrier, with their paths."""
+        """Yield the kind, the name and the location in the declaration of both links and of the declared carrier."""
         yield from super().references()
         if self.carrier is not None:
             yield "link", self.carrier, ("carrier",)
 
     def rows(self, wheels: Mapping[str, tuple[str, Any]]) -> Sequence[CouplingRow]:
-        """Return the only row, with the declared carrier."""
+        """Return the only row of this coupling, which contains the declared carrier."""
         del wheels
         first, second = self.pair
         return (ratio_row(self.name, second, first, self.mean)._replace(carrier=self.carrier),)

@@ -1,4 +1,4 @@
-"""Transmission functions whose deviation from uniform motion is A epsilon(n S), one function for several couplings.
+"""Transmission functions with the deviation A epsilon(n S) from uniform motion, which apply to several couplings.
 
 epsilon(x) = atan2(rho sin x, 1 - rho cos x) is the sum of rho^k sin(k x) / k over k = 1, 2, ..., with 0 <= rho < 1. Pin
 and slot, universal joints, and elliptical and lobed wheels differ only in the mean ratio m, the factor A, the order n
@@ -29,9 +29,10 @@ _TERMS = 54  # of the power series of the dilogarithm: its argument is at most 1
 class SeriesTransmission(LosslessTransmission):
     """Transmission function q = m S + A epsilon(n (S + phase)), with epsilon(x) = atan2(rho sin x, 1 - rho cos x).
 
-    At S = -phase the driven side passes its mean position with extreme speed: the maximum for A > 0.
+    At S = -phase the driven side passes its mean position with extreme speed: the maximum speed if A > 0, the minimum
+    if A < 0.
 
-    ratio    mean speed ratio m, without sign
+    ratio    absolute value of the mean speed ratio m
     factor   factor A of the deviation from uniform motion; either sign
     order    number n of periods in one revolution of the driver
     rho      ratio of successive terms of the series, 0 or more and below 1
@@ -49,33 +50,35 @@ class SeriesTransmission(LosslessTransmission):
         self.rest, self.phase, self.period = 1 - rho if rest is None else rest, phase, 2 * pi / order
 
     def mirrored(self) -> SeriesTransmission:
-        """Return the transmission function for a driver with reversed forward sense: the phase is negated, as epsilon
-        is odd.
+        """Return the transmission function for a driver whose forward sense is reversed. Because epsilon is odd, only
+        the sign of the phase changes.
         """
         if not self.phase:
             return self
         return SeriesTransmission(self.ratio, self.factor, self.order, self.rho, self.rest, -self.phase)
 
     def _argument(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Return the argument x = n (S + phase) of epsilon, and sin^2(x/2)."""
+        """Return the argument x = n (S + phase) of epsilon, and sin^2(x/2), at driver angles S [rad]."""
         x = self.order * (np.asarray(S, dtype=float) + self.phase)
         return x, np.sin(x / 2) ** 2
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the deviation from uniform motion at driver angles S [rad of the driven side]."""
+        """Return the deviation from uniform motion [rad of the driven side] at driver angles S [rad]."""
         x, half = self._argument(S)
         # 1 - rho cos x as a sum, which does not cancel near rho = 1
         return np.asarray(self.factor * np.arctan2(self.rho * np.sin(x), self.rest + 2 * self.rho * half))
 
     def speed(self, S: ArrayLike) -> Floats:
-        """Return the speed ratio m + A n (rho cos x - rho^2) / (1 - 2 rho cos x + rho^2) at driver angles S [rad]."""
+        """Return the speed ratio m + A n (rho cos x - rho^2) / (1 - 2 rho cos x + rho^2) at driver angles S [rad],
+        where x = n (S + phase).
+        """
         _, half = self._argument(S)
         # numerator and denominator as sums without cancellation
         share = self.rho * (self.rest - 2 * half) / (self.rest**2 + 4 * self.rho * half)
         return np.asarray(float(self.ratio) + self.factor * self.order * share)
 
     def speed_slope(self, S: ArrayLike) -> Floats:
-        """Return the derivative of the speed ratio.
+        """Return the derivative of the speed ratio with respect to the driver angle.
 
         Parameters
         ----------
@@ -85,14 +88,14 @@ class SeriesTransmission(LosslessTransmission):
         Returns
         -------
         ndarray
-            Derivative by the angle of the driver [1/rad], shape of S.
+            Derivative of the speed ratio [1/rad], of the shape of S.
         """
         x, half = self._argument(S)
         size = self.factor * self.order**2 * self.rho * self.rest * (1 + self.rho)
         return np.asarray(-size * np.sin(x) / (self.rest**2 + 4 * self.rho * half) ** 2)
 
     def speed_range(self) -> tuple[float, float]:
-        """Return the minimum and the maximum speed ratio, at n (S + phase) = 0 and pi."""
+        """Return the minimum and the maximum speed ratio, which occur at n (S + phase) = 0 and pi."""
         size = self.factor * self.order * self.rho
         ends = float(self.ratio) + size / self.rest, float(self.ratio) - size / (1 + self.rho)
         return min(ends), max(ends)
@@ -104,18 +107,20 @@ class SeriesTransmission(LosslessTransmission):
         return abs(self.factor) * atan2(self.rho, sqrt(self.rest * (1 + self.rho)))
 
     def error_range(self) -> tuple[float, float]:
-        """Return the minimum and the maximum deviation from uniform motion [rad], minus and plus the amplitude."""
+        """Return the minimum and the maximum deviation from uniform motion [rad], which are minus the amplitude and
+        plus the amplitude.
+        """
         return -self.amplitude, self.amplitude
 
     def error_moments(self) -> tuple[float, float]:
-        """Return the mean of the deviation from uniform motion, which is 0, and its rms |A| sqrt(Li2(rho^2) / 2) [rad],
-        where Li2 is the dilogarithm.
+        """Return the mean and the rms of the deviation from uniform motion [rad]. The mean is 0 and the rms is |A|
+        sqrt(Li2(rho^2) / 2), where Li2 is the dilogarithm.
         """
         # Parseval's theorem for the sine series
         return 0.0, abs(self.factor) * sqrt(_dilogarithm(self.rho**2, self.rest * (1 + self.rho)) / 2)
 
     def steepest_fall(self) -> float:
-        """Return the maximum rate at which the speed ratio decreases [1/rad]."""
+        """Return the maximum rate at which the speed ratio decreases with the driver angle [1/rad]."""
         square = 1 + self.rho**2
         # root of the derivative of `speed_slope`, in a form that does not cancel for small rho
         cosine = min(8 * self.rho / (square + sqrt(square**2 + 32 * self.rho**2)), 1.0)
@@ -124,7 +129,9 @@ class SeriesTransmission(LosslessTransmission):
 
 
 def _dilogarithm(x: float, rest: float) -> float:
-    """Return Li2(x), the sum of x^k / k^2 over k = 1, 2, ..., for 0 <= x < 1; `rest` is 1 - x."""
+    """Return the dilogarithm Li2(x), the sum of x^k / k^2 over k = 1, 2, ..., for 0 <= x < 1. The argument `rest` is 1
+    - x.
+    """
     if x > 0.5:
         # reflection formula of Euler
         return pi**2 / 6 - log(x) * log(rest) - _dilogarithm(rest, x)

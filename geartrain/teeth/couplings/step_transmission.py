@@ -1,4 +1,4 @@
-"""Transmission functions of couplings that move by steps: Geneva drives, and engagements that move whole teeth."""
+"""Transmission functions of couplings that move in steps: Geneva drives, and engagements that move whole teeth."""
 
 from __future__ import annotations
 
@@ -24,22 +24,22 @@ _EARLY = Fraction(1, 10**9)
 
 
 class GenevaTransmission(TableTransmission):
-    """Transmission function of a Geneva drive, from S = 0 in the middle of a step.
+    """Transmission function of a Geneva drive. At S = 0 the drive is in the middle of a step.
 
-    At S = 0 a pin is on the line of centres, nearest to the other axis in an external drive and farthest from it in an
-    internal drive. With rho = sin(pi/n), the driven angle of an external drive is atan2(rho sin S, 1 - rho cos S) while
-    |S| <= pi/2 - pi/n, and pi/n during the rest. The driven angle of an internal drive is atan2(rho sin S, 1 + rho cos
-    S) while |S| <= pi/2 + pi/n.
+    At S = 0 a pin is on the line of centres, nearest to the driven axis in an external drive and farthest from the
+    driven axis in an internal drive. With rho = sin(pi/n), the driven angle of an external drive is atan2(rho sin S, 1
+    - rho cos S) while |S| <= pi/2 - pi/n, and pi/n during the rest. The driven angle of an internal drive is atan2(rho
+    sin S, 1 + rho cos S) while |S| <= pi/2 + pi/n.
 
     slots      number of slots n, 3 or more
     pins       number of pins of the driver, evenly spaced
-    internal   true if the pins are inside the driven wheel, which then turns in the sense of the driver
+    internal   True if the pins are inside the driven wheel, which then turns in the sense of the driver
     """
 
     def __init__(self, slots: int, pins: int = 1, internal: bool = False) -> None:
         side = -1 if internal else 1
         self.alpha = pi / 2 - side * pi / slots
-        """Driver angle from the middle of a step to its end [rad]."""
+        """Driver angle between the middle of a step and its end [rad]."""
         self.dwell = 1 - pins * (Fraction(1, 2) - Fraction(side, slots))
         period = 2 * pi / pins
         # pins that follow each other without a rest end one step where the next one begins
@@ -48,14 +48,15 @@ class GenevaTransmission(TableTransmission):
         super().__init__(Fraction(pins, slots), deviation)
 
     def mirrored(self) -> GenevaTransmission:
-        """Return this transmission function itself, because its deviation is odd."""
+        """Return this transmission function itself, because its deviation is an odd function."""
         return self
 
 
 class _GenevaDeviation(PeriodicFunction):
-    """Deviation of a Geneva drive from uniform motion: -Im log(1 - rho exp(i S)) - mean S during a step.
+    """Deviation of a Geneva drive from uniform motion. During a step it is -Im log(1 - rho exp(i S)) - mean S, where S
+    is the driver angle.
 
-    rho     pin radius divided by the distance of the axes, negative for an internal drive
+    rho     pin radius divided by the axis distance, negative for an internal drive
     alpha   driver angle from the middle of a step to its end [rad]
     mean    mean speed ratio
     """
@@ -65,7 +66,9 @@ class _GenevaDeviation(PeriodicFunction):
         self.breakpoints, self.resolution = np.array(kinks), period / 32
 
     def derivative(self, x: ArrayLike, order: int = 1) -> Floats:
-        """Return the derivative of the given order, from 0 (the function) to 3, at any positions."""
+        """Return the derivative of order `order` of the deviation, from 0 (the deviation itself) to 3, at driver angles
+        `x` [rad].
+        """
         x = np.asarray(x, dtype=float)
         u = x - self.period * np.rint(x / self.period)
         # at rest the angle is the angle at the end of the step
@@ -79,9 +82,11 @@ class _GenevaDeviation(PeriodicFunction):
 
 
 class StepTransmission(TableTransmission):
-    """Transmission function of engagements that move whole teeth, instantaneously or evenly over a driver angle.
+    """Transmission function of engagements that move whole teeth, either instantaneously or uniformly over a driver
+    angle.
 
-    The first engagement begins at S = 0. The driven angle is measured from its position before this engagement.
+    The first engagement begins at S = 0. The driven angle is measured from the position of the driven link before this
+    engagement.
 
     teeth   number of teeth of the driven wheel
     moves   teeth moved by successive engagements
@@ -107,5 +112,7 @@ class StepTransmission(TableTransmission):
         self.dwell = 1 - over * times * Fraction(sum(1 for each in moves if each), len(moves))
 
     def mirrored(self) -> StepTransmission:
-        """Return this transmission function itself: an engagement begins at S = 0 in either sense of the driver."""
+        """Return this transmission function itself, because an engagement begins at S = 0 in either sense of the
+        driver.
+        """
         return self

@@ -30,7 +30,7 @@ _MOST_MOVES = 10_000  # entries of a list of moves: a calendar of four years has
 
 
 def _moves(raw: object) -> object:
-    """Return a list of moves; a single number is a list with one entry."""
+    """Return a list of moves. A single number is converted to a list with one entry."""
     return raw if isinstance(raw, list | tuple) else (raw,)
 
 
@@ -42,7 +42,7 @@ _Moves = Annotated[
 
 
 class SteppingCoupling(Coupling):
-    """Coupling that moves its driven link in steps; base class of all such couplings."""
+    """Coupling that moves its driven link in steps. It is the base class of all such couplings."""
 
     # a lock or a jumper stops the driven link, and a pin in its slot holds it in both senses
     LOCKS_BACK = HOLDS = True
@@ -55,23 +55,27 @@ class SteppingCoupling(Coupling):
 
     @property
     def mean(self) -> Fraction:
-        """Exact mean speed of the driven link divided by the speed of the driver, negative unless internal."""
+        """Exact mean ratio: speed of the driven link divided by the speed of the driver. It is negative unless the
+        driven link is internal.
+        """
         return self.turns if self.internal else -self.turns
 
     @property
     def turns(self) -> Fraction:
-        """Revolutions of the driven link in one revolution of the driver, without sign."""
+        """Revolutions of the driven link in one revolution of the driver, as an absolute value."""
         raise NotImplementedError
 
     @property
     def remark(self) -> str:
-        """Fraction of the time during which the driven link moves, in words."""
+        """Text that gives the fraction of the time during which the driven link moves."""
         dwell = self.transmission.dwell if self.transmission else 0
         return f"moves {1 - dwell} of the time" if dwell else ""
 
 
 class Geneva(SteppingCoupling):
-    """Geneva drive, or Maltese cross: a pin enters a radial slot, turns the driven link by one slot and leaves it."""
+    """Geneva drive, or Maltese cross. A pin enters a radial slot, turns the driven link by one slot, and leaves the
+    slot.
+    """
 
     kind: Literal["geneva"] = Field(description="Geneva drive: 1/n turn for every pin that passes, then rest")
     slots: int = Field(ge=3, le=1000, description="Number of slots n of the driven link, 3 or more")
@@ -87,35 +91,39 @@ class Geneva(SteppingCoupling):
 
     @property
     def turns(self) -> Fraction:
-        """Number of pins divided by the number of slots."""
+        """Revolutions of the driven link in one revolution of the driver: number of pins divided by number of slots."""
         return Fraction(self.pins, self.slots)
 
     @property
     def about(self) -> str:
-        """Numbers of slots and pins, as text."""
+        """Text that gives the numbers of slots and pins."""
         return f"{self.slots} slots, {plural(self.pins, 'pin')}{', internal' if self.internal else ''}"
 
     @property
     def formula(self) -> str:
-        """Driven angle q in closed form while a pin is in its slot."""
+        """Closed-form formula for the driven angle q while a pin is in its slot."""
         sign = "+" if self.internal else "-"
         return f"q = atan2(rho sin S, 1 {sign} rho cos S) while moving, rho = sin(pi/{self.slots})"
 
     @property
     def transmission(self) -> GenevaTransmission:
-        """Transmission function from the middle of a step, where a pin is on the line of centres."""
+        """Transmission function. Angles are measured from the middle of a step, where a pin is on the line
+        of centres.
+        """
         from geartrain.teeth.couplings.step_transmission import GenevaTransmission
 
         return GenevaTransmission(self.slots, self.pins, self.internal)
 
     @property
     def periods_per_turn(self) -> Fraction:
-        """Number of pins."""
+        """Number of periods of the transmission function in one revolution of the driver: the number of pins."""
         return Fraction(self.pins)
 
 
 class Step(SteppingCoupling):
-    """Finger and star, ratchet or mutilated wheel: every engagement moves the driven link by whole teeth."""
+    """Finger and star, ratchet or mutilated wheel. Every engagement moves the driven link by a whole number
+    of teeth.
+    """
 
     kind: Literal["step"] = Field(description="Finger and star, ratchet or mutilated wheel: whole teeth, then rest")
     teeth: int = Field(ge=1, le=10**12, description="Number of teeth of the driven link")
@@ -150,17 +158,21 @@ class Step(SteppingCoupling):
 
     @property
     def moving_angle(self) -> Fraction:
-        """Angle of the driver during which an engagement moves the teeth [turn]; 0 for instantaneous steps."""
+        """Angle of the driver [turn] during which an engagement moves the teeth; 0 for instantaneous steps."""
         return Fraction(0) if self.over is None else self.over.base
 
     @property
     def turns(self) -> Fraction:
-        """Teeth moved in one revolution of the driver, divided by the number of teeth."""
+        """Revolutions of the driven link in one revolution of the driver: number of teeth moved, divided by the number
+        of teeth.
+        """
         return Fraction(self.times * sum(self.moves), len(self.moves) * self.teeth)
 
     @property
     def remark(self) -> str:
-        """Number of instantaneous steps, or the fraction of the time during which the driven link moves, in words."""
+        """Text that gives the number of instantaneous steps, or the fraction of the time during which the driven link
+        moves.
+        """
         if self.moving_angle:
             return super().remark
         steps = Fraction(self.times * sum(1 for each in self.moves if each), len(self.moves))
@@ -168,7 +180,7 @@ class Step(SteppingCoupling):
 
     @property
     def about(self) -> str:
-        """Number of teeth and engagements, as text."""
+        """Text that gives the numbers of teeth and of engagements."""
         low, high = min(self.moves), max(self.moves)
         moved = f"{low}" if low == high else f"{low} to {high}"
         over = f" over {self.over}" if self.over else ""
@@ -176,18 +188,20 @@ class Step(SteppingCoupling):
 
     @property
     def friction_torque(self) -> Fraction:
-        """Mean torque [N m] on the driven link against its motion, by which the jumper's energy is lost."""
+        """Mean torque [N m] on the driven link against its motion that corresponds to the energy lost in the jumper."""
         # a wheel of z teeth loses z times the energy of one tooth in a revolution
         return Fraction(0) if self.loss is None else self.teeth * self.loss.base / (2 * Fraction(pi))
 
     @property
     def transmission(self) -> StepTransmission:
-        """Transmission function from the beginning of the first engagement."""
+        """Transmission function. Angles are measured from the beginning of the first engagement."""
         from geartrain.teeth.couplings.step_transmission import StepTransmission
 
         return StepTransmission(self.teeth, self.moves, self.times, self.moving_angle)
 
     @property
     def periods_per_turn(self) -> Fraction:
-        """Number of engagements in one revolution, divided by the length of the list of moves."""
+        """Number of periods of the transmission function in one revolution of the driver: number of engagements in one
+        revolution divided by the length of the list of moves.
+        """
         return Fraction(self.times, len(self.moves))

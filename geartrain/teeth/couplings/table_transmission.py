@@ -1,8 +1,9 @@
-"""Transmission functions whose deviation from uniform motion is a periodic function: by points, harmonics or formulas.
+"""Transmission functions whose deviation from uniform motion is a periodic function given by points, harmonics or
+formulas.
 
-With S the forward angle of the side to which the deviation d refers and m the mean speed ratio, the other side is at
-q = m S + d(S). If that side drives, its angle q is given, and S is the root of this equation. The error is then
-S - q/m = -d(S)/m, and the speed ratio is 1/(m + d'(S)).
+Let S be the forward angle of the side to which the deviation d refers, and m the mean speed ratio. The other side is
+then at q = m S + d(S). If this other side drives, its angle q is given, and S is the root of this equation. The error
+is then S - q/m = -d(S)/m, and the speed ratio is 1/(m + d'(S)).
 """
 
 from __future__ import annotations
@@ -31,11 +32,11 @@ _SLIGHT = 1e-9  # of the range of a quantity: smaller jumps are rounding error
 class DeviationTransmission(TransmissionFunction):
     """Transmission function with a periodic deviation from uniform motion, or its inverse function.
 
-    mean        mean speed ratio m of the function, without sign
+    mean        absolute value of the mean speed ratio m of the function
     deviation   deviation d [rad of the other side] as a function of the angle [rad] of the side to which it refers
     phase       angle in the deviation at S = 0 [rad]
     way         -1 for a driver whose forward sense is against its angle; the deviation is then -d(phase - S)
-    inverse     true if the other side drives
+    inverse     True if the other side drives
     direction   direction of rotation
     lag         constant that is added to the transmission error [rad of the driven side]
     """
@@ -59,7 +60,7 @@ class DeviationTransmission(TransmissionFunction):
         self._scale = -1 / self._mean if inverse else float(way)
 
     def _own_angle(self, S: ArrayLike) -> Floats:
-        """Return the angle in the deviation [rad], modulo its period, at driver angles S."""
+        """Return the argument of the deviation function [rad], modulo its period, at driver angles S [rad]."""
         S = np.asarray(S, dtype=float)
         if not self.inverse:
             return np.asarray(self.way * S + self.phase)
@@ -79,25 +80,25 @@ class DeviationTransmission(TransmissionFunction):
         return self.deviation.extremes()
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the transmission error [rad of the driven side] at driver angles S."""
+        """Return the transmission error [rad of the driven side] at driver angles S [rad]."""
         return self._scale * self.deviation(self._own_angle(S)) + self._lag
 
     def speed(self, S: ArrayLike) -> Floats:
-        """Return the speed ratio at driver angles S."""
+        """Return the speed ratio at driver angles S [rad]."""
         return self._speed(self.deviation.derivative(self._own_angle(S)))
 
     def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Return the transmission error [rad of the driven side] and the speed ratio at driver angles S."""
+        """Return the transmission error [rad of the driven side] and the speed ratio at driver angles S [rad]."""
         at = self._own_angle(S)
         return self._scale * self.deviation(at) + self._lag, self._speed(self.deviation.derivative(at))
 
     def _speed(self, slope: ArrayLike) -> Floats:
-        """Return the speed ratio for slopes of the deviation."""
+        """Return the speed ratio that corresponds to each slope (derivative) of the deviation function."""
         own = self._mean + np.asarray(slope)
         return np.asarray(1 / own if self.inverse else own)
 
     def speed_range(self) -> tuple[float, float]:
-        """Return the minimum and the maximum speed ratio over a period; jumps of the driven angle are not included."""
+        """Return the minimum and the maximum speed ratio over a period. Jumps of the driven angle are disregarded."""
         low, high = sorted(self._speed(self.deviation.extremes(1)).tolist())
         return low, high
 
@@ -114,36 +115,42 @@ class DeviationTransmission(TransmissionFunction):
 
     @property
     def _breakpoints(self) -> Floats:
-        """Angles in the deviation at which the function or one of its derivatives is discontinuous [rad]."""
+        """Arguments of the deviation function [rad] at which the function or one of its derivatives
+        is discontinuous.
+        """
         return self.deviation.breakpoints
 
     def kinks(self) -> list[float]:
-        """Return the driver angles [rad] at which the transmission function or a derivative is discontinuous."""
+        """Return the driver angles [rad] at which the transmission function or one of its derivatives
+        is discontinuous.
+        """
         at = self._breakpoints
         driver = self._mean * at + self.deviation(at) if self.inverse else self.way * (at - self.phase)
         found: list[float] = driver.tolist()
         return found
 
     def _jumps(self, order: int) -> Floats:
-        """Return the jumps of a derivative of the deviation at its breakpoints, 0 if they are rounding error."""
+        """Return the jumps at the breakpoints of the derivative of order `order` of the deviation. Jumps within
+        rounding error are replaced by 0.
+        """
         before, after = self.deviation.sides(order)
         low, high = self.deviation.extremes(order)
         return np.where(np.abs(after - before) > _SLIGHT * (high - low), after - before, 0.0)
 
     @cached_property
     def at_once(self) -> bool:  # type: ignore[override]
-        """True if the driven side jumps, so that the transmission error is discontinuous."""
+        """True if the driven side moves in jumps, so that the transmission error is discontinuous."""
         return bool(self._jumps(0).any())
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...]:
-        """Return the upward steps of the speed ratio in the direction of motion within one period."""
+        """Return the upward steps of the speed ratio within one period, for motion in the direction of rotation."""
         sides = [self._speed(each[self._jumps(1) != 0]) for each in self.deviation.sides(1)]
         pairs = zip(*(each.tolist() for each in sides[:: self.way * self.direction]), strict=True)
         return tuple(SpeedLeap(before, after) for before, after in pairs if after > before)
 
     def steepest_fall(self) -> float | None:
-        """Return the maximum of -d(speed ratio)/dS [1/rad]; None for the inverse function, if the driver turns
-        backwards, or if the speed ratio decreases abruptly.
+        """Return the maximum rate at which the speed ratio decreases with the driver angle S [1/rad]; None for the
+        inverse function, for a driver that turns backwards, or if the speed ratio decreases abruptly.
         """
         if self.inverse or self.direction < 0 or self.at_once or (self.way * self._jumps(1) < 0).any():
             return None

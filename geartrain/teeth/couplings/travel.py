@@ -1,9 +1,9 @@
 """Couplings of a link that turns and a link that slides with a constant travel per revolution: racks, screws, drums.
 
 Relative to their carrier, the travel of the sliding link is h times the angle of the turning link in revolutions: h is
-the circumference pi m z of a pinion on a rack, minus the lead of a right-hand screw, which draws its nut back when it
-turns forward, and pi D divided by the number of falls of a line on a drum. Without losses a force F is balanced by the
-torque F h / (2 pi), which does not contain pi for racks and drums.
+the circumference pi m z of a pinion on a rack, minus the lead of a right-hand screw, because a screw that turns forward
+draws its nut back, and pi D divided by the number of falls of a line on a drum. Without losses, the torque F h / (2 pi)
+balances a force F. For racks and drums this torque does not contain pi.
 """
 
 from __future__ import annotations
@@ -24,7 +24,9 @@ Number = Annotated[int, whole_from(1, 10**6, "teeth or falls")]
 
 
 class TravelCoupling(Coupling):
-    """Coupling of a link that turns and a link that slides; base class of racks, screws, drums and crank sliders."""
+    """Coupling of a link that turns and a link that slides. It is the base class of racks, screws, drums and crank
+    sliders.
+    """
 
     ENDS = ("turns", "slides")
     SIDES = ("slides", "turns")
@@ -35,7 +37,7 @@ class TravelCoupling(Coupling):
 
 
 class Rack(TravelCoupling):
-    """Pinion and rack: the travel per revolution is the pitch times the number of teeth of the pinion."""
+    """Pinion and rack. The travel per revolution is the pitch multiplied by the number of teeth of the pinion."""
 
     kind: Literal["rack"] = Field(description="Pinion that turns on a rack")
     teeth: Number = Field(description="Tooth count of the pinion")
@@ -55,13 +57,13 @@ class Rack(TravelCoupling):
 
     @property
     def mean(self) -> Fraction:
-        """Travel of the rack per revolution of the pinion [mm]."""
+        """Travel of the rack per revolution of the pinion [mm/turn]."""
         pitch = PI * millimetres(self.module) if self.module else millimetres(self.pitch)  # type: ignore[arg-type]
         return pitch * self.teeth * (-1 if self.reversed else 1)
 
 
 class Screw(TravelCoupling):
-    """Screw and nut: the travel per revolution is the lead. It is the same whether the screw or the nut turns."""
+    """Screw and nut. The travel per revolution is the lead, whether the screw or the nut turns."""
 
     kind: Literal["screw"] = Field(description="Screw in a nut; a right-hand screw draws its nut back")
     lead: Annotated[MeasuredLength, above_zero("give a lead such as 6 mm")] = Field(
@@ -94,24 +96,26 @@ class Screw(TravelCoupling):
 
     @property
     def mean(self) -> Fraction:
-        """Travel of the nut per revolution of the screw [mm], negative for a right-hand thread."""
+        """Travel of the nut per revolution of the screw [mm/turn]; negative for a right-hand thread."""
         return millimetres(self.lead) * (1 if self.hand == "left" else -1)
 
     @property
     def lead_angle(self) -> float:
-        """Lead angle at the mean diameter [rad]; 0 if no diameter is declared."""
+        """Lead angle of the thread at the mean diameter [rad]; 0 if no diameter is declared."""
         return 0.0 if self.diameter is None else atan(self.lead.si / (pi * self.diameter.si))
 
     @property
     def friction_angle(self) -> float:
-        """Angle of friction on the inclined flanks [rad], arctan(f / cos(flank angle))."""
+        """Friction angle of the inclined flanks [rad], arctan(f / cos(flank angle)), where f is the coefficient of
+        friction.
+        """
         flank = 0.0 if self.flank_angle is None else self.flank_angle.si
         return 0.0 if self.friction is None else atan(float(self.friction.sliding.value) / cos(flank))
 
     @property
     def losses(self) -> Efficiencies | None:
-        """Declared efficiency, or tan(l) / tan(l + r) with the screw driving and tan(l - r) / tan(l) with the nut
-        driving, for the lead angle l and the friction angle r.
+        """Declared efficiencies or, for the lead angle l and the friction angle r, tan(l) / tan(l + r) if the screw
+        drives and tan(l - r) / tan(l) if the nut drives.
         """
         if self.friction is None or self.friction.sliding.value == 0:
             return self.efficiency
@@ -122,7 +126,9 @@ class Screw(TravelCoupling):
 
 
 class Drum(TravelCoupling):
-    """Line on a drum, with its load on one or more falls: the travel is the circumference divided by the falls."""
+    """Line on a drum with its load on one or more falls. The travel is the circumference of the drum divided by the
+    number of falls.
+    """
 
     kind: Literal["drum"] = Field(description="Line that a drum winds, with a load that slides")
     diameter: Annotated[MeasuredLength, above_zero("give a diameter such as 40 mm")] = Field(
@@ -133,5 +139,5 @@ class Drum(TravelCoupling):
 
     @property
     def mean(self) -> Fraction:
-        """Travel of the load per revolution of the drum [mm]."""
+        """Travel of the load per revolution of the drum [mm/turn]."""
         return PI * millimetres(self.diameter) / self.falls * (-1 if self.reversed else 1)

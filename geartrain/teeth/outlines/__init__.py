@@ -1,9 +1,9 @@
-"""Closed outline of a toothed wheel as cut: flanks, root fillets, tips, rim.
+"""Closed outlines to which toothed wheels are cut: flanks, root fillets, tips and rims.
 
 contour                   closed curves of straight edges and arcs
 tooth_outline             one tooth from root to tip, with its flank from the path of contact
 wheel_requirement         requirements of a pair on the teeth of one wheel; one tooth that fits all pairs of the wheel
-tooth_requirement         the same for conjugate teeth: passage of the mate's teeth through the spaces
+tooth_requirement         requirements of conjugate pairs: passage of the mate's teeth through the tooth spaces
 wheel_outline             blank sizes and the outline of a whole wheel
 fixed_teeth               escape wheels and strain waves
 """

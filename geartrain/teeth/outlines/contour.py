@@ -1,4 +1,6 @@
-"""Closed curves of straight edges and circular arcs, stored as in DXF: vertices, each with the bulge of an edge."""
+"""Closed curves of straight edges and circular arcs. As in DXF files, they are stored as vertices with the bulge of the
+edge that follows.
+"""
 
 from __future__ import annotations
 
@@ -30,15 +32,17 @@ class Contour(Shown):
     """
 
     points: Floats
-    """Vertices of the contour, shape (n, 2) [mm; modules before scaling]; the last vertex is joined to the first."""
+    """Vertices of the contour, shape (n, 2) [mm; modules before scaling]. An edge joins the last vertex to
+    the first.
+    """
     bulges: Floats
-    """Bulge of the edge that starts at each vertex, shape (n,): tan(sweep / 4). It is 0 for a straight edge and
-    positive for an edge that turns left.
+    """Bulge of the edge that starts at each vertex, shape (n,): tan(sweep / 4), where the sweep is the angle of the
+    arc. The bulge is 0 for a straight edge and positive for an edge that turns left.
     """
 
     @classmethod
     def of(cls, vertices: Iterable[tuple[float, float, float]]) -> Contour:
-        """Return a contour through vertices with bulges. Edges shorter than 1e-9 are omitted.
+        """Return a contour through the given vertices with bulges. Edges shorter than 1e-9 are omitted.
 
         Parameters
         ----------
@@ -65,7 +69,7 @@ class Contour(Shown):
         return cls(np.array([[x + radius, y], [x - radius, y]]), np.ones(2))
 
     def scaled(self, factor: float) -> Contour:
-        """Return the same shape at another scale.
+        """Return a contour with the same shape at another scale.
 
         Parameters
         ----------
@@ -76,16 +80,16 @@ class Contour(Shown):
 
     @property
     def is_circle(self) -> bool:
-        """True if the contour consists of two half circles, as made by `circle`."""
+        """True if the contour consists of two half circles, as created by `circle`."""
         return len(self.points) == 2 and bool((self.bulges == 1).all())
 
     def _edges(self) -> Iterator[tuple[Floats, Floats, float]]:
-        """Yield both ends and the bulge of every edge."""
+        """Yield the start point, the end point and the bulge of every edge."""
         return zip(self.points, np.roll(self.points, -1, axis=0), self.bulges.tolist(), strict=True)
 
     def moments(self) -> tuple[float, float]:
-        """Return the enclosed area [mm2] and its polar second moment about the origin [mm4], computed exactly by
-        Green's theorem.
+        """Return the enclosed area [mm2] and the polar second moment of this area about the origin [mm4], computed
+        exactly by Green's theorem.
 
         Each result is the value of the polygon of the vertices plus the values of the circular segments of all arcs.
         Both results are negative if the contour is clockwise.
@@ -123,7 +127,9 @@ class Contour(Shown):
 
 
 def _arc(start: Floats, end: Floats, bulge: float, tolerance: float) -> Floats:
-    """Return the points of a flattened arc, without the end point of the arc."""
+    """Return the points of a polyline that approximates an arc within `tolerance`. The end point of the arc
+    is omitted.
+    """
     radius, sweep = arc_radius(start, end, bulge), 4 * atan(bulge)
     # angle of the chord whose sagitta equals the tolerance
     step = max(2 * acos(max(1 - tolerance / radius, -1.0)), _MINIMUM_STEP)
@@ -135,10 +141,11 @@ def _arc(start: Floats, end: Floats, bulge: float, tolerance: float) -> Floats:
 
 
 def _segment_moments(start: Floats, end: Floats, bulge: float) -> tuple[float, float]:
-    """Return area and polar second moment about the origin of the segment between an arc and its chord.
+    """Return the area, and the polar second moment of area about the origin, of the circular segment between an arc and
+    its chord.
 
-    About its own centre, with radius R and sweep s, they are R^2 (s - sin s)/2 and R^4 (s/4 - sin s (2 + cos s)/12).
-    The first moment is 2/3 R^3 sin^3(s/2) along the bisector.
+    For the radius R and the sweep s, the area is R^2 (s - sin s)/2, and the second moment about the centre of the arc
+    is R^4 (s/4 - sin s (2 + cos s)/12). The first moment is 2/3 R^3 sin^3(s/2) along the bisector.
     """
     R, s = arc_radius(start, end, bulge), 4 * atan(bulge)
     centre = _arc_centre(start, end, bulge)
@@ -161,5 +168,7 @@ def arc_radius(start: Floats, end: Floats, bulge: float) -> float:
 
 
 def bulge_about(start: complex, end: complex, centre: complex = 0j) -> float:
-    """Return the bulge of the shorter arc about `centre` from `start` to `end`, points x + iy."""
+    """Return the bulge of the shorter arc from `start` to `end` about `centre`. The points are complex numbers x
+    + iy.
+    """
     return tan(float(np.angle((end - centre) / (start - centre))) / 4)

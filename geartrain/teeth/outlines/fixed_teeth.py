@@ -1,12 +1,12 @@
-"""Teeth that do not depend on a mate: escape wheels and strain waves. Lengths in modules.
+"""Teeth that do not depend on a mate: teeth of escape wheels and of strain waves. Lengths are in modules.
 
 The tooth of an escape wheel is pointed and leans forward, so that a pallet of the anchor touches only its tip.
 
-The teeth of a strain wave have straight flanks. With a wave of n lobes, whose ring gear has n teeth more, the
-middle line of the thin wheel is displaced outwards by w cos(u), without stretching. Here w = n/2 modules, and u
-is n times the angle from a crest of the wave. A tooth then leaves its space of the ring by n/2 (1 - cos u)
-while it moves along by (u - sin u)/2. Flanks at the angle a from the middle of the tooth clear each other while
-n (1 - cos u) tan a > u - sin u (docs/reducers.md, (8)).
+The teeth of a strain wave have straight flanks. With a wave of n lobes, whose ring gear has n teeth more, the middle
+line of the thin wheel is displaced outwards by w cos(u), without stretching. Here w = n/2 modules, and u is n times the
+angle from a crest of the wave. A tooth then leaves its space of the ring by n/2 (1 - cos u) while it moves along the
+circumference by (u - sin u)/2. Flanks at the angle a from the middle of the tooth clear each other while n (1 - cos u)
+tan a > u - sin u (docs/reducers.md, (8)).
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 ESCAPEMENT = "escapement"
 ESCAPE_WORDS = "of a dead-beat escapement, pointed, faces undercut by 6 degrees"
 UNDERCUT = radians(6.0)
-"""Angle of the leading face of an escape wheel tooth behind the radius through its tip [rad], as for a
-dead-beat anchor.
+"""Angle [rad] of the leading face of an escape wheel tooth, measured backwards from the radius through its tip, as for
+a dead-beat anchor.
 """
 _DEPTH = 0.7  # fraction of a pitch: depth of a tooth
 _DEEPEST = 0.5  # fraction of the radius: maximum depth of a tooth
@@ -42,9 +42,10 @@ Their sum is below 2 modules: where a wheel with two lobes is bent inwards, its 
 where they are fully engaged, and must be out of the tooth spaces.
 """
 WALL = 0.012
-"""Wall thickness of the flexible wheel under its teeth divided by the pitch diameter."""
+"""Wall thickness of the flexible wheel under its teeth, divided by its pitch diameter."""
 CUP = 0.25
-"""Length of the wall between the flexible wheel and its cup divided by the pitch diameter; a shorter wall is too stiff.
+"""Length of the wall between the flexible wheel and its cup, divided by the pitch diameter. A shorter wall is too
+stiff.
 """
 
 
@@ -52,7 +53,7 @@ CUP = 0.25
 
 
 def escape_tooth(z: int, sense: int) -> FixedTooth:
-    """Return the tooth of an escape wheel of z teeth, 3 or more, with its tip on the pitch circle.
+    """Return the tooth of an escape wheel with z teeth, 3 or more. The tip is on the pitch circle.
 
     The middle of the tooth's root is on the x axis. The proportions follow clockmakers' practice, after G. Graham's
     anchor of about 1715: the faces are undercut by 6 degrees, and the backs are straight.
@@ -82,10 +83,10 @@ def escape_tooth(z: int, sense: int) -> FixedTooth:
 
 
 def wave_tooth(z: int, backlash: float, ring: bool = False) -> FixedTooth:
-    """Return the tooth of the flexible wheel of a strain wave with z teeth, or of its ring gear; both have straight
-    flanks.
+    """Return the tooth of the flexible wheel of a strain wave, or (`ring`) of its ring gear, with z teeth. Both have
+    straight flanks.
 
-    `backlash` is an arc of the pitch circle [module].
+    `backlash` is an arc on the pitch circle [module].
     """
     radius, pitch = z / 2, 2 * pi / z
     side = -1 if ring else 1
@@ -109,15 +110,16 @@ def wall(radius: float) -> float:
 
 
 def bent_line(line: Floats, middle: float, wave: tuple[float, int], turns: tuple[float, float] = (0.0, 0.0)) -> Floats:
-    """Return points of a thin wheel, shape (n, 2), bent by a wave and rotated, in the length unit of the input.
+    """Return the points of a thin wheel, shape (n, 2), after it is bent by a wave and rotated. The length unit is that
+    of the input.
 
     The wheel is flexible, but its middle line keeps its length. A point on it at the angle t moves outwards by w cos(n
-    (t - s)), where s is the angle of the wave, and along by -w/n sin(n (t - s)). Points off the middle line stay on its
-    normal.
+    (t - s)), where s is the angle of the wave, and along the circumference by -w/n sin(n (t - s)), for the amplitude w
+    and n lobes. Points off the middle line stay on its normal.
 
-    middle   radius of its middle line
+    middle   radius of the middle line
     wave     amplitude, and number of lobes, the first of which is on the x axis
-    turns    rotation angles of the wheel and of the wave (rad)
+    turns    rotation angles of the wheel and of the wave [rad]
     """
     (rise, lobes), (own, where) = wave, turns
     place = np.arctan2(line[:, 1], line[:, 0]) + own

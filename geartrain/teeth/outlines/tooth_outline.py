@@ -1,4 +1,4 @@
-"""Outline of one tooth from root to tip: flank computed from the path of contact, root fillet and top land."""
+"""Outline of one tooth from root to tip: a flank computed from the path of contact, a root fillet and a top land."""
 
 from __future__ import annotations
 
@@ -27,34 +27,35 @@ _MEETING = 1e-9  # rad: fillets closer to each other meet in the middle of the s
 
 @dataclass(frozen=True, slots=True)
 class RootFillet:
-    """Root fillet in the frame of the tooth, as complex numbers: x along its centre line, y towards the tooth space.
+    """Root fillet in the frame of the tooth. Points are complex numbers x + iy, with x along the centre line of the
+    tooth and y towards the tooth space.
 
     Lengths are in modules.
     """
 
     start: complex
-    """Point at which the straight root flank ends and the fillet begins [module]."""
+    """Point at which the straight root flank ends and the fillet arc begins [module]."""
     end: complex
-    """Point at which the fillet touches the root circle [module]."""
+    """Point at which the fillet arc touches the root circle [module]."""
     centre: complex
-    """Centre of the fillet [module]."""
+    """Centre of the fillet arc [module]."""
     radius: float
-    """Radius of the fillet [module]."""
+    """Radius of the fillet arc [module]."""
 
     @property
     def half(self) -> float:
-        """Angle between the centre line of the tooth and the point where its root circle begins [rad]."""
+        """Angle from the centre line of the tooth to the point where its root circle begins [rad]."""
         return atan2(self.end.imag, self.end.real)
 
 
 def fillet(
     flank: FlankCurve, widening: float, root: float, radius: float, z: float, relief: float = 0.0
 ) -> RootFillet | None:
-    """Return the fillet of `radius` between the flank and the circle of radius `root` [module]; None if it does not
-    fit.
+    """Return the fillet with the radius `radius` between the flank and the circle with the radius `root` [module]; None
+    if the fillet does not fit.
 
-    widening   half angle of the tooth at the pitch circle (rad)
-    relief     angle (rad) by which the straight line is turned from the flank's tangent into the tooth
+    widening   half of the angular tooth thickness at the pitch circle [rad]
+    relief     angle [rad] by which the straight root flank is turned from the flank's tangent into the tooth
     """
     half = widening + float(flank.angle[0])
     turn = complex(cos(half), sin(half))
@@ -80,18 +81,18 @@ def fillet(
 
 
 Vertex = tuple[float, float, float]
-"""Vertex (x, y, bulge), with the bulge of the edge to the next vertex."""
+"""Vertex (x, y, bulge). The bulge belongs to the edge from this vertex to the next one."""
 
 
 @dataclass(frozen=True, slots=True)
 class ToothOutline:
-    """Outline of one of z equal teeth, lengths in modules."""
+    """Outline of one of z equal teeth. Lengths are in modules."""
 
     z: float
     flank: FlankCurve
     fillet: RootFillet
     widening: float
-    """Half the angular tooth thickness at the pitch circle [rad]."""
+    """Half of the angular tooth thickness at the pitch circle [rad]."""
     root: float
     """Radius of the root circle [module]."""
 
@@ -102,11 +103,13 @@ class ToothOutline:
 
     @property
     def land(self) -> float:
-        """Half the angle of the top land [rad]."""
+        """Half of the angular thickness of the top land [rad]."""
         return self.widening + float(self.flank.angle[-1])
 
     def half_at(self, radius: Floats) -> Floats:
-        """Return half the angular thickness of the cut tooth, including its fillet, at radii from root to tip [rad]."""
+        """Return half of the angular thickness of the cut tooth [rad], including its fillet, at radii from root to tip
+        [module].
+        """
         x, y = np.array([point[:2] for point in self._half()[1:]]).T
         place = x + 1j * y
         r, s = np.abs(place), self.flank.outward
@@ -125,7 +128,7 @@ class ToothOutline:
         return np.asarray(np.where(radius * s < r[0] * s, on_fillet, edge))
 
     def _half(self) -> list[tuple[float, float, float]]:
-        """Return vertices (x, y, bulge) from root to tip, on the side of positive y."""
+        """Return the vertices (x, y, bulge) of the half tooth with positive y, from root to tip."""
         fillet = self.fillet
         flank = self.flank.r * np.exp(1j * (self.widening + self.flank.angle))
         bulge = bulge_about(fillet.end, fillet.start, fillet.centre) if fillet.radius else 0.0
@@ -136,11 +139,13 @@ class ToothOutline:
         return [(at.real, at.imag, turn) for at, turn in zip(points, [bulge, *[0.0] * len(flank), 0.0], strict=True)]
 
     def whole(self) -> Contour:
-        """Return the contour of all teeth, counter-clockwise, with the first tooth about the x axis [module]."""
+        """Return the counter-clockwise contour of all teeth [module]. The first tooth is symmetric about the x axis."""
         return Contour.of(repeated(self.vertices(), int(self.z)))
 
     def vertices(self) -> list[Vertex]:
-        """Return the vertices of one tooth about the x axis from root to root; the last edge is on the root circle."""
+        """Return the vertices, from root to root, of one tooth that is symmetric about the x axis. The last edge is on
+        the root circle.
+        """
         half = self._half()
         x, y, _ = half[-1]
         land = bulge_about(complex(x, -y), complex(x, y))
@@ -180,7 +185,9 @@ def repeated(tooth: Sequence[Vertex], z: int) -> Iterator[Vertex]:
 
 
 def pin_span(R: float, radius: float) -> Floats:
-    """Return radii and azimuths [rad] of points on a pin of `radius`, whose centre is at the radius R; shape (2, n)."""
+    """Return the radii and azimuths [rad], shape (2, n), of points on the surface of a pin with the radius `radius`
+    whose centre is at the distance R from the axle.
+    """
     turn = np.linspace(0, 2 * pi, 181)
     x, y = R + radius * np.cos(turn), radius * np.sin(turn)
     return np.stack([np.hypot(x, y), np.arctan2(y, x)])
@@ -191,32 +198,33 @@ def pin_span(R: float, radius: float) -> Floats:
 
 @dataclass(frozen=True, slots=True)
 class FlankCurve:
-    """Flank from its root end to its tip end, lengths in modules.
+    """Flank from its root end to its tip end. Lengths are in modules.
 
-    Its polyline is always inside the true tooth. Convex parts are approximated by chords and concave parts by tangents,
-    so that teeth in contact without backlash do not overlap.
+    The polyline of the flank is always inside the true tooth. Convex parts are approximated by chords and concave parts
+    by tangents, so that teeth in contact without backlash do not overlap.
     """
 
     r: Floats
-    """Radii of the vertices [module]."""
+    """Radii of the vertices of the polyline [module]."""
     angle: Floats
-    """Half the angular tooth thickness at each vertex minus its value at the pitch circle [rad]."""
+    """Half of the angular tooth thickness at each vertex, minus half of the thickness at the pitch circle [rad]."""
     curve: Floats
-    """Radii [module] and angles [rad] of densely spaced points of the true flank, shape (2, n)."""
+    """Radii [module] and angles [rad] of densely spaced points on the true flank, shape (2, n)."""
     tangent: tuple[float, float]
-    """Unit tangent at the root end towards the root, as its component along the radius and its component towards the
-    tooth space.
+    """Unit tangent at the root end of the flank, directed towards the root: its radial component, and its component
+    towards the tooth space.
     """
     R: float
     """Pitch radius of the wheel [module]."""
     outward: int
-    """Sign of the radial direction from root to tip: 1, or -1 for a ring gear."""
+    """Sign of the radial direction from root to tip: 1 for an external wheel, -1 for a ring gear."""
 
 
 def flank(path: PathOfContact, gear: int, arcs: tuple[float, float], tolerance: float) -> FlankCurve:
-    """Return the flank of gear 1 or 2 for arcs X of approach and recess, as a polyline within `tolerance` [module].
+    """Return the flank of gear 1 or 2 between the arcs X of approach and recess, as a polyline within `tolerance`
+    [module] of the true flank.
 
-    With a negative arc the flank begins beyond the pitch point.
+    If an arc is negative, the flank begins beyond the pitch point.
     """
     approach, recess = arcs
     pitch = path.pitch
@@ -234,14 +242,16 @@ def flank(path: PathOfContact, gear: int, arcs: tuple[float, float], tolerance: 
 
 
 def _polar(path: PathOfContact, gear: int, X: Floats) -> tuple[Floats, Floats]:
-    """Return radius about the axle and azimuth from the pitch point, positive towards the tooth space [rad]."""
+    """Return the radius about the axle [module] and the azimuth from the pitch point [rad] of the flank points at arcs
+    X. The azimuth is positive towards the tooth space.
+    """
     radius, azimuth = path.pitch.polar(gear, path.flank(gear, X))
     return radius, azimuth if gear == 1 else -azimuth
 
 
 def _spaced_displacements(path: PathOfContact, gear: int, X: Floats, tolerance: float) -> Floats:
-    """Return the arcs X at which to sample a flank so that all chords deviate equally from it: the length of a
-    chord times the square root of the curvature is constant.
+    """Return the arcs X at which a flank is sampled so that all chords deviate equally from the flank: the product of
+    chord length and square root of the curvature is constant.
     """
     points = path.flank(gear, X)
     steps = np.diff(points, axis=0)
@@ -259,7 +269,8 @@ def _spaced_displacements(path: PathOfContact, gear: int, X: Floats, tolerance: 
 
 
 def _corner(path: PathOfContact, gear: int, X: Floats, tolerance: float) -> list[float]:
-    """Return the pitch point as a further sample if the chord across it would cut a corner there.
+    """Return a list that contains the pitch point if an additional sample is required there, because the chord across
+    it would cut off a corner.
 
     The curvature of a cycloid is infinite at the pitch point, so that the estimate of the deviation fails there.
     """
@@ -270,7 +281,7 @@ def _corner(path: PathOfContact, gear: int, X: Floats, tolerance: float) -> list
 
 
 def _inflections(path: PathOfContact, gear: int, X: Floats) -> Floats:
-    """Return the indices of the last points before the curvature of the flank changes sign."""
+    """Return the indices of the last points before each sign change of the curvature of the flank."""
     points = path.flank(gear, X)
     steps = np.diff(points @ np.array([1, 1j]))
     bent = np.angle(steps[1:] * np.conj(steps[:-1]))
@@ -293,7 +304,8 @@ def _with_vertices(found: Floats, bends: Floats) -> Floats:
 def _inner_polyline(path: PathOfContact, gear: int, X: Floats, outward: int) -> tuple[Floats, Floats]:
     """Return the radii [module] and angles [rad] of a polyline inside the tooth.
 
-    Its vertices are points of the flank where it is convex, and intersections of tangents where it is concave.
+    The vertices of the polyline are points of the flank where the flank is convex, and intersections of tangents where
+    the flank is concave.
     """
     r, angle = _polar(path, gear, X)
     points = r * np.exp(1j * angle)
@@ -323,8 +335,8 @@ def _cross(a: Floats, b: Floats) -> Floats:
 
 
 def _tangents(path: PathOfContact, gear: int, X: Floats, outward: int) -> tuple[Floats, Floats]:
-    """Return the unit tangent towards the root, normal to the contact normal, as its radial component and its component
-    towards the tooth space.
+    """Return the radial component, and the component towards the tooth space, of the flank's unit tangents. The
+    tangents are directed towards the root and perpendicular to the contact normal.
     """
     contact = path.at(X)
     sine, cosine = contact.sin_psi, contact.cos_psi

@@ -1,4 +1,4 @@
-"""Requirements of conjugate pairs on the teeth of a wheel: its flanks, and tooth spaces that clear all mates.
+"""Requirements of conjugate pairs on the teeth of a wheel: the flanks, and tooth spaces that clear all mates.
 
 The mate's tooth is compared with the outline at many positions within a pitch.
 """
@@ -28,17 +28,17 @@ _MARGIN = 1e-3  # modules: minimum gap at the fillet, more than a tip moves betw
 
 
 MatePassage = tuple["Floats", "Floats"]
-"""Positions of a mate's tooth within the tip circle of a wheel, in the frame of that wheel.
+"""Positions of a mate's tooth within the tip circle of a wheel, in the frame of this wheel.
 
-They are radii about the wheel's axle [module], and angles from the centre line of the nearest tooth [rad].
+The two arrays are radii about the wheel's axle [module], and angles from the centre line of the nearest tooth [rad].
 """
 
 
 def interference_depth(tooth: ToothOutline, mate: MatePassage) -> float:
-    """Return the maximum depth to which the mate's tooth would cut into a tooth [module]; negative for a gap.
+    """Return the maximum depth to which the mate's tooth would cut into a tooth [module]; negative if there is a gap.
 
-    The depth is measured along the circle at the flank and the fillet, and along the radius at the root circle. At the
-    fillet a margin is added. The value is -inf if the mate does not enter the tip circle.
+    The depth is measured along the circumference at the flank and the fillet, and along the radius at the root circle.
+    At the fillet a margin is added. The value is -inf if the mate does not enter the tip circle.
     """
     radius, aside = mate
     if not radius.size:
@@ -61,18 +61,18 @@ _ALIKE = 1e-5  # modules: flanks that differ by less are equal
 
 @dataclass(frozen=True)
 class ToothRequirement(WheelRequirement):
-    """Required teeth of gear 1 or 2 of a conjugate pair, lengths in modules."""
+    """Teeth of gear 1 or 2 that a conjugate pair requires. Lengths are in modules."""
 
     pair: ConjugatePair
-    """Pair at its design distance."""
+    """Conjugate pair at its design distance."""
     gear: int
-    """Number of the gear, 1 or 2."""
+    """Number of the gear whose teeth are required, 1 or 2."""
     tolerance: float
     """Maximum deviation of a chord from the flank [module]."""
     clearance: float = CLEARANCE
-    """Bottom clearance between the mate's tips and the root [module]."""
+    """Bottom clearance between the tips of the mate and the root of this gear [module]."""
     pins: LanternPins | None = None
-    """Pins if one of the two gears is a lantern; None otherwise."""
+    """Pins of the lantern if one of the two gears is a lantern; None if neither is."""
 
     @property
     def internal(self) -> bool:
@@ -91,39 +91,39 @@ class ToothRequirement(WheelRequirement):
 
     @property
     def flank(self) -> FlankCurve:
-        """Working flank of the gear."""
+        """Active flank of the gear."""
         return _flank(self.pair, self.gear, self.tolerance)
 
     @property
     def widening(self) -> float:
-        """Half the angular tooth thickness at the pitch circle [rad]."""
+        """Half of the angular tooth thickness at the pitch circle [rad]."""
         return float(self.pair.halves[self.gear - 1] / self.flank.R)
 
     @cached_property
     def other(self) -> ToothRequirement:
-        """Requirement of the same pair on the mate."""
+        """Requirement of the same pair on the teeth of the mate."""
         return ToothRequirement(self.pair, 3 - self.gear, self.tolerance, self.clearance, self.pins)
 
     @property
     def has_pins(self) -> bool:
-        """True for the lantern of a pair, which has round pins instead of teeth."""
+        """True if this gear is the lantern of the pair, which has round pins instead of teeth."""
         return self.pins is not None and self.pins.gear == self.gear
 
     @property
     def tip(self) -> float:
-        """Radius of the tip circle [module], or of the outermost points of pins."""
+        """Radius of the tip circle [module]; for pins, the radius of their outermost points."""
         if self.pins is not None and self.has_pins:
             return self.pins.circle + self.pins.radius
         return self.pair.path.radii(self.gear)[1]
 
     def agrees(self, other: WheelRequirement) -> bool:
-        """Return True if one wheel can satisfy both requirements, False otherwise."""
+        """Return True if the teeth of one wheel can satisfy both requirements, or False if they cannot."""
         if not isinstance(other, ToothRequirement):
             return False
         return self.pins == other.pins if self.has_pins or other.has_pins else alike(self, other)
 
     def cut(self, others: Sequence[WheelRequirement] = ()) -> CutTooth:
-        """Return the pins, or the tooth whose root clears the mates of all requirements."""
+        """Return the pins, or the tooth whose root clears the mates in this and all other requirements."""
         demands = (self, *(each for each in others if isinstance(each, ToothRequirement)))
         for demand in demands:
             check_flat(demand.pair)
@@ -133,8 +133,8 @@ class ToothRequirement(WheelRequirement):
 
     @property
     def root(self) -> float:
-        """Radius of the root circle [module]: its depth below the pitch circle is the mate's addendum plus the
-        clearance.
+        """Radius of the root circle [module]. Its depth below the pitch circle is the sum of the mate's addendum and
+        the bottom clearance.
 
         The addendum is negative if the mate's tip does not reach its own pitch circle.
         """
@@ -144,7 +144,7 @@ class ToothRequirement(WheelRequirement):
 
     @cached_property
     def passage(self) -> MatePassage:
-        """Positions of the mate's tooth or pin in the tooth spaces."""
+        """Positions of the mate's tooth or pin within the tooth spaces of this gear."""
         own, other = self.flank, self.other
         found = other.flank
         if self.pins is not None and other.gear == self.pins.gear:
@@ -189,8 +189,8 @@ def _cut(demands: tuple[ToothRequirement, ...]) -> CutTooth:
 
 
 def check_flat(pair: ConjugatePair) -> None:
-    """Raise `QuestionError` if the wheels of a pair have no plane outline or have faults, or if the path of contact
-    does not reach the pitch point.
+    """Raise `QuestionError` if the wheels of a pair have no plane outline, if they have faults, or if the path of
+    contact does not reach the pitch point.
     """
     path = pair.path
     if path.pitch.bevel:
@@ -215,7 +215,9 @@ def check_flat(pair: ConjugatePair) -> None:
 
 
 def alike(one: ToothRequirement, other: ToothRequirement) -> bool:
-    """Return True if one tooth satisfies both requirements: equal flanks where both are active, and equal tip radii."""
+    """Return True if one tooth satisfies both requirements, which needs equal flanks where both flanks are active, and
+    equal tip radii.
+    """
     first, second = one.flank, other.flank
     if first.outward != second.outward or abs(first.r[-1] - second.r[-1]) > _ALIKE:
         return False
@@ -231,12 +233,12 @@ def _rising(curve: Floats) -> Floats:
 
 
 def cut_tooth(demands: Sequence[ToothRequirement], wanted: float | None = None) -> tuple[ToothOutline, float]:
-    """Return the tooth that suits all pairs of a wheel, and the angle between its root flank and the flank's tangent
-    [rad].
+    """Return the tooth that fits all pairs of a wheel, and the angle [rad] between its root flank and the tangent at
+    the end of its active flank.
 
     The flank extends as deep as the tips of all mates need, and the root circle clears these tips. The fillet radius is
-    the largest up to `wanted` [module], 0.38 by default, with which the tooth clears all mates. All flanks must be
-    alike. Raises `QuestionError` if no such tooth exists.
+    the largest up to `wanted` [module], 0.38 by default, with which the tooth clears all mates. The flanks of all
+    requirements must be equal where they are active. Raises `QuestionError` if no such tooth exists.
     """
     s = demands[0].flank.outward
     deepest = min(demands, key=lambda each: float(each.flank.r[0]) * s)
@@ -270,7 +272,8 @@ def cut_tooth(demands: Sequence[ToothRequirement], wanted: float | None = None) 
 def _largest_fillet(
     own: ToothRequirement, root: float, mates: Sequence[MatePassage], relief: float, most: float, wanted: float
 ) -> ToothOutline | None:
-    """Return the tooth with the largest fillet radius up to `wanted` [module], by bisection.
+    """Return the tooth with the largest fillet radius up to `wanted` [module] that clears all mates, found by
+    bisection.
 
     Return None if even with a small fillet a mate interferes by more than `most` [module].
     """

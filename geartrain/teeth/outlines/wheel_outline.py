@@ -1,4 +1,4 @@
-"""Outline of a whole wheel: sizes of its blank, contours and resulting sizes.
+"""Outline of a whole wheel: sizes of its blank, contours, and the sizes that result.
 
 Conjugate teeth get roots that the mate's tips do not touch, and a bore or a rim as the blank specifies.
 """
@@ -57,7 +57,7 @@ class BlankSizes:
     """Maximum deviation of a chord from a flank [mm]."""
 
     def __post_init__(self) -> None:
-        """Raise `QuestionError` if a value is not a valid size."""
+        """Raise `QuestionError` if the value of a field is not a valid size."""
         problems = []
         for name in ("module", "bore", "rim", "tolerance", "fillet", "clearance"):
             value, may_be_0 = getattr(self, name), name in ("fillet", "clearance")
@@ -198,9 +198,10 @@ def outline(pair: ConjugatePair, gear: int, cut: BlankSizes, pins: LanternPins |
 
 
 def lantern(pins: LanternPins, z: int, module: float, rim: float | None = None) -> list[Contour]:
-    """Return the contours of a disc with a hole for each pin, and a rim of width `rim` outside the pins [mm].
+    """Return the contours of a lantern disc [mm]: a hole for each pin, and a circle at the distance `rim` outside the
+    pin holes.
 
-    The default width is a pin's diameter.
+    The default width of the rim is the diameter of a pin.
     """
     R, radius = pins.circle * module, pins.radius * module
     turns = [2 * pi * k / z for k in range(z)]
@@ -209,7 +210,7 @@ def lantern(pins: LanternPins, z: int, module: float, rim: float | None = None) 
 
 
 def pin_seats(pins: LanternPins, z: int, root: float, module: float, wider: float = 0.0) -> Contour:
-    """Return the inner contour of a ring with a round seat for each pin [mm].
+    """Return the inner contour [mm] of a ring with a round seat for each of its z pins.
 
     root    inner radius of the ring [module]
     wider   diameter of a seat minus the diameter of its pin [mm]
@@ -225,7 +226,7 @@ def pin_seats(pins: LanternPins, z: int, root: float, module: float, wider: floa
 
 
 def blank_contours(teeth: Contour, kind: str, root: float, cut: BlankSizes) -> list[Contour]:
-    """Return the contours of a toothed wheel [mm]: teeth and bore, or rim and teeth for a ring gear.
+    """Return the contours of a toothed wheel [mm]: teeth and bore, or, for a ring gear, rim and teeth.
 
     teeth, root   contour of the teeth and radius of the root circle [module]
     """
@@ -247,8 +248,8 @@ def blank_contours(teeth: Contour, kind: str, root: float, cut: BlankSizes) -> l
 
 
 def bore(cut: BlankSizes, root: float) -> list[Contour]:
-    """Return the hole of a wheel with the root radius `root` [mm] as a list of contours, which is empty if the wheel
-    has no bore.
+    """Return a list with the contour of the bore of a wheel with the root radius `root` [mm]. The list is empty if the
+    wheel has no bore.
     """
     if cut.bore is None:
         return []

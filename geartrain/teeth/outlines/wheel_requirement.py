@@ -1,4 +1,4 @@
-"""Requirements of gear pairs on the teeth of a wheel, and the tooth that suits all pairs of the wheel."""
+"""Requirements of gear pairs on the teeth of a wheel, and the tooth that fits all pairs of the wheel."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ SAME_SIZE = 1e-9  # of a length, or rad: smaller differences count as equal
 
 @dataclass(frozen=True, slots=True)
 class LanternPins:
-    """Round pins of a lantern wheel or of a ring: number of the gear, radius of the pin circle and radius of a pin
-    [module].
+    """Round pins of a lantern wheel or of a ring: number of the gear with the pins, radius of the pin circle and radius
+    of a pin [module].
     """
 
     gear: int
@@ -28,22 +28,26 @@ class LanternPins:
 
 @dataclass(frozen=True, slots=True)
 class CutTooth:
-    """Tooth of a wheel to be cut, lengths in modules."""
+    """Tooth of a wheel that is to be cut. Lengths are in modules."""
 
     kind: str
-    """Kind of wheel: external, ring or pins."""
+    """Kind of the wheel: external, ring or pins."""
     tip: float
     """Radius of the tip circle [module]."""
     root: float
     """Radius of the root circle [module]."""
     tooth: tuple[Vertex, ...] = ()
-    """Vertices (x, y, bulge) of one tooth about the x axis, from root to root [module]; empty for pins."""
+    """Vertices (x, y, bulge) from root to root of one tooth that is symmetric about the x axis [module]; empty for
+    pins.
+    """
     pins: LanternPins | None = None
-    """Pins of a lantern, or of a ring gear whose teeth are separate pins in seats."""
+    """Pins of a lantern, or of a ring gear whose teeth are separate pins in seats; None for a wheel with teeth."""
 
 
 class WheelRequirement(ABC):
-    """Requirement of one pair on the teeth of one of its wheels, which is compared with others before cutting."""
+    """Requirement of one pair on the teeth of one of its wheels. It is compared with the requirements of the wheel's
+    other pairs before the wheel is cut.
+    """
 
     @property
     @abstractmethod
@@ -52,18 +56,18 @@ class WheelRequirement(ABC):
 
     @abstractmethod
     def agrees(self, other: WheelRequirement) -> bool:
-        """Return True if one wheel can satisfy both requirements, False otherwise."""
+        """Return True if the teeth of one wheel can satisfy both requirements, or False if they cannot."""
 
     @abstractmethod
     def cut(self, others: Sequence[WheelRequirement] = ()) -> CutTooth:
-        """Return a tooth that satisfies this requirement and `others`; raise `GearTrainError` if no such tooth
-        exists.
+        """Return a tooth that satisfies this requirement and `others`. Raise `GearTrainError` if no such
+        tooth exists.
         """
 
 
 @dataclass(frozen=True, slots=True)
 class FixedTooth(CutTooth, WheelRequirement):
-    """Tooth that its form defines completely, independent of the mate."""
+    """Tooth that the tooth form defines completely, independent of the mate."""
 
     def agrees(self, other: WheelRequirement) -> bool:
         """Return True if both teeth have the same kind and the same vertices."""
@@ -73,15 +77,15 @@ class FixedTooth(CutTooth, WheelRequirement):
         return all(abs(a - b) <= SAME_SIZE * max(abs(a), 1.0) for a, b in pairs)
 
     def cut(self, others: Sequence[WheelRequirement] = ()) -> CutTooth:
-        """Return the tooth itself; `others` must agree with it."""
+        """Return the tooth itself. All requirements in `others` must agree with this tooth."""
         del others
         return self
 
 
 @dataclass(frozen=True)
 class PairRequirement:
-    """Requirement of a pair on a wheel, with the name of the pair, the name of its tooth form, the form in words, and
-    the required teeth.
+    """Requirement of a pair on a wheel: name of the pair, name of its tooth form, tooth form in words, and required
+    teeth.
     """
 
     pair: str
@@ -91,7 +95,9 @@ class PairRequirement:
 
 
 def disagreement(requested: Sequence[PairRequirement]) -> Problem | None:
-    """Return the problem of a wheel whose pairs require different teeth; None if one wheel can satisfy all pairs."""
+    """Return the problem of a wheel whose pairs require different teeth; None if one wheel can satisfy all
+    its pairs.
+    """
     odd = (other for other in requested[1:] if not requested[0].requirement.agrees(other.requirement))
     return next((_conflict(requested[0], other) for other in odd), None)
 

@@ -1,4 +1,4 @@
-"""Motion of a pair of triangular wheels: verdict, backlash of the coast flanks, clearance window."""
+"""Motion of a pair of triangular wheels: verdict, backlash of the coast flanks, and clearance window."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _NEARLY_0 = 1e-9  # of the maximum excess
 
 
 class TriangularContact:
-    """Contact of a pair of triangular wheels: sizes, real path with its dwells, backlash, verdict."""
+    """Contact of a pair of triangular wheels: sizes, real path of contact with its dwells, backlash and verdict."""
 
     def __init__(self, sizes: TriangularSizes) -> None:
         self.sizes = sizes
@@ -33,46 +33,47 @@ class TriangularContact:
 
     @cached_property
     def dragged(self) -> DraggedPath:
-        """Real path of contact in which the driven wheel dwells while no tooth pushes it."""
+        """Real path of contact, in which the driven wheel dwells while no tooth pushes it."""
         return drag(self.path)
 
     @property
     def intervals(self) -> tuple[DriveInterval, ...]:
-        """Drive intervals over one pitch of the driver, in order of time, including dwells."""
+        """Drive intervals over one pitch of the driver in order of time. Dwells are included."""
         return self.dragged.intervals
 
     def locate(self, t: float) -> tuple[DriveInterval, float]:
-        """Return the drive interval that contains the driver position t [rad], and the angle alpha_1 [rad] of the
-        driver's apex from the line of centres at t.
+        """Return the drive interval that contains the driver position t [rad], and the angle alpha_1 [rad] between the
+        driver's apex and the line of centres at t.
         """
         return _locate(self.intervals, t, self.sizes.p1)
 
     def lag(self, interval: DriveInterval, x: Any, m: ModuleType = math) -> Any:
-        """Return the lag of the driven wheel behind its mean motion [rad] while the driver's apex is at the angle x
-        [rad] from the line of centres.
+        """Return the lag of the driven wheel behind its mean motion [rad] at the angle x [rad] of the driver's apex
+        from the line of centres.
         """
         y = self.path.tooth_pair.angle(interval.phase, x, m) if interval.held is None else interval.held
         return y - self.sizes.ratio * x
 
     def speed(self, interval: DriveInterval, x: Any, m: ModuleType = math) -> Any:
-        """Return the speed ratio while the driver's apex is at the angle x [rad] from the line of centres; 0 in a
-        dwell.
-        """
+        """Return the speed ratio at the angle x [rad] of the driver's apex from the line of centres; 0 in a dwell."""
         return self.path.tooth_pair.speed(interval.phase, x, m) if interval.held is None else 0.0
 
     @cached_property
     def _bounds(self) -> list[DriveInterval]:
-        """Intervals in which a contact limits the driven wheel, even if it cannot drive it; gaps are possible."""
+        """Intervals of driver position in which a contact limits the driven wheel, even if the contact cannot drive.
+        Intervals may be separated by gaps.
+        """
         sizes = self.sizes
         return RealPath(sizes, slips=True).envelope if any(sizes.lean) else self.path.envelope
 
     @cached_property
     def backlash(self) -> float:
-        """Minimum backlash at the coast flanks over a pitch [rad of the driven wheel]; negative if they jam.
+        """Minimum backlash at the coast flanks over a pitch [rad of the driven wheel]; negative if the coast flanks
+        jam.
 
         The backlash is the sum of the transmission function of the drive flanks and the mirror image of the bounds of
-        the coast flanks, which is smooth between their kinks. Within a smooth cell its minimum is where both flanks
-        have the same speed ratio.
+        the coast flanks, and is smooth between their kinks. Between two kinks, the backlash is a minimum where drive
+        and coast flanks have the same speed ratio.
         """
         pitch = self.sizes.p1
         kinks = {kink % pitch for interval in self.intervals for kink in self._kinks(interval)}
@@ -86,8 +87,8 @@ class TriangularContact:
         yield from (piece.low for piece in self.path.pieces if interval.end < piece.low < interval.start)
 
     def _minimum_within(self, low: float, high: float) -> float:
-        """Return the minimum backlash between two kinks [rad]: at one of them, or where drive and coast flanks have the
-        same speed ratio.
+        """Return the minimum backlash between the two kinks `low` and `high` [rad]. It occurs at a kink, or where drive
+        and coast flanks have the same speed ratio.
         """
         pitch, middle = self.sizes.p1, (low + high) / 2
         ours, start = self.locate(middle)
@@ -111,8 +112,8 @@ class TriangularContact:
 
     @cached_property
     def verdict(self) -> PairVerdict:
-        """Verdict of the first failed check, in the order valley, range of contact, overhang, coast flanks, entry,
-        exit; "runs" if no check fails.
+        """Verdict that reports the first failed check, or "runs" if no check fails. The order of checks is: valley,
+        range of contact, overhang, coast flanks, entry, exit.
         """
         sizes = self.sizes
         if not sizes.has_valleys:
@@ -152,18 +153,18 @@ class TriangularContact:
 
     @property
     def idle(self) -> float:
-        """Driver angle of all dwells in one pitch [rad]."""
+        """Total driver angle during the dwells in one pitch [rad]."""
         return sum(each.width for each in self.intervals if each.phase == DWELL)
 
     @property
     def lost(self) -> float:
-        """Driven angle lost in the dwells of one pitch [rad]."""
+        """Driven angle that is lost in the dwells of one pitch [rad]."""
         return self.dragged.lost
 
     @cached_property
     def overhang(self) -> str:
-        """Message about an overhanging flank that touches, or that would turn the driven wheel back; empty if no such
-        flank exists.
+        """Message about an overhanging flank that touches, or that would turn the driven wheel back; an empty string if
+        there is no such flank.
         """
         # tolerance for the rounding of the limits of contact, which are roots with a smaller error
         sizes, small = self.sizes, 1e-9 * self.sizes.p1
@@ -185,10 +186,10 @@ class TriangularContact:
 
 
 def _locate(intervals: Sequence[DriveInterval], t: float, pitch: float) -> tuple[DriveInterval, float]:
-    """Return the drive interval that contains the driver position t [rad], and the angle alpha_1 [rad] of the
-    driver's apex from the line of centres at t.
+    """Return the drive interval that contains the driver position t [rad], and the angle alpha_1 [rad] between the
+    driver's apex and the line of centres at t.
 
-    If t is in a gap, return the nearest interval and an angle outside it.
+    If t is in a gap, return the nearest interval and an angle outside this interval.
     """
     for interval in intervals:
         gone = (interval.start - t) % pitch
@@ -219,25 +220,27 @@ class ClearanceWindow(Shown):
     """Range of clearances, from `jam` to `run`, in which a pair of triangular teeth turns. The bounds are values of
     `TriangularSizes.excess`.
 
-    The truth value of a window is False if `run` is not above `jam`: the pair then turns at no clearance. If a pair
-    turns in several ranges of clearance, the window is the first range.
+    The truth value of a window is False if `run` is not above `jam`: the pair then does not turn at any clearance. If a
+    pair turns in several ranges of clearance, the window is the first range.
     """
 
     jam: float
-    """Lower bound of the window: at a smaller excess the pair cannot turn."""
+    """Lower bound of the window. If the excess is smaller, the pair cannot turn."""
     run: float
-    """Upper bound of the window: maximum excess at which the pair runs."""
+    """Upper bound of the window: the maximum excess at which the pair turns."""
     run_kind: Literal["clash", "dwell"]
-    """Kind of the verdict on the pair if its excess is above `run`."""
+    """Kind of the verdict on the pair if the excess is above `run`."""
     reach: float
-    """Excess above which the tips of the two wheels do not touch."""
+    """Excess above which the tips of the two wheels no longer touch."""
     jam_kind: Literal["jam", "overhang", "clash", "dwell"] = "jam"
-    """Kind of the verdict on the pair if its excess is below `jam`."""
+    """Kind of the verdict on the pair if the excess is below `jam`."""
     side: int = 1
-    """Sign of the pair: 1 if external, -1 if internal. The clearance factors of an internal pair are below 1."""
+    """Sign of the pair: 1 for an external pair, -1 for an internal pair. The clearance factors of an internal pair are
+    below 1.
+    """
 
     def factor(self, excess: float) -> float:
-        """Return the clearance factor for a given excess.
+        """Return the clearance factor that corresponds to an excess.
 
         excess   relative deviation of the centre distance, as in `TriangularSizes.excess`
         """
@@ -263,11 +266,11 @@ class ClearanceWindow(Shown):
 
     @property
     def works(self) -> bool:
-        """True if the pair turns at some clearance."""
+        """True if the pair turns at some clearance, False if it turns at none."""
         return bool(self.jam < self.run)
 
     def at(self, fraction: float) -> float:
-        """Return the excess at a given fraction of the window.
+        """Return the excess at a given relative position within the window.
 
         fraction   0 at `jam`, 1 at `run`
         """
@@ -275,7 +278,7 @@ class ClearanceWindow(Shown):
 
 
 def find_window(sizes: TriangularSizes) -> ClearanceWindow:
-    """Return the clearance window of a pair. The declared clearance of the pair has no effect on it.
+    """Return the clearance window of a pair. The declared clearance of the pair has no effect on the window.
 
     The bounds are roots of the backlash of the coast flanks and of the margins at entry and exit, found by bracketing.
 
@@ -319,12 +322,14 @@ def _window(sizes: TriangularSizes) -> ClearanceWindow:
 
 
 def _start_of_range(margin: Callable[[float], float], low: float, reach: float) -> float:
-    """Return the minimum excess above which the function `margin` is positive; 0 if it is positive at `low`."""
+    """Return the smallest excess above which the function `margin` is positive; 0 if it is already positive
+    at `low`.
+    """
     return 0.0 if margin(low) > 0 else _first_sign_change(margin, low, reach)
 
 
 def _overhang_excess(sizes: TriangularSizes, low: float) -> float:
-    """Return the excess up to which an overhanging flank touches; 0 if none touches at the excess `low`."""
+    """Return the excess up to which an overhanging flank touches; 0 if no such flank touches at the excess `low`."""
     if low >= sizes.maximum_excess or not any(sizes.at(low).lean):
         return 0.0
 
@@ -337,7 +342,8 @@ def _overhang_excess(sizes: TriangularSizes, low: float) -> float:
 def _first_range(margin: Callable[[float], float], low: float, reach: float) -> tuple[float, float]:
     """Return the bounds of the first range of excess in which the function `margin` is positive.
 
-    The range begins at 0 if the margin is positive at 0 or at `low`. It is (0, 0) if the margin is never positive.
+    The range begins at 0 if the margin is positive at 0 or at `low`. The bounds are (0, 0) if the margin is never
+    positive.
     """
     # slightly above 0 or `low`, at which rounding would decide the sign of the margin
     for start in (reach * _NEARLY_0, low * (1 + 1e-9)):
@@ -353,23 +359,25 @@ def _first_range(margin: Callable[[float], float], low: float, reach: float) -> 
 
 
 def _entry(path: RealPath) -> float:
-    """Return the margin at entry [rad of the driven wheel]: maximum lag that the entering tooth pair permits, minus the
-    maximum lag that the other pairs permit. A negative margin is a clash of tips.
+    """Return the margin at entry [rad of the driven wheel]: the maximum lag permitted by the entering tooth pair minus
+    the maximum lag permitted by the other tooth pairs. If the margin is negative, tips clash.
     """
     last = path.pieces[-1]
     return path.g(last.phase, last.high) - path.lowest(last.high, besides=0)
 
 
 def _exit(path: RealPath) -> float:
-    """Return the margin at exit [rad of the driven wheel]: negative if a tooth pair leaves contact before another
-    pair can drive, so that the driven wheel dwells.
+    """Return the margin at exit [rad of the driven wheel]. If it is negative, a tooth pair leaves contact before
+    another pair can drive, so that the driven wheel dwells.
     """
     first = path.pieces[0]
     return path.g(first.phase, first.low) - path.lowest(first.low, besides=0)
 
 
 def _first_sign_change(value: Callable[[float], float], low: float, reach: float) -> float:
-    """Return the smallest excess above `low` at which `value` changes sign; `reach` if it does not change."""
+    """Return the smallest excess above `low` at which the function `value` changes sign; `reach` if there is no sign
+    change.
+    """
     # scanned in 16 steps before `root`; a range shorter than one step may be missed
     steps, start = 16, low
     at_low = value(low)
@@ -384,10 +392,11 @@ def _first_sign_change(value: Callable[[float], float], low: float, reach: float
 
 
 def excess_of_backlash(sizes: TriangularSizes, backlash: float, text: str) -> float:
-    """Return the excess at which the minimum backlash on the second wheel's pitch circle equals `backlash`.
+    """Return the excess at which the minimum backlash, measured on the pitch circle of the second wheel, equals
+    `backlash`.
 
     The root is unique because the backlash increases with the excess. Raises `GearTrainError` if no excess gives this
-    backlash; `text` is the backlash as declared, for the message.
+    backlash; `text` is the declared backlash as shown in the error message.
     """
 
     def backlash_at(excess: float) -> float:

@@ -1,6 +1,6 @@
 """Sizes of a pair of wheels with triangular teeth: depth, radii, centre distance, range of contact.
 
-Equations are numbered as in F. Sorge, "A note on the mechanics of ancient gear systems". All lengths are in the same
+Equations are numbered as in F. Sorge, "A note on the mechanics of ancient gear systems". All lengths are in one
 arbitrary unit. Sorge treats external pairs. An internal pair follows from the same equations if the tooth number and
 the radius of the ring gear and the centre distance are negative (docs/teeth.md, internal pairs).
 """
@@ -21,24 +21,26 @@ _NEARLY_GRAZING = 2e-6  # rad: slightly more than the difference of that angle f
 
 
 def depth(z: int, beta: float) -> float:
-    """Return the tooth depth divided by the tip radius for z teeth with half aperture angle `beta` [rad], Eq. (1).
+    """Return the tooth depth divided by the tip radius, for z teeth with a half aperture angle `beta` [rad], Eq. (1).
 
-    It is computed as a product, because the printed difference cancels at large z. For a ring gear of z teeth pass
-    -z and multiply by the negative radius.
+    The ratio is computed as a product, because the printed difference suffers from cancellation for large z. For a ring
+    gear of z teeth, pass -z and multiply the result by the negative radius.
     """
     return 2 * sin(pi / (2 * z)) * cos(beta + pi / (2 * z)) / sin(beta + pi / z)
 
 
 def flank(z: int, beta: float) -> float:
-    """Return the length of a flank divided by the tip radius for z teeth with half angle `beta` [rad], Eq. (2)."""
+    """Return the length of a flank divided by the tip radius, for z teeth with a half aperture angle `beta` [rad], Eq.
+    (2).
+    """
     return sin(pi / z) / sin(beta + pi / z)
 
 
 def contact_half_angle(R1: float, R2: float, D: float, delta: float) -> float:
-    """Return the maximum angle of a tip of wheel 1 from the line of centres at which tips can touch [rad], Eq. (4).
+    """Return the maximum angle [rad] between a tip of wheel 1 and the line of centres at which tips can touch, Eq. (4).
 
-    It follows from the overlap delta = R1 + R2 - D of the tip circles, with tip radii R1 and R2 and centre distance
-    D.
+    The angle follows from the overlap delta = R1 + R2 - D of the tip circles, where R1 and R2 are the tip radii and D
+    is the centre distance.
     """
     # half-angle form of the cosine rule: the cosine, near 1, would lose half the digits
     square = delta * (2 * R2 - delta) / (4 * D * R1)
@@ -48,7 +50,7 @@ def contact_half_angle(R1: float, R2: float, D: float, delta: float) -> float:
 
 def grazing(R1: float, R2: float, beta: float, D: float) -> tuple[float, float]:
     """Return the direction psi [rad] of a flank of wheel 1 that is almost tangent to the tip circle of wheel 2, and
-    sin(psi + alpha_2), where alpha_2 is the angle of the touching apex of wheel 2 from the line of centres.
+    sin(psi + alpha_2), where alpha_2 is the angle between the touching apex of wheel 2 and the line of centres.
     """
     sine = min(1.0, (_GRAZING * R2 + R1 * sin(beta)) / D)
     return asin(sine), (D * sine - R1 * sin(beta)) / R2
@@ -56,7 +58,7 @@ def grazing(R1: float, R2: float, beta: float, D: float) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class TriangularSizes(Shown):
-    """Geometry of a pair of wheels with triangular teeth, of which the first drives. All lengths are in the same
+    """Geometry of a pair of wheels with triangular teeth, in which the first wheel drives. All lengths are in one
     arbitrary unit.
 
     At `deepest_distance` a tip touches the bottom between two teeth. For an external pair this is the minimum centre
@@ -91,9 +93,9 @@ class TriangularSizes(Shown):
     R2: float
     """Tip radius of the second wheel, in the common length unit."""
     beta1: float
-    """Half aperture angle of the teeth of the first wheel [rad]."""
+    """Half of the aperture angle of the teeth of the first wheel [rad]."""
     beta2: float
-    """Half aperture angle of the teeth of the second wheel [rad]."""
+    """Half of the aperture angle of the teeth of the second wheel [rad]."""
     excess: float
     """Relative deviation of the centre distance from `deepest_distance`.
 
@@ -122,19 +124,21 @@ class TriangularSizes(Shown):
 
     @property
     def signs(self) -> tuple[int, int]:
-        """Sign of the tooth number and radius of each wheel in the equations for external pairs; -1 for a ring gear,
-        otherwise 1.
+        """Sign of the tooth number and radius of each wheel in the equations for external pairs: -1 for a ring gear, 1
+        for an external wheel.
         """
         return (-1 if self.ring == 1 else 1), (-1 if self.ring == 2 else 1)
 
     @property
     def side(self) -> int:
-        """Sign of the centre distance and of the angle alpha_2: 1 for an external pair, -1 for an internal pair."""
+        """Sign of the centre distance and of the angle alpha_2 in the equations: 1 for an external pair, -1 for an
+        internal pair.
+        """
         return -1 if self.ring else 1
 
     @property
     def signed_radii(self) -> tuple[float, float]:
-        """Tip radii of both wheels, in the common length unit; negative for a ring gear."""
+        """Tip radii of both wheels, in the common length unit. The radius of a ring gear is negative."""
         return self.signs[0] * self.R1, self.signs[1] * self.R2
 
     @property
@@ -144,24 +148,26 @@ class TriangularSizes(Shown):
 
     @property
     def half_angles(self) -> tuple[float, float]:
-        """Half aperture angles of both wheels [rad]."""
+        """Half of the aperture angle of the teeth of each wheel [rad]."""
         return self.beta1, self.beta2
 
     @cached_property
     def depths(self) -> tuple[float, float]:
-        """Tooth depths of both wheels, Eq. (1), in the common length unit."""
+        """Tooth depths of both wheels, in the common length unit, Eq. (1)."""
         (s1, s2), (R1, R2) = self.signs, self.signed_radii
         return R1 * depth(s1 * self.z1, self.beta1), R2 * depth(s2 * self.z2, self.beta2)
 
     @cached_property
     def flanks(self) -> tuple[float, float]:
-        """Lengths of the flanks of both wheels, Eq. (2), in the common length unit."""
+        """Lengths of the flanks of both wheels, in the common length unit, Eq. (2)."""
         (s1, s2), (R1, R2) = self.signs, self.signed_radii
         return R1 * flank(s1 * self.z1, self.beta1), R2 * flank(s2 * self.z2, self.beta2)
 
     @cached_property
     def deepest_distance(self) -> float:
-        """Centre distance at which a tip touches the bottom of a space (clearance factor 1)."""
+        """Centre distance at which a tip touches the bottom of a tooth space (clearance factor 1), in the common length
+        unit.
+        """
         return self.side * (sum(self.signed_radii) - min(self.depths))
 
     @cached_property
@@ -171,14 +177,16 @@ class TriangularSizes(Shown):
 
     @property
     def pitch_sum(self) -> int:
-        """Sum z1 + z2, or the difference for an internal pair. The centre distance divided by this value is half the
-        working module.
+        """Sum z1 + z2 of the tooth numbers, or their difference for an internal pair. The centre distance divided by
+        this number is half the operating module.
         """
         return abs(self.signs[0] * self.z1 + self.signs[1] * self.z2)
 
     @property
     def surrounds(self) -> bool:
-        """True if the tip circles of an internal pair overlap at every angle, so that the pinion has no free space."""
+        """True if the tip circles of an internal pair overlap at every angle, so that the teeth of the pinion cannot
+        come free.
+        """
         return bool(self.ring) and sum(self.signed_radii) >= self.D
 
     @property
@@ -194,13 +202,13 @@ class TriangularSizes(Shown):
         Parameters
         ----------
         excess : float
-            Fraction as in the field `excess`.
+            Relative deviation of the centre distance, as in the field `excess`.
         """
         return 1 + self.side * excess
 
     @cached_property
     def delta(self) -> float:
-        """Overlap of the tip circles, in the common length unit; 0 or less if the teeth cannot touch."""
+        """Overlap of the tip circles, in the common length unit; 0 or negative if the teeth cannot touch."""
         # R1 + R2 - D would cancel at large tooth numbers
         return min(self.depths) - self.excess * self.deepest_distance
 
@@ -216,27 +224,27 @@ class TriangularSizes(Shown):
 
     @cached_property
     def ratio(self) -> float:
-        """Mean speed ratio, driven speed divided by driver speed, without sign."""
+        """Mean speed ratio: absolute value of the driven speed divided by the driver speed."""
         return self.z1 / self.z2
 
     @cached_property
     def reach1(self) -> float:
-        """Maximum angle alpha_1max of a tip of the driver from the line of centres at which tips can touch [rad], Eq.
-        (4).
+        """Maximum angle alpha_1max [rad] between a tip of the driver and the line of centres at which tips can touch,
+        Eq. (4).
         """
         return contact_half_angle(*self.signed_radii, self.side * self.D, self.delta)
 
     @cached_property
     def reach2(self) -> float:
-        """Maximum angle alpha_2max of a tip of the driven wheel from the line of centres at which tips can touch [rad],
-        Eq. (4).
+        """Maximum angle alpha_2max [rad] between a tip of the driven wheel and the line of centres at which tips can
+        touch, Eq. (4).
         """
         return contact_half_angle(*self.signed_radii[::-1], self.side * self.D, self.delta)
 
     @cached_property
     def matching(self) -> float:
-        """Angle alpha_1m of the driver's apex from the line of centres in the matching position, in which the flanks of
-        both teeth coincide [rad], Eq. (10). It is also defined for unequal aperture angles.
+        """Angle alpha_1m [rad] between the driver's apex and the line of centres in the matching position, in which the
+        flanks of both teeth coincide, Eq. (10). It is also defined for unequal aperture angles.
 
         Both flanks lie on one line when D sin(alpha_1m + beta1) = R1 sin(beta1) + R2 sin(beta2). The expression for the
         sine of alpha_1m avoids the difference of nearly equal angles. The value is infinite if no such position exists.
@@ -253,8 +261,8 @@ class TriangularSizes(Shown):
 
     @cached_property
     def lean(self) -> tuple[bool, bool]:
-        """Flag for each wheel: True if its flanks overhang, that is, lean beyond the perpendicular to the mate's radius
-        where tips meet.
+        """Flag for each wheel: True if its flanks overhang. A flank overhangs if it leans beyond the perpendicular to
+        the mate's radius where tips meet.
 
         Flanks overhang in wheels with few, deep teeth. They never overhang in an internal pair, because flank and
         driven radius turn in the same sense.
@@ -266,7 +274,8 @@ class TriangularSizes(Shown):
 
     @cached_property
     def entry(self) -> float:
-        """Angle alpha_1 of the driver's apex from the line of centres at which a tooth pair comes into contact [rad].
+        """Angle alpha_1 [rad] between the driver's apex and the line of centres at which a tooth pair comes into
+        contact.
 
         The angle is alpha_1max, or smaller if an overhanging flank is tangent to the driven tip circle before that
         position.
@@ -277,7 +286,7 @@ class TriangularSizes(Shown):
 
     @cached_property
     def exit(self) -> float:
-        """Angle alpha_1 of the driver's apex from the line of centres at which a tooth pair ceases to drive [rad].
+        """Angle alpha_1 [rad] between the driver's apex and the line of centres at which a tooth pair ceases to drive.
 
         The angle is -alpha_1max, or larger if the apex slips off an overhanging flank before that position.
         """
@@ -288,22 +297,23 @@ class TriangularSizes(Shown):
 
     @cached_property
     def maximum_excess(self) -> float:
-        """Maximum excess at which the teeth can touch. Beyond it, tips never touch or, in an internal pair, the tip
-        circles overlap at every angle.
+        """Maximum excess at which the teeth can touch. If the excess is larger, tips never touch, or the tip circles of
+        an internal pair overlap at every angle.
         """
         apart = min(self.depths) / self.deepest_distance
         return apart if not self.ring else min(apart, 1 + self.side * sum(self.signed_radii) / self.deepest_distance)
 
     @cached_property
     def has_valleys(self) -> bool:
-        """True if neighbouring flanks of both wheels meet in a valley: half aperture angle + 180 deg/z < 90 deg, or
-        half aperture angle > 180 deg/z for a ring gear.
+        """True if neighbouring flanks of both wheels meet in a valley. The condition is: half aperture angle + 180
+        deg/z < 90 deg for an external wheel, and half aperture angle > 180 deg/z for a ring gear, where z is the tooth
+        number.
         """
         wheels = zip(self.signs, (self.z1, self.z2), self.half_angles, strict=True)
         return all(0 < beta + sign * pi / z < pi / 2 for sign, z, beta in wheels)
 
     def swapped(self) -> TriangularSizes:
-        """Return the pair with the same sizes and the second wheel driving."""
+        """Return the pair with the same sizes, in which the second wheel drives."""
         ring: Literal[0, 1, 2] = 2 if self.ring == 1 else 1 if self.ring == 2 else 0
         return TriangularSizes(self.z2, self.z1, self.R2, self.R1, self.beta2, self.beta1, self.excess, ring)
 
@@ -313,7 +323,7 @@ class TriangularSizes(Shown):
         Parameters
         ----------
         excess : float
-            Fraction as in the field `excess`.
+            Relative deviation of the centre distance, as in the field `excess`.
         """
         return replace(self, excess=excess)
 

@@ -1,4 +1,4 @@
-"""Verdict and results of a pair with triangular teeth as functions of one or two parameters."""
+"""Verdict and results of a pair with triangular teeth as functions of one or two varied parameters."""
 
 from __future__ import annotations
 
@@ -15,7 +15,9 @@ from geartrain.teeth.triangular.real_path import matches
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 TransmissionFactory = Callable[..., TriangularTransmission]
-"""Function that returns a transmission function for values of the varied parameters, passed by name."""
+"""Function that returns a transmission function for given values of the varied parameters, which are
+keyword arguments.
+"""
 
 ASTRIDE = "astride"
 _MOST_CHANGES = 100
@@ -34,7 +36,8 @@ COLUMNS = (
 
 @dataclass(frozen=True)
 class ParameterSweep:
-    """Results of a sweep: parameter values (one array each, all of one shape), results, and verdicts.
+    """Results of a parameter sweep: parameter values, results and verdicts. Each quantity is one array, and all arrays
+    have the same shape.
 
     `phases` names the phases of the real path in order of time, such as "approach+recess".
     """
@@ -46,16 +49,16 @@ class ParameterSweep:
 
     @property
     def header(self) -> tuple[str, ...]:
-        """Names of the columns of `rows`."""
+        """Names of the columns of the table that `rows` yields."""
         return (*self.parameters, "verdict", "phases", *self.columns)
 
     @property
     def labels(self) -> NDArray[np.str_]:
-        """Label of each point: the phases of a pair that runs, otherwise its verdict."""
+        """Label of each point of the sweep: the phases of the pair if it runs, or its verdict if it does not run."""
         return np.where(self.verdicts == "runs", self.phases, self.verdicts)
 
     def rows(self) -> Iterator[tuple[object, ...]]:
-        """Yield one row for each point, the first parameter varying slowest."""
+        """Yield one table row for each point of the sweep. The first parameter varies slowest."""
         arrays = (*self.parameters.values(), self.verdicts, self.phases, *self.columns.values())
         return zip(*(array.ravel().tolist() for array in arrays), strict=True)
 
@@ -65,8 +68,8 @@ def sweep(
 ) -> ParameterSweep:
     """Return the results at every combination of values of one or two parameters.
 
-    A combination without a valid pair has the verdict "none" and results NaN. Teeth that never touch have their own
-    verdict and results NaN. `on_point` is called after each combination.
+    If a combination does not give a valid pair, its verdict is "none" and its results are NaN. Teeth that never touch
+    have their own verdict, and their results are NaN. `on_point` is called after each combination.
     """
     shape = tuple(len(values) for values in ranges.values())
     grids = np.meshgrid(*(np.asarray(values, dtype=float) for values in ranges.values()), indexing="ij")
@@ -113,7 +116,7 @@ def _point(make: TransmissionFactory, values: dict[str, float]) -> tuple[str, st
 
 
 def phases_of(transmission: TriangularTransmission) -> str:
-    """Return the phases of the real path in order from the entry on, joined by "+", such as "approach+recess".
+    """Return the phases of the real path of contact, starting at entry and joined by "+", such as "approach+recess".
 
     Two phases joined by the matching position are replaced by "astride".
     """
@@ -132,8 +135,8 @@ def phases_of(transmission: TriangularTransmission) -> str:
 
 @dataclass(frozen=True)
 class VerdictChange:
-    """Value of a parameter at which the verdict or the phases of a pair change: `before` is their label at
-    smaller values, `after` at larger values.
+    """Value of a parameter at which the verdict or the phases of a pair change. `before` is the label of the pair at
+    smaller values, `after` the label at larger values.
     """
 
     value: float
@@ -142,7 +145,9 @@ class VerdictChange:
 
 
 def changes(make: TransmissionFactory, name: str, found: ParameterSweep) -> list[VerdictChange]:
-    """Return every change of verdict or phases along a sweep of one parameter, by bisection; at most 100 changes."""
+    """Return every change of verdict or phases along a sweep of one parameter, located by bisection. At most 100
+    changes are returned.
+    """
     values = found.parameters[name].tolist()
     labels = [_label(v, p) for v, p in zip(found.verdicts.tolist(), found.phases.tolist(), strict=True)]
     seen: list[VerdictChange] = []
@@ -175,8 +180,8 @@ def _label(verdict: str, phases: str) -> str:
 
 
 def best(make: TransmissionFactory, name: str, found: ParameterSweep) -> tuple[float, float] | None:
-    """Return the parameter value with the maximum efficiency among pairs that run, and that efficiency; None if no pair
-    runs.
+    """Return the parameter value at which the efficiency of running pairs is a maximum, and this efficiency; None if no
+    pair runs.
 
     The best point of the sweep is refined between its neighbours by golden-section search.
     """

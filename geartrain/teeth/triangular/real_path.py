@@ -1,4 +1,4 @@
-"""Real path of contact of triangular teeth: the tooth pair that drives at each position, collisions, dwells,
+"""Real path of contact of triangular teeth: the tooth pair that drives at each position, and collisions, dwells and
 clashes.
 
 The tooth pair k is at the driver angle alpha_1 = t + k p1 and permits the driven angle alpha_2 = f(alpha_1) - k
@@ -34,8 +34,8 @@ _SMALL = 1e-10  # fraction of a pitch: smaller steps and gaps are rounding error
 
 @dataclass(frozen=True, slots=True)
 class MonotonePiece:
-    """Range of the driver's apex angle alpha_1 [rad], within one phase of contact, in which the speed ratio is
-    monotonic, so that the driven angle is convex or concave.
+    """Range of the driver's apex angle alpha_1 [rad] within one phase of contact. The speed ratio is monotonic in this
+    range, so that the driven angle is convex or concave.
     """
 
     phase: str
@@ -46,37 +46,44 @@ class MonotonePiece:
 
 @dataclass(frozen=True, slots=True)
 class DriveInterval:
-    """Range of the driver's apex angle alpha_1 from `start` down to `end` in which one tooth pair drives, or none
-    does (dwell).
+    """Range of the driver's apex angle alpha_1, from `start` down to `end`, in which one tooth pair drives, or in which
+    no tooth pair drives (dwell).
 
     `tooth_pair` numbers the teeth: alpha_1 = t + tooth_pair p1 for a position t common to all intervals of a path. In a
-    dwell it is the pair that has just let go, and `held` is the angle alpha_2 at which it left the driven wheel.
+    dwell, `tooth_pair` is the pair that has just lost contact, and `held` is the angle alpha_2 at which this pair left
+    the driven wheel.
     """
 
     phase: str
-    """Phase of contact: approach, recess or dwell; also slip or return in a path that includes contacts that cannot
-    drive.
+    """Phase of contact: approach, recess or dwell. A path that includes contacts that cannot drive also has the phases
+    slip and return.
     """
     start: float
-    """Angle alpha_1 of the driver's apex from the line of centres at the start [rad]."""
+    """Angle alpha_1 [rad] between the driver's apex and the line of centres at the start of the interval."""
     end: float
-    """Angle alpha_1 of the driver's apex from the line of centres at the end [rad]."""
+    """Angle alpha_1 [rad] between the driver's apex and the line of centres at the end of the interval."""
     tooth_pair: int
-    """Number of the tooth pair that drives, or that drove last before a dwell."""
+    """Number of the tooth pair that drives or, in a dwell, of the tooth pair that drove last."""
     held: float | None = None
-    """Angle alpha_2 of the driven apex from the line of centres during a dwell [rad]; None while a pair drives."""
+    """Angle alpha_2 [rad] between the driven apex and the line of centres during a dwell; None while a tooth pair
+    drives.
+    """
 
     @property
     def width(self) -> float:
-        """Driver angle from start to end [rad]."""
+        """Driver angle between the start and the end of the interval [rad]."""
         return self.start - self.end
 
 
 class RealPath:
-    """Contact of all tooth pairs of two triangular wheels over one pitch of the driver, and the pair that drives."""
+    """Contact of all tooth pairs of two triangular wheels over one pitch of the driver, and the tooth pair that drives
+    at each position.
+    """
 
     def __init__(self, sizes: TriangularSizes, slips: bool = False) -> None:
-        """Create the path. If `slips` is True, it includes contacts that limit the driven wheel but cannot drive it."""
+        """Create the path of contact. If `slips` is True, the path includes contacts that limit the driven wheel but
+        cannot drive it.
+        """
         self.sizes, self.slips = sizes, slips
         self.tooth_pair = ToothPair(sizes)
         self.pitch, self.ratio = sizes.p1, sizes.ratio
@@ -84,21 +91,21 @@ class RealPath:
     # ------------------------------------------------------------------------------------------------- one tooth pair
 
     def g(self, phase: str, x: float) -> float:
-        """Return the lag g(x) = f(x) - (z1/z2) x of the driven wheel behind its mean motion [rad] while the driver's
-        apex is at the angle x [rad]; f is the angle of the driven apex.
+        """Return the lag g(x) = f(x) - (z1/z2) x of the driven wheel behind its mean motion [rad] at the angle x [rad]
+        of the driver's apex. Here f is the angle of the driven apex.
         """
         return float(self.tooth_pair.angle(phase, x)) - self.ratio * x
 
     def slope(self, phase: str, x: float) -> float:
-        """Return the derivative of the lag g at x: the speed ratio minus its mean."""
+        """Return the derivative of the lag g at x, which is the speed ratio minus its mean value."""
         return float(self.tooth_pair.speed(phase, x)) - self.ratio
 
     @cached_property
     def pieces(self) -> list[MonotonePiece]:
-        """Monotone pieces of the path of contact, first of recess and then of approach, divided where the curvature of
-        the driven angle changes sign.
+        """Monotonic pieces of the path of contact, first those of recess and then those of approach. They are divided
+        where the curvature of the driven angle changes sign.
 
-        With `slips`, the contacts beyond the exit come first. Empty for teeth without valleys.
+        If `slips` is True, the contacts beyond the exit come first. The list is empty for teeth without valleys.
         """
         if not self.sizes.has_valleys:
             return []
@@ -124,8 +131,8 @@ class RealPath:
         return [MonotonePiece(phase, low, a, first), MonotonePiece(phase, a, high, last)]
 
     def extremes(self, phase: str, low: float, high: float) -> list[float]:
-        """Return the value of the lag g [rad] at its extremum, if there is one, between `low` and `high`, where the
-        speed ratio is monotonic.
+        """Return a list with the extremum of the lag g [rad] between `low` and `high`, where the speed ratio is
+        monotonic. The list is empty if there is no extremum.
         """
         if (self.slope(phase, low) < 0) == (self.slope(phase, high) < 0):
             return []
@@ -135,8 +142,8 @@ class RealPath:
 
     @cached_property
     def branches(self) -> list[MonotonePiece]:
-        """Parts of `pieces`, at most one pitch long, in which a tooth pair can have the minimum lag of all pairs on its
-        piece.
+        """Parts of `pieces`, at most one pitch long, in which a tooth pair can have the minimum lag of all tooth pairs
+        on the same piece.
         """
         return [branch for piece in self.pieces for branch in self._branches_of(piece)]
 
@@ -159,12 +166,12 @@ class RealPath:
         return [MonotonePiece(piece.phase, start, start + pitch, True)]
 
     def _rise(self, phase: str, x: float) -> float:
-        """Return the increase of the lag, g(x + p1) - g(x), over one pitch p1 of the driver [rad]."""
+        """Return the increase g(x + p1) - g(x) of the lag over one pitch p1 of the driver [rad]."""
         return float(self.tooth_pair.angle(phase, x + self.pitch) - self.tooth_pair.angle(phase, x)) - self.sizes.p2
 
     def lowest(self, t: float, besides: int | None = None) -> float:
-        """Return the minimum lag g [rad] over the tooth pairs at driver position t [rad], except pair `besides`;
-        infinite if none is in range.
+        """Return the minimum lag g [rad] over the tooth pairs at driver position t [rad], without the pair `besides`;
+        infinite if no tooth pair is in range.
         """
         minimum = inf
         for piece in self.pieces:
@@ -179,7 +186,9 @@ class RealPath:
 
     @cached_property
     def envelope(self) -> list[DriveInterval]:
-        """Drive intervals over one pitch in order of decreasing driver position t, without dwells; it may have gaps."""
+        """Drive intervals, without dwells, over one pitch in order of decreasing driver position t. Intervals may be
+        separated by gaps.
+        """
         base = max((branch.high for branch in self.branches), default=0.0)
         cuts = {0.0, self.pitch}
         for branch in self.branches:
@@ -191,8 +200,8 @@ class RealPath:
         return self._with_whole_first(_join_neighbours(found))
 
     def _with_whole_first(self, found: list[DriveInterval]) -> list[DriveInterval]:
-        """Return the drive intervals of one period, whose start is shifted to the start of an interval so that no
-        interval is divided.
+        """Return the drive intervals of one period. The period is shifted so that it starts at the start of an interval
+        and no interval is divided.
         """
         if not found:
             return found
@@ -203,7 +212,9 @@ class RealPath:
         return [*found[1:-1], DriveInterval(last.phase, last.start, first.end, last.tooth_pair)]
 
     def _cell(self, high: float, low: float) -> Iterator[DriveInterval]:
-        """Yield the drive intervals in a range of driver positions t in which no branch begins or ends."""
+        """Yield the drive intervals in a range of driver positions t, from `high` down to `low`, in which no branch
+        begins or ends.
+        """
         middle = low + (high - low) / 2
         found = {}  # the two ends of a concave piece may belong to the same tooth pair
         for branch in self.branches:
@@ -226,8 +237,8 @@ class RealPath:
     def _lowest_at(
         self, t: float, active: list[tuple[MonotonePiece, int]], last: tuple[MonotonePiece, int] | None
     ) -> tuple[MonotonePiece, int]:
-        """Return the branch with the minimum lag g at driver position t. Within rounding error this is the previous
-        branch `last`, because branches may coincide over a range.
+        """Return the branch with the minimum lag g at driver position t. If the previous branch `last` has the same lag
+        within rounding error, it is returned, because branches may coincide over a range.
         """
         heights = [self.g(branch.phase, t + k * self.pitch) for branch, k in active]
         minimum = min(heights)
@@ -237,13 +248,13 @@ class RealPath:
 
     @cached_property
     def _noise(self) -> float:
-        """Rounding error of the lag g [rad], from the magnitude of its two terms."""
+        """Rounding error of the lag g [rad], estimated from the magnitudes of its two terms."""
         return 4 * ulp(self.sizes.reach2 + self.ratio * self.sizes.reach1)
 
     def _crossings(
         self, one: tuple[MonotonePiece, int], other: tuple[MonotonePiece, int], low: float, high: float
     ) -> Iterator[float]:
-        """Yield the driver positions t [rad] at which the lags of two branches are equal."""
+        """Yield the driver positions t [rad] from `low` to `high` at which the lags of two branches are equal."""
         (a, i), (b, j) = one, other
         shift, turned = (j - i) * self.pitch, (j - i) * self.sizes.p2
         low, high = low + i * self.pitch, high + i * self.pitch
@@ -288,16 +299,18 @@ def _join_neighbours(cells: list[DriveInterval]) -> list[DriveInterval]:
 
 @dataclass(frozen=True, slots=True)
 class SpeedJump(Result):
-    """Impact of teeth: speed ratio before and after, and the relative jump 1 - before/after of Eqs. (22), (25),
-    (26), (27).
+    """Impact of teeth: speed ratio before and after the impact, and the relative jump 1 - before/after of Eqs. (22),
+    (25), (26) and (27).
     """
 
     KEYS = ("kind", "alpha1", "before", "after", "value")
 
     kind: str
-    """Phase that begins, or "matching" if the flank of one tooth falls on the flank of the other tooth."""
+    """Phase of contact that begins, or "matching" if the flank of one tooth meets the whole flank of the
+    other tooth.
+    """
     alpha1: float
-    """Angle alpha_1 of the driver's apex from the line of centres at the impact [rad]."""
+    """Angle alpha_1 [rad] between the driver's apex and the line of centres at the impact."""
     before: float
     """Speed ratio before the impact."""
     after: float
@@ -305,12 +318,14 @@ class SpeedJump(Result):
 
     @property
     def value(self) -> float:
-        """Relative jump of the normal velocity, 1 - before/after."""
+        """Relative jump 1 - before/after of the normal velocity."""
         return 1 - self.before / self.after
 
 
 def matches(last: DriveInterval, new: DriveInterval, pitch: float) -> bool:
-    """Return True if one tooth pair continues through the matching position, at which its contact changes flanks."""
+    """Return True if one tooth pair continues from `last` to `new` through the matching position, at which its contact
+    changes flanks.
+    """
     faces = last.held is None and new.held is None and last.phase != new.phase
     # both are the same root, computed from either side
     return faces and abs(last.end - new.start) < 1e-9 * pitch
@@ -321,7 +336,7 @@ def matches(last: DriveInterval, new: DriveInterval, pitch: float) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class DraggedPath:
-    """Real path with dwells, and the overlap of the entering tips in a clash [rad of the driven wheel]."""
+    """Real path of contact with dwells, and the overlap of the entering tips in a clash [rad of the driven wheel]."""
 
     intervals: tuple[DriveInterval, ...]
     clash: float
@@ -330,10 +345,10 @@ class DraggedPath:
 
 
 def drag(path: RealPath) -> DraggedPath:
-    """Return the real path with a dwell of the driven wheel wherever no tooth pair drives it.
+    """Return the real path of contact, with a dwell of the driven wheel wherever no tooth pair drives.
 
-    The envelope is followed over one pitch from its lowest point to the same point again. The first interval of the
-    result begins after the last dwell.
+    The envelope is followed over one pitch, starting and ending at its lowest point. The first interval of the result
+    begins after the last dwell.
     """
     envelope, angle = path.envelope, path.tooth_pair.angle
     if not envelope:
@@ -376,13 +391,15 @@ def drag(path: RealPath) -> DraggedPath:
 
 
 def _minimum(path: RealPath, interval: DriveInterval) -> float:
-    """Return the minimum of the lag g over an interval [rad], which the driven wheel reaches from any position."""
+    """Return the minimum of the lag g over an interval [rad]. The driven wheel reaches this lag from any earlier
+    position.
+    """
     phase, low, high = interval.phase, interval.end, interval.start
     return min(path.g(phase, low), path.g(phase, high), *path.extremes(phase, low, high))
 
 
 def _arrival(path: RealPath, interval: DriveInterval, y: float) -> float:
-    """Return the angle alpha_1 of the driver's apex [rad] at which a tooth pair reaches a driven wheel that dwells
+    """Return the angle alpha_1 [rad] of the driver's apex at which a tooth pair reaches the driven wheel, which dwells
     at alpha_2 = y [rad].
     """
     return bracketed_root(lambda x: path.tooth_pair.angle(interval.phase, x) - y, interval.end, interval.start)

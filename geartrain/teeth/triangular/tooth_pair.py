@@ -6,8 +6,9 @@ apex slides on the driven flank. Equations are numbered as in F. Sorge, "A note 
 systems", and are written so that nothing cancels at large tooth numbers.
 
 In an internal pair the radius of the ring gear and the centre distance are negative in these equations, and alpha_2,
-tau and its slope change their sign. If the ring gear drives, the half aperture angles are negative too, which mirrors
-the pair. Each function takes numbers with `m = math`, or arrays with `m = numpy` (2.0 or later).
+the speed ratio tau and the slope of tau change their sign. If the ring gear drives, the half aperture angles are
+negative too, which mirrors the pair. Each function takes numbers with `m = math`, or arrays with `m = numpy` (2.0 or
+later).
 """
 
 from __future__ import annotations
@@ -20,29 +21,31 @@ from geartrain.teeth.triangular.pair_geometry import TriangularSizes
 
 APPROACH, RECESS = "approach", "recess"
 SLIP, RETURN = "slip", "return"
-"""Phases of contact that cannot drive; they exist with overhanging flanks only.
+"""Phases of contact that cannot drive. They exist only with overhanging flanks.
 
-In slip the driver's apex touches an overhanging driven flank; in return the driven apex touches the far side of an
-overhanging driver flank. Both limit the backlash. The driven wheel would turn back, so it dwells instead.
+In slip, the driver's apex touches an overhanging driven flank. In return, the driven apex touches the far side of an
+overhanging driver flank. Both phases limit the backlash. The driven wheel would have to turn back, so it dwells
+instead.
 """
 
 FlankLine: TypeAlias = tuple[Any, Any, Any, Any, Any, Any]
-"""Values of a contact in approach at alpha_1 = x and alpha_2 = y: sin(x/2), sin psi, cos psi, s, q, sin y.
+"""Six values of a contact in approach at alpha_1 = x and alpha_2 = y: sin(x/2), sin psi, cos psi, s, q and sin y.
 
-psi = x + beta1 is the direction of the driver's flank, with half aperture angle beta1; s and q are sine and
-cosine of psi + y.
+Here psi = x + beta1 is the direction of the driver's flank, beta1 is the half aperture angle, and s and q are the sine
+and cosine of psi + y.
 """
 
 DrivenApex: TypeAlias = tuple[Any, Any, Any, Any, Any]
-"""Values of a contact in recess or slip at alpha_1 = x and alpha_2 = y: sin x, cos x, arm, sin y, cos y.
+"""Five values of a contact in recess or slip at alpha_1 = x and alpha_2 = y: sin x, cos x, arm, sin y and cos y.
 
-The arm is R2 cos(beta2) - v, with tip radius R2, half aperture angle beta2 and the smaller root v of Eq. (16).
+The arm is R2 cos(beta2) - v, where R2 is the tip radius and beta2 the half aperture angle of the driven wheel, and v is
+the smaller root of Eq. (16).
 """
 
 
 class ToothPair:
-    """Constants of one tooth pair, and functions of its contact for the driver's apex at any angle alpha_1 = x
-    [rad] from the line of centres.
+    """Constants of one tooth pair, and functions that describe its contact at any angle alpha_1 = x [rad] of the
+    driver's apex from the line of centres.
     """
 
     __slots__ = ("D", "R1", "R2", "cos1", "cos2", "delta", "entry", "leans", "mirror", "side", "sign2", "sin1", "sin2")
@@ -71,10 +74,11 @@ class ToothPair:
         return u, sin_psi, cos_psi, s, q, c * (cos_psi + sin_psi * (sin_psi + s) / (cos_psi + q))
 
     def _driver_arm(self, u: Any, cos_psi: Any, q: Any) -> Any:
-        """Return the distance along the driver's flank from the foot of the perpendicular from the driver's axis to the
-        contact.
+        """Return the distance, along the driver's flank, between the contact and the foot of the perpendicular from the
+        driver's axis.
 
-        It is R1 cos(beta1) - v, with tip radius R1, half aperture angle beta1 and v of Eq. (9).
+        The distance is R1 cos(beta1) - v, where R1 is the tip radius and beta1 the half aperture angle of the driver,
+        and v follows from Eq. (9).
         """
         # with overhang W and its divisor vanish together; at such small tooth numbers the difference loses no digits
         if self.leans:
@@ -98,8 +102,8 @@ class ToothPair:
         return sine, cosine, arm, (across * inner - along * outer) / square, (along * inner + across * outer) / square
 
     def _apex_directions(self, apex: DrivenApex) -> tuple[Any, Any, Any, Any, Any, Any]:
-        """Return values of a contact in recess: the arm, the cosine and sine of beta2 - x - y, the sine and cosine of
-        beta2 - y, and the sine of x.
+        """Return six values of a contact in recess: the arm, the cosine and sine of beta2 - x - y, the sine and cosine
+        of beta2 - y, and the sine of x.
 
         The angles of the apices are x and y, and beta2 is the half aperture angle of the driven wheel.
         """
@@ -110,10 +114,10 @@ class ToothPair:
     # -------------------------------------------------------------------------------------------- motion and friction
 
     def angle(self, phase: str, x: Any, m: ModuleType = math) -> Any:
-        """Return the angle alpha_2 of the driven apex [rad] at alpha_1 = x [rad] by Eq. (7) in approach and by Eq. (17)
-        in recess and slip.
+        """Return the angle alpha_2 of the driven apex [rad] at alpha_1 = x [rad], by Eq. (7) in approach and by Eq.
+        (17) in recess and slip.
 
-        In the return phase it is the second root of Eq. (7).
+        In the return phase, alpha_2 is the second root of Eq. (7).
         """
         if phase == RETURN:
             _, sin_psi, cos_psi, s, _, _ = self._flank_line(-x, m)
@@ -125,10 +129,10 @@ class ToothPair:
         return self.side * m.atan2(sin_y, cos_y)
 
     def normal_arms(self, phase: str, x: Any, m: ModuleType = math) -> tuple[Any, Any]:
-        """Return the distances n1 and n2 of both wheel centres from the common normal of the contact; n1/n2 is the
-        speed ratio.
+        """Return the distances n1 and n2 of the two wheel centres from the common normal at the contact. The ratio
+        n1/n2 is the speed ratio.
 
-        The second is O2C cos(psi) of Eq. (11) in approach; the first is O1C cos(psi2) of Eq. (18) in recess.
+        In approach, n2 is O2C cos(psi) of Eq. (11). In recess, n1 is O1C cos(psi2) of Eq. (18).
         """
         if phase == APPROACH:
             u, _, cos_psi, _, q, _ = self._flank_line(x, m)
@@ -137,8 +141,8 @@ class ToothPair:
         return self.mirror * self.R1 * q, self.sign2 * arm
 
     def speed(self, phase: str, x: Any, m: ModuleType = math) -> Any:
-        """Return the speed ratio tau = d alpha_2 / d alpha_1 by Eqs. (12) and (19); it is negative in the
-        return phase.
+        """Return the speed ratio tau = d alpha_2 / d alpha_1, by Eqs. (12) and (19). It is negative in the return
+        phase.
         """
         if phase == RETURN:
             _, _, cos_psi, _, q, _ = self._flank_line(-x, m)
@@ -147,7 +151,9 @@ class ToothPair:
         return first / second
 
     def angle_and_speed(self, phase: str, x: Any, m: ModuleType = math) -> tuple[Any, Any]:
-        """Return `angle` and `speed` at the same x, with one evaluation of the contact, in half the time."""
+        """Return `angle` and `speed` at the same x. The contact is evaluated only once, which halves the computing
+        time.
+        """
         if phase == RETURN:
             return self.angle(phase, x, m), self.speed(phase, x, m)
         if phase == APPROACH:
@@ -162,9 +168,9 @@ class ToothPair:
     def slope(self, phase: str, x: Any, m: ModuleType = math) -> Any:
         """Return the derivative of the speed ratio tau with respect to alpha_1 [1/rad].
 
-        In approach it is (1 + tau) [(1 + tau) tan(psi + alpha_2) - tan psi], and in recess tau (1 + tau) [(1 + tau)
-        tan(beta2 - x - y) - tau tan(beta2 - y)]: in reversed motion the driven wheel meets the driver in approach at
-        the ratio 1/tau, and the slope of that motion is multiplied by tau cubed.
+        In approach, the derivative is (1 + tau) [(1 + tau) tan(psi + alpha_2) - tan psi]. In recess, it is tau (1 +
+        tau) [(1 + tau) tan(beta2 - x - y) - tau tan(beta2 - y)], because in reversed motion the driven wheel meets the
+        driver in approach at the ratio 1/tau, and the slope of this motion is multiplied by tau cubed.
         """
         if phase == RETURN:
             _, sin_psi, cos_psi, s, q, _ = self._flank_line(-x, m)
@@ -179,10 +185,10 @@ class ToothPair:
         return self.side * tau * (1 + tau) * ((1 + tau) * s / q - tau * sin_psi / cos_psi)
 
     def friction(self, phase: str, x: Any, m: ModuleType = math) -> tuple[Any, Any, Any]:
-        """Return the side of the line of centres on which the contact is (1 or -1), and the tangents tan2 and tan1 of
-        Eqs. (32) and (33).
+        """Return three values: the side of the line of centres on which the contact is (1 or -1), and the tangents tan2
+        and tan1 of Eqs. (32) and (33).
 
-        The efficiency with wheel 1 driving is (1 - f side tan2) / (1 - f side tan1) at friction coefficient f.
+        If wheel 1 drives, the efficiency at the friction coefficient f is (1 - f side tan2) / (1 - f side tan1).
         """
         mirror = self.mirror
         if phase == APPROACH:
@@ -193,16 +199,16 @@ class ToothPair:
         return m.copysign(1.0, sine), mirror * self.R2 * self.sin2 / arm, mirror * s / q
 
     def efficiency(self, phase: str, x: Any, f: Any, m: ModuleType = math) -> Any:
-        """Return the sliding efficiency at the friction coefficient f by the corrected Eqs. (32) and (33)."""
+        """Return the sliding efficiency at the friction coefficient f, by the corrected Eqs. (32) and (33)."""
         side, tan2, tan1 = self.friction(phase, x, m)
         return (1 - f * side * tan2) / (1 - f * side * tan1)
 
     def sliding(self, phase: str, x: Any, m: ModuleType = math) -> Any:
         """Return the sliding velocity divided by the driver's angular speed, docs/shapes.md (14).
 
-        It is 1 + tau, with the speed ratio tau, times the distance of the contact from the instant centre. That
-        distance is R2 |sin y| / cos psi in approach and R1 |sin x| / cos psi2 in recess. (1 + tau) over the cosine is D
-        divided by the distance of the driven axis from the normal.
+        The result is (1 + tau) times the distance of the contact from the instant centre, where tau is the speed ratio.
+        This distance is R2 |sin y| / cos psi in approach and R1 |sin x| / cos psi2 in recess. The quotient of 1 + tau
+        and the cosine is D divided by the distance of the driven axis from the normal.
         """
         if phase == APPROACH:
             *_, q, sin_y = self._flank_line(x, m)
@@ -211,11 +217,11 @@ class ToothPair:
         return abs(self.D * self.R1 * sine / arm)
 
     def moment_arms(self, phase: str, x: Any, f: Any, m: ModuleType = math) -> tuple[Any, Any]:
-        """Return the distances b1 and b2 of both wheel centres from the line of the contact force at the friction
+        """Return the distances b1 and b2 of the two wheel centres from the line of the contact force at the friction
         coefficient f, by the corrected Eqs. (28) to (31).
 
-        That line is the normal, rotated about the contact by the friction angle. With h1, h2 the distances of the
-        centres from the flank's line, b = (n - f side h) / sqrt(1 + f^2), docs/teeth.md (11a).
+        This line is the normal, rotated about the contact by the friction angle. For each wheel, b = (n - f side h) /
+        sqrt(1 + f^2), where h is the distance of the wheel centre from the line of the flank, docs/teeth.md (11a).
         """
         n1, n2 = self.normal_arms(phase, x, m)
         side, tan2, tan1 = self.friction(phase, x, m)
@@ -225,13 +231,13 @@ class ToothPair:
     def instant_centre(self, phase: str, x: Any, m: ModuleType = math) -> Any:
         """Return the distance O1C from the driver's axis to the instant centre, docs/teeth.md (11b).
 
-        The common normal intersects the line of centres there.
+        The instant centre is the intersection of the common normal and the line of centres.
         """
         n1, n2 = self.normal_arms(phase, x, m)
         return self.D * n1 / (self.mirror * n1 + self.sign2 * n2)
 
     def contact(self, x: float) -> float:
-        """Return the angle alpha_2 of the driven apex [rad] at alpha_1 = x, |x| up to alpha_1max: the smaller of the
-        angles in approach and recess.
+        """Return the angle alpha_2 [rad] of the driven apex at alpha_1 = x, where |x| is at most alpha_1max. It is the
+        smaller of the angles in approach and in recess.
         """
         return float(min(self.angle(APPROACH, x), self.angle(RECESS, x)))

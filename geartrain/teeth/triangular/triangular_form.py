@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 CLEARANCES = ("clearance_factor", "excess", "backlash", "centre_distance", "window")
-"""Parameters of which exactly one gives the clearance."""
+"""Parameters of which exactly one must be given to define the clearance."""
 _ONE_OR_TWO = {
     "anyOf": [{"type": "string"}, {"type": "array", "items": {"type": "string"}, "minItems": 2, "maxItems": 2}]
 }
@@ -140,7 +140,7 @@ class Triangular(ToothForm):
 
     @property
     def _given_radii(self) -> tuple[Length, ...]:
-        """Tip radii if they are given as lengths; empty otherwise."""
+        """Tip radii if they are given as lengths; an empty tuple if they are not."""
         return self.radii if isinstance(self.radii, tuple) else ()
 
     def in_metres(self, module: float | None) -> bool:
@@ -162,7 +162,7 @@ class Triangular(ToothForm):
 
     @classmethod
     def figures(cls) -> type[PairFigures]:
-        """Return the class of the results of this form, which includes clearance, path of contact and impacts."""
+        """Return the class of the results of this tooth form, which include clearance, path of contact and impacts."""
         from geartrain.teeth.triangular.triangular_mesh import TriangularFigures
 
         return TriangularFigures
@@ -189,8 +189,8 @@ class Triangular(ToothForm):
         """
         return Problem(
             f"--backlash cannot thin the triangular teeth of pair '{pair}'",
-            "their backlash follows from their clearance, and thinner teeth would move differently",
-            "omit --backlash, or declare more clearance in the file",
+            "the clearance factor sets their backlash, and thinner teeth have another transmission function",
+            "omit --backlash, or declare a larger clearance factor in the file",
         )
 
     def sizes(
@@ -245,7 +245,7 @@ class Triangular(ToothForm):
         return sizes
 
     def _sizes_at_deepest(self, z1: int, z2: int, ring: Literal[0, 1, 2]) -> TriangularSizes:
-        """Return the sizes of the wheels at the centre distance at which a tip touches the bottom of a space."""
+        """Return the sizes of the wheels at the centre distance at which a tip touches the bottom of a tooth space."""
         from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth, pitch_true
 
         beta1, beta2 = (angle.si for angle in self.half_angle)
@@ -261,7 +261,7 @@ class Triangular(ToothForm):
         return TriangularSizes(z1, z2, R1, R2, beta1, beta2, 0.0, ring)
 
     def _sizes_at_clearance(self, sizes: TriangularSizes, pitch_distance: float | None) -> TriangularSizes:
-        """Return the sizes at the declared clearance, with lengths in m if a pitch distance is given."""
+        """Return the sizes of the wheels at the declared clearance. Lengths are in m if a pitch distance is given."""
         from geartrain.teeth.triangular.clearance_window import excess_of_backlash
 
         if not sizes.has_valleys:
@@ -287,8 +287,8 @@ class Triangular(ToothForm):
         return sizes.at(excess_of_backlash(sizes, length.si, length.text))
 
     def _declared_excess(self, sizes: TriangularSizes) -> float:
-        """Return the declared excess, subtracted exactly before rounding; raise `GearTrainError` if it is not
-        positive.
+        """Return the declared excess. Differences are computed exactly before rounding. Raise `GearTrainError` if the
+        excess is not positive.
         """
         if self.excess is not None or self.clearance_factor is None:
             return 0.0 if self.excess is None else float(self.excess.value)
@@ -347,7 +347,7 @@ class Triangular(ToothForm):
 
 
 def refusal(kinds: tuple[str, str], internal: bool) -> str:
-    """Return the reason why wheels of these kinds cannot have triangular teeth; empty if they can."""
+    """Return the reason why wheels of the given kinds cannot have triangular teeth; an empty string if they can."""
     known = ("spur",) if internal else ("spur", "contrate")
     odd = [kind for kind in kinds if kind not in known]
     if odd and internal:
@@ -356,7 +356,7 @@ def refusal(kinds: tuple[str, str], internal: bool) -> str:
 
 
 def sizes_window(sizes: TriangularSizes) -> ClearanceWindow:
-    """Return the clearance window of a pair. Raises `GearTrainError` if the pair turns at no clearance."""
+    """Return the clearance window of a pair. Raises `GearTrainError` if the pair does not turn at any clearance."""
     from geartrain.teeth.triangular.clearance_window import find_window
     from geartrain.teeth.triangular.triangular_mesh import OTHER_SHAPES
 

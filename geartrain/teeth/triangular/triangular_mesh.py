@@ -1,4 +1,4 @@
-"""Mesh of a gear pair with triangular teeth: clearance window, reasons why a pair cannot turn, results."""
+"""Mesh of a gear pair with triangular teeth: clearance window, reasons why a pair cannot turn, and results."""
 
 from __future__ import annotations
 
@@ -46,28 +46,28 @@ _SIZES = (
 
 
 class TriangularDetails(NamedForm, Protocol):
-    """Methods of a triangular tooth form that its mesh uses."""
+    """Methods of a triangular tooth form that the mesh of a pair uses."""
 
     def in_metres(self, module: float | None) -> bool:
-        """Return True if lengths are in metres for wheels of the given module [m]."""
+        """Return True if the lengths of wheels with the given module [m] are in metres."""
 
 
 @dataclass(frozen=True)
 class TriangularMesh(GearMesh):
-    """Gear pair with triangular teeth in a train, with the clearance window that explains why it does not turn."""
+    """Gear pair with triangular teeth in a train. The clearance window of the pair explains why it does not turn."""
 
     tooth_form: TriangularDetails
     transmission: TriangularTransmission
 
     @cached_property
     def verdict(self) -> PairVerdict:
-        """Verdict on whether the teeth of the pair can run, with the cause from the clearance window."""
+        """Verdict on whether the teeth of the pair can run. The cause is derived from the clearance window."""
         found = self.transmission.verdict
         return found if found else found.explained(*explain_clearance(self.transmission, self.window))
 
     @cached_property
     def window(self) -> ClearanceWindow | None:
-        """Clearance window of the pair; None if teeth with its sizes do not exist."""
+        """Clearance window of the pair; None if there are no teeth with these sizes."""
         from geartrain.teeth.triangular.clearance_window import find_window
 
         sizes = self.transmission.sizes
@@ -75,14 +75,14 @@ class TriangularMesh(GearMesh):
 
     @property
     def unit_tips(self) -> Mapping[str, float]:
-        """Tip radii of both wheels by name, in the length unit of the teeth."""
+        """Tip radii of both wheels in the length unit of the teeth, keyed by wheel."""
         return {self.driver: self.transmission.sizes.R1, self.driven: self.transmission.sizes.R2}
 
     def size(self, tips: Mapping[str, float]) -> PairSize:
         """Return the scale and the centre distance of the pair.
 
-        The scale follows from a wheel whose tip radius is in `tips`, otherwise from declared lengths, otherwise from
-        pitch circles that touch.
+        The scale follows from a wheel whose tip radius is in `tips`. If there is none, it follows from declared
+        lengths, or, if none are declared, from pitch circles that touch.
         """
         D, touching, module = self.transmission.sizes.D, self.wheels.touching, self.wheels.module
         scale = touching / D
@@ -93,7 +93,9 @@ class TriangularMesh(GearMesh):
 
     @property
     def own_size(self) -> PairSize:
-        """Size from the declaration if its lengths are in metres; otherwise the size for touching pitch circles."""
+        """Size of the pair. It follows from the declaration if the declared lengths are in metres, or from pitch
+        circles that touch if they are not.
+        """
         module = self.wheels.module
         if module is None or not self.tooth_form.in_metres(module):
             return self.size({})
@@ -101,15 +103,17 @@ class TriangularMesh(GearMesh):
 
     @property
     def pitch_radius(self) -> float | None:
-        """Pitch radius of the first wheel [m], at the declared centre distance if it is in metres, otherwise from the
-        modules.
+        """Pitch radius of the first wheel [m]. It follows from the declared centre distance if this distance is in
+        metres, or from the modules if it is not.
         """
         if not self.tooth_form.in_metres(self.wheels.module):
             return super().pitch_radius
         return self.transmission.sizes.D * self.wheels.counts[0] / self.transmission.sizes.pitch_sum
 
     def requirement(self, wheel: str, scale: float, tolerance: float) -> FixedTooth:
-        """Return the required tooth: straight lines from the middle of a space to the apex and to the next space."""
+        """Return the required tooth: straight lines from the middle of a tooth space to the apex, and from the apex to
+        the middle of the next tooth space.
+        """
         del tolerance
         sizes = self.transmission.sizes
         at = 0 if wheel == self.driver else 1
@@ -124,8 +128,9 @@ class TriangularMesh(GearMesh):
     def separation(self) -> float:
         """Mean separating force divided by the tangential force, at constant torque on the driven wheel.
 
-        The common normal makes the angle psi with the pitch line. The sum of its distances n1 and n2 from both centres
-        is D cos(psi), with the centre distance D; with a ring gear, it is the difference: (31) of docs/strength.md.
+        The common normal makes the angle psi with the pitch line. The sum of its distances n1 and n2 from the two
+        centres is D cos(psi), where D is the centre distance. For a ring gear, the difference of n1 and n2 replaces the
+        sum: (31) of docs/strength.md.
         """
         transmission = self.transmission
         sizes, arms = transmission.sizes, transmission.contact.path.tooth_pair.normal_arms
@@ -145,16 +150,16 @@ class TriangularMesh(GearMesh):
 
     @property
     def has_cut_sizes(self) -> bool:
-        """True, because manufacturing errors of triangular teeth are modelled."""
+        """Always True, because manufacturing errors of triangular teeth are modelled."""
         return True
 
     @property
     def cut_sizes(self) -> TriangularSizes:
-        """Nominal sizes, about which random manufacturing errors vary."""
+        """Nominal sizes of the pair, about which random manufacturing errors vary."""
         return self.transmission.sizes
 
     def account(self) -> PairAccount:
-        """Return a report of clearance, transmission function and impacts of the pair."""
+        """Return a report on the clearance, the transmission function and the impacts of the pair."""
         figures = triangular_figures(self.transmission, self.window, losses=self.efficiency(self.driver))
         tables = (
             AccountTable(_CLEARANCE_HEADER, _clearance_row(self)),
@@ -163,7 +168,7 @@ class TriangularMesh(GearMesh):
         return PairAccount(_WORDS, tables, figures)
 
     def own_faults(self) -> Iterator[Problem]:
-        """Yield all faults of the teeth of the pair, each with its fix."""
+        """Yield all faults of the teeth of the pair, each with its remedy."""
         yield from (fault.problem for fault in self.verdict.faults)
         if self.verdict:
             yield from self.friction_faults()
@@ -174,7 +179,7 @@ class TriangularMesh(GearMesh):
 
 @dataclass(frozen=True)
 class TriangularFigures(PairFigures):
-    """Results of a pair with triangular teeth; angles in rad."""
+    """Results of a pair with triangular teeth. Angles are in rad."""
 
     KEYS = (
         *PairFigures.KEYS,
@@ -183,13 +188,13 @@ class TriangularFigures(PairFigures):
     )
 
     sizes: TriangularSizes
-    """Sizes of the pair; lengths in m, or in the unit of the declared radii."""
+    """Sizes of the pair. Lengths are in m, or in the unit of the declared radii."""
     window: ClearanceWindow | None
-    """Clearance window of the pair; None if teeth with these sizes do not exist."""
+    """Clearance window of the pair; None if there are no teeth with these sizes."""
     intervals: tuple[DriveInterval, ...]
-    """Real path of contact over one pitch of the driver, in order of time."""
+    """Intervals of the real path of contact over one pitch of the driver, in order of time."""
     jumps: tuple[SpeedJump, ...]
-    """Impacts of one pitch."""
+    """Impacts within one pitch."""
 
 
 def _clearance_row(mesh: TriangularMesh) -> tuple[str, ...]:
@@ -244,7 +249,9 @@ def triangular_figures(
 
 
 def explain_clearance(transmission: TriangularTransmission, window: ClearanceWindow | None) -> tuple[str, str]:
-    """Return cause and remedy for a pair that cannot turn: the clearance window, and the bound that is violated."""
+    """Return the cause, and the remedy, for a pair that cannot turn. The cause states the clearance window and the
+    bound that is violated.
+    """
     if window is None:
         return "", "use more teeth or a smaller half_angle"
     excess, jam, run = transmission.sizes.excess, window.jam_factor, window.run_factor

@@ -1,4 +1,6 @@
-"""Transmission function of triangular teeth, vectorised over driver angles, and a table of contact over one pitch."""
+"""Transmission function of triangular teeth, vectorised over driver angles, and a table of the contact over
+one pitch.
+"""
 
 from __future__ import annotations
 
@@ -35,7 +37,7 @@ _USUAL = 5  # rows for each interval of the real path
 
 @lru_cache(maxsize=4096)
 def _contact(sizes: TriangularSizes) -> TriangularContact:
-    """Return the contact of a pair from a cache, which equal pairs of a long train share."""
+    """Return the contact of a pair. The result is cached, so that equal pairs of a long train share it."""
     return TriangularContact(sizes)
 
 
@@ -78,7 +80,7 @@ class TriangularTransmission(ToothTransmission):
 
     @property
     def intervals(self) -> tuple[DriveInterval, ...]:
-        """Intervals of the real path of contact over one pitch of the driver, in order of time, including dwells."""
+        """Intervals of the real path of contact over one pitch of the driver, in order of time. Dwells are included."""
         return self.contact.intervals
 
     @property
@@ -98,11 +100,13 @@ class TriangularTransmission(ToothTransmission):
         return self.mapped(S, self._tau)
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """Return sliding speed and friction terms of the tooth pair in contact; NaN during a dwell."""
+        """Return the sliding speed and the friction terms of the tooth pair in contact at driver angles S [rad]; NaN
+        during a dwell.
+        """
         return ContactRubbing(*(each[None] for each in self._map_all(S, self._friction_terms, 3)))
 
     def sliding(self, phase: str, x: Floats) -> Floats:
-        """Return the sliding speed divided by the pitch-line speed.
+        """Return the sliding speed at given contacts, divided by the pitch-line speed.
 
         Parameters
         ----------
@@ -123,13 +127,14 @@ class TriangularTransmission(ToothTransmission):
         phase, x
             Same as in `sliding`.
         by : PairFriction or None
-            Friction as a function of sliding speed; None for the constant coefficient of this function.
+            Coefficient of friction as a function of sliding speed. If None, the constant coefficient of this
+            transmission function is returned.
         """
         return self.friction if by is None else by(self.sliding(phase, x))
 
     def _friction_terms(self, interval: DriveInterval, x: Floats) -> tuple[Any, Any, Any]:
-        """Return the sliding speed divided by the pitch-line speed, and the friction terms of input and output
-        power.
+        """Return three quantities: the sliding speed divided by the pitch-line speed, the friction term of the input
+        power, and the friction term of the output power.
         """
         if interval.held is not None:
             return nan, nan, nan
@@ -137,8 +142,8 @@ class TriangularTransmission(ToothTransmission):
         return self.sliding(interval.phase, x), -side * tan1, -side * tan2
 
     def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Return the transmission error [rad of the driven wheel] and the speed ratio tau, with one search of the path
-        for both.
+        """Return the transmission error [rad of the driven wheel] and the speed ratio tau at driver angles S [rad].
+        Both are obtained from one search of the path of contact.
         """
         lag, tau = self._map_all(S, self._lag_and_tau, 2)
         return (-lag if self.direction > 0 else self.sizes.p2 + lag), tau
@@ -149,7 +154,8 @@ class TriangularTransmission(ToothTransmission):
         )
 
     def alpha1(self, S: ArrayLike) -> Floats:
-        """Return the angle alpha_1 [rad] of the apex of the driving tooth from the line of centres at driver angles S.
+        """Return the angle alpha_1 [rad] between the apex of the driving tooth and the line of centres at driver angles
+        S.
 
         Parameters
         ----------
@@ -173,8 +179,8 @@ class TriangularTransmission(ToothTransmission):
     def _map_all(
         self, S: ArrayLike, what: Callable[[DriveInterval, Floats], tuple[Any, ...]], count: int
     ) -> list[Floats]:
-        """Return the values at each driver angle of the `count` functions that `what` computes from the drive interval
-        and alpha_1.
+        """Return, for each driver angle in S, the values of the `count` functions that `what` computes from the drive
+        interval and alpha_1.
         """
         S = np.asarray(S, dtype=float)
         flat = S.ravel()
@@ -199,7 +205,9 @@ class TriangularTransmission(ToothTransmission):
 
     @cached_property
     def _drive_intervals(self) -> tuple[DriveInterval, ...]:
-        """Intervals of the real path, including dwells. Raises `RangeError` for teeth that never touch."""
+        """Intervals of the real path of contact. Dwells are included. Raises `RangeError` for teeth that
+        never touch.
+        """
         if not self.intervals:
             fix = "give a clearance within the clearance window of the pair, and teeth that meet in valleys"
             raise RangeError(Problem(self.verdict.text, "such teeth have no transmission function", fix))
@@ -207,19 +215,19 @@ class TriangularTransmission(ToothTransmission):
 
     @cached_property
     def _start(self) -> float:
-        """Angle of the driver's tooth from the line of centres at the start of the first interval, within a pitch
-        [rad].
+        """Angle [rad] between the driver's tooth and the line of centres at the start of the first interval, reduced to
+        one pitch.
         """
         first = self._drive_intervals[0]
         return (first.start - first.tooth_pair * self.period) % self.period
 
     @cached_property
     def _edges(self) -> Floats:
-        """Driver angles from the start of the first interval to the ends of all intervals [rad]."""
+        """Driver angles [rad] at the boundaries of all intervals, measured from the start of the first interval."""
         return np.concatenate(([0.0], np.cumsum([interval.width for interval in self._drive_intervals])))
 
     def kinks(self) -> list[float]:
-        """Return the driver angles at the ends of all smooth intervals [rad]."""
+        """Return the driver angles [rad] at the ends of all smooth intervals of the path of contact."""
         edges = dict(zip(self.intervals, self._edges.tolist(), strict=False))
         angles = [edges[interval] + interval.start - high - self._start for interval, high, _ in self.stretches]
         return [self.direction * angle for angle in angles]
@@ -240,8 +248,8 @@ class TriangularTransmission(ToothTransmission):
 
     @cached_property
     def stretches(self) -> list[tuple[DriveInterval, float, float]]:
-        """Smooth intervals of the path, each as (drive interval, alpha_1 at start, alpha_1 at end), divided at kinks,
-        extrema of the speed ratio and the line of centres.
+        """Smooth intervals of the path of contact, each as (drive interval, alpha_1 at start, alpha_1 at end). They are
+        divided at kinks, at extrema of the speed ratio and at the line of centres.
         """
         return [
             (interval, high, low)
@@ -259,8 +267,8 @@ class TriangularTransmission(ToothTransmission):
             yield centre
 
     def _line_of_centres(self, phase: str) -> float:
-        """Return the angle of the driver's apex from the line of centres [rad] while the contact is on the line of
-        centres, where sliding reverses.
+        """Return the angle [rad] between the driver's apex and the line of centres when the contact is on the line of
+        centres, where the direction of sliding reverses.
         """
         if phase != APPROACH:
             return 0.0
@@ -278,7 +286,7 @@ class TriangularTransmission(ToothTransmission):
         return min(ends), max(ends)
 
     def error_range(self) -> tuple[float, float]:
-        """Return the minimum and maximum transmission error [rad of the driven wheel]."""
+        """Return the minimum and the maximum transmission error [rad of the driven wheel]."""
         lags = self._end_values(self._lag)
         for interval, high, low in self.stretches:
             if interval.held is None:
@@ -297,10 +305,11 @@ class TriangularTransmission(ToothTransmission):
 
     @cached_property
     def locking_friction(self) -> float:
-        """Minimum friction coefficient that locks the pair at some point of the real path; infinite if the pair never
-        locks.
+        """Minimum friction coefficient at which the pair locks at some point of the real path of contact; infinite if
+        the pair never locks.
 
-        Friction locks the pair before the line of centres where f tan1 = 1, with tan1 as in `ToothPair.friction`.
+        Before the line of centres, the pair locks where f tan1 = 1, where f is the friction coefficient and tan1 is
+        defined in `ToothPair.friction`.
         """
         steepest = 0.0
         for phase, x in self._samples():
@@ -311,10 +320,10 @@ class TriangularTransmission(ToothTransmission):
         return 1 / steepest if steepest else inf
 
     def steepest_fall(self) -> float:
-        """Return the maximum rate at which the speed ratio decreases [1/rad], from 101 samples of each smooth interval;
-        0 if it never decreases.
+        """Return the maximum rate at which the speed ratio decreases [1/rad], computed from 101 samples of each smooth
+        interval; 0 if the speed ratio never decreases.
 
-        It is the maximum derivative of the speed ratio with respect to alpha_1, which decreases with time.
+        The result is the maximum derivative of the speed ratio with respect to alpha_1, which decreases with time.
         """
         slope = self.contact.path.tooth_pair.slope
         return max(0.0, *(float(slope(phase, x, np).max()) for phase, x in self._samples()))
@@ -335,7 +344,9 @@ class TriangularTransmission(ToothTransmission):
         return found
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...]:
-        """Return the speed ratios before and after each impact within one pitch."""
+        """Return the steps of the speed ratio at all impacts within one pitch: the ratio before and the ratio after
+        each impact.
+        """
         return tuple(SpeedLeap(jump.before, jump.after) for jump in self.jumps)
 
 
@@ -344,7 +355,9 @@ class TriangularTransmission(ToothTransmission):
 
 @dataclass(frozen=True)
 class ContactCourse(Result):
-    """Table of contact over one pitch in order of time, one row for each sample; ends of intervals are included."""
+    """Table of the contact over one pitch in order of time. It has one row for each sample, including the ends of
+    intervals.
+    """
 
     KEYS = (
         *("phases", "alpha1", "alpha2", "speed_ratio", Key("instant_centre", to=finite)),
@@ -354,29 +367,33 @@ class ContactCourse(Result):
     phases: tuple[str, ...]
     """Phase of contact in each row of the table."""
     alpha1: Floats
-    """Angle of the driver's apex from the line of centres [rad]."""
+    """Angle between the driver's apex and the line of centres [rad]."""
     alpha2: Floats
-    """Angle of the driven wheel's apex from the line of centres [rad]."""
+    """Angle between the driven wheel's apex and the line of centres [rad]."""
     speed_ratio: Floats
-    """Speed ratio tau, driven divided by driver."""
+    """Speed ratio tau: driven speed divided by driver speed."""
     instant_centre: Floats
-    """Distance O1C from the driver's axis to the instant centre, in the unit of the sizes.
+    """Distance O1C from the driver's axis to the instant centre, in the length unit of the sizes.
 
-    It is NaN in a dwell, like the columns below.
+    The distance is NaN in a dwell.
     """
     driver_arm: Floats
-    """Moment arm b1 of the force about the driver's axis, in the unit of the sizes; NaN during a dwell."""
+    """Moment arm b1 of the contact force about the driver's axis, in the length unit of the sizes; NaN in a dwell."""
     driven_arm: Floats
-    """Moment arm b2 of the force about the driven wheel's axis, in the unit of the sizes; NaN during a dwell."""
+    """Moment arm b2 of the contact force about the driven wheel's axis, in the length unit of the sizes; NaN in a
+    dwell.
+    """
     efficiency: Floats
-    """Efficiency: speed ratio times `driven_arm` divided by `driver_arm`; NaN in a dwell and where friction locks."""
+    """Efficiency: speed ratio times `driven_arm` divided by `driver_arm`; NaN in a dwell and where friction locks the
+    pair.
+    """
 
 
 def contact_course(
     transmission: TriangularTransmission, samples: int = _USUAL, friction: PairFriction | None = None
 ) -> ContactCourse:
-    """Return the contact of a pair in `samples` rows for each interval of its real path; empty if the teeth never
-    touch.
+    """Return the contact of a pair in `samples` rows for each interval of its real path of contact. The table is empty
+    if the teeth never touch.
 
     friction   friction as a function of sliding velocity, which replaces the constant coefficient of the transmission
     """

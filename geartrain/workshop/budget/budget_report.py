@@ -18,7 +18,9 @@ _PAIRS = 5  # maximum number of pairs listed for each pointer
 
 
 def describe_budget(found: TrainBudget) -> Document:
-    """Return the report on the causes of each pointer's error, in descending order of size, and on missing data."""
+    """Return a report that lists the causes of each pointer's error, in descending order of size, and the
+    missing data.
+    """
     name = found.name if found.state is None else f"{found.name}, state {found.state}"
     summary = [
         "Each cause is given separately, at the pointer. Ratio: error of the mean speed, as a drift over "
@@ -126,12 +128,14 @@ def _pointer(pointer: PointerBudget) -> Section:
 
 _MARKERS = ("D", "^", "o", "s", "v")
 _SMALL = 1e-4
-"""Size relative to the largest cause in the chart. Smaller causes have no mark, because they would stretch the axis."""
+"""Minimum size, relative to the largest cause, of a cause that has a mark in the chart (smaller marks would stretch the
+axis).
+"""
 
 
 def budget_figure(found: TrainBudget) -> Figure:
-    """Draw a chart with a row for each pointer, and a mark for the error due to each cause. The pointer with the
-    largest error is at the top.
+    """Draw a chart with one row for each pointer and one mark for the error due to each cause. The pointer with the
+    largest error is in the top row.
     """
     from geartrain.drawing.style import MOST_ROWS, WHITE, interval_chart
     from geartrain.scene.palette import series_colour

@@ -4,12 +4,12 @@ The ripple is the motion with the declared teeth minus the motion of the same pi
 positions (docs/motion.md, 3), because the anomaly that pins are meant to give is not an error of teeth. Lost motion is
 the lag of a pointer when the crank turns back: the motion on the coast flanks minus the motion on the drive flanks.
 
-With ideal teeth, the pins give an error d(phi) over one cycle of the pin. The true motion has the equation of centre
-C(M), with the mean anomaly M, over one anomalistic revolution. The initial phase of the pin is chosen by the maker, so
-the phase of M is the one that minimises sum (d(phi) - C(phi + phase) - mean)^2. The mean is removed because the pointer
-can be set. The true motion of Moon and Sun is Kepler's, with eccentricity e, eccentric anomaly E and true anomaly nu: M
-= E - e sin E, tan(nu/2) = sqrt((1 + e)/(1 - e)) tan(E/2). Perturbations of the Moon by the Sun (evection, variation,
-annual equation: 1.3, 0.7 and 0.2 degrees) and of both by the planets are neglected.
+With ideal teeth, the pins cause a deviation d(phi) from uniform motion over one cycle of the pin. The true motion has
+the equation of centre C(M), with the mean anomaly M, over one anomalistic revolution. The initial phase of the pin is
+chosen by the maker, so the phase of M is the one that minimises sum (d(phi) - C(phi + phase) - mean)^2. The mean is
+removed because the pointer can be set. The true motion of Moon and Sun is Kepler's, with eccentricity e, eccentric
+anomaly E and true anomaly nu: M = E - e sin E, tan(nu/2) = sqrt((1 + e)/(1 - e)) tan(E/2). Perturbations of the Moon by
+the Sun (evection, variation, annual equation: 1.3, 0.7 and 0.2 degrees) and of both by the planets are neglected.
 """
 
 from __future__ import annotations
@@ -47,8 +47,8 @@ _NEAR = 0.02  # maximum relative difference of a target from the period of the b
 
 
 class DeclaredPairs(NamedTuple):
-    """Pairs that move an output: number of gear pairs with tooth forms, number of all gear pairs, names of couplings,
-    names of couplings without dimensions.
+    """Numbers and names of the pairs that move an output: number of gear pairs with declared tooth forms, number of all
+    gear pairs, names of all couplings, and names of couplings without declared dimensions.
     """
 
     real: int
@@ -59,21 +59,24 @@ class DeclaredPairs(NamedTuple):
 
 @dataclass(frozen=True)
 class ToothMotion:
-    """Effect of the teeth of a train on its outputs over a run."""
+    """Effect of the teeth of a train on the motion of its outputs during a run."""
 
     ripple: Mapping[str, RunningStatistics]
-    """Statistics of the error due to the teeth [rad], by output."""
+    """Statistics of the transmission error of each output due to the teeth [rad], keyed by output."""
     lost: Mapping[str, tuple[float, float]]
-    """Maximum and rms of the lag of each output after a reversal of the crank [rad], by output."""
+    """Maximum and rms of the lag of each output after a reversal of the crank [rad], keyed by output."""
     pairs: Mapping[str, Mapping[str, float]]
-    """Peak-to-peak output error due to each pair [deg], by output and pair."""
+    """Peak-to-peak error of each output due to the teeth of each pair [deg], keyed by output and then by pair."""
     declared: Mapping[str, DeclaredPairs]
-    """Pairs in the path of each output, and which of them have declared tooth forms or dimensions."""
+    """Pairs that move each output, with the numbers of pairs that have declared teeth or dimensions; keyed by output.
+    """
     reversing_drivers: tuple[str, ...]
 
 
 def find_tooth_motion(motion: Motion, turns: float, samples: int) -> ToothMotion:
-    """Return the ripple and lost motion of every output from `samples` positions in `turns` turns of the input."""
+    """Return the ripple and the lost motion of every output, evaluated at `samples` positions over `turns` turns of the
+    input.
+    """
     ripple = MotionRun(motion.without_anomaly(), turns, samples)
     ripple.run()
     # difference of two motions at the same position: backwards and forwards
@@ -99,8 +102,8 @@ def find_tooth_motion(motion: Motion, turns: float, samples: int) -> ToothMotion
 
 
 def pair_ripples(motion: Motion) -> dict[str, dict[str, float]]:
-    """Return the peak-to-peak output error due to each gear pair [deg]: the pair error times the sensitivity of the
-    output.
+    """Return the peak-to-peak output error due to each gear pair [deg]: the transmission error of the pair times the
+    sensitivity of the output to it.
 
     The errors are grouped by output, in descending order. Pins and pairs without influence are omitted.
     """
@@ -115,7 +118,9 @@ def pair_ripples(motion: Motion) -> dict[str, dict[str, float]]:
 
 
 def moving_pairs(motion: Motion, output: str) -> tuple[str, ...]:
-    """Return the names of pairs and couplings whose error reaches an output, directly or through the angle of a pin."""
+    """Return the names of pairs and couplings whose transmission error affects an output, directly or through the angle
+    of a pin.
+    """
     spread, signs = motion._propagation, motion._problem.signs
     couplings = {circuit.id for circuit in motion._problem.circuits if circuit.swings}
     # depth-first search: the error of a pin depends on the angle of its driver, which other pairs move
@@ -186,16 +191,17 @@ def _cause(name: CauseName, declared: Declared, size: float, rms: float, note: s
 
 @dataclass(frozen=True, slots=True)
 class TrueMotion:
-    """Orbit of a celestial body, with whose true motion the anomaly of a pointer is compared."""
+    """Orbit of a celestial body. The anomaly of a pointer is compared with the true motion of the body in this
+    orbit."""
 
     eccentricity: float
     """Present eccentricity of the orbit."""
     period: float
-    """Sidereal or tropical period [d], to 0.01 d; the target of a pointer must be close to it."""
+    """Sidereal or tropical period [d], to 0.01 d. The target period of a pointer must be close to it."""
     words: frozenset[str]
     """Words in the name of an output or link that identify the body."""
     source: str
-    """Source of the eccentricity."""
+    """Source from which the eccentricity is taken."""
 
 
 TRUE_MOTIONS: dict[Body, TrueMotion] = {
@@ -205,7 +211,7 @@ TRUE_MOTIONS: dict[Body, TrueMotion] = {
 
 
 def equation_of_centre(M: Floats, e: float) -> Floats:
-    """Return the equation of centre [rad], true minus mean anomaly, at mean anomalies M [rad] for an eccentricity e.
+    """Return the equation of centre (true minus mean anomaly) [rad] at mean anomalies M [rad] for an eccentricity e.
 
     Kepler's equation is solved for 0 <= e < 1 by Newton's method to rounding accuracy. It starts at the eccentric
     anomaly E = M + e sin M, from which it converges for the small e of these orbits.
@@ -227,10 +233,12 @@ def equation_of_centre(M: Floats, e: float) -> Floats:
 
 @dataclass(frozen=True, slots=True)
 class TheoryError:
-    """Error of the anomaly of one link relative to the true motion [rad], or the reason why this error is unknown."""
+    """Difference between the anomaly of one link and the true motion [rad], or the reason why this difference is
+    unknown.
+    """
 
     known: bool
-    """False if a pin that moves the link has no dimensions, or if several pins move it."""
+    """True if the error is known; False if a pin that moves the link has no dimensions, or if several pins move it."""
     peak_to_peak: float
     rms: float
     words: str
@@ -239,12 +247,12 @@ class TheoryError:
 def find_bodies(
     outputs: Iterable[OutputResult], frame: str, unit_days: float | None, named: Mapping[str, Body | None]
 ) -> dict[str, Body]:
-    """Return the celestial body that each link represents, by link.
+    """Return a mapping from link to the celestial body that the link represents.
 
     The body is given by `named`, or inferred from a word in the name of the output or link and a target within 2 % of
     the body's period. Outputs that are not relative to the frame are ignored.
 
-    named   body that an output represents regardless of its name, by output; None if it represents no body
+    named   body that each output represents regardless of its name, keyed by output; None if it represents no body
     """
     found: dict[str, Body] = {}
     for output in outputs:
@@ -270,7 +278,7 @@ def _represents(output: OutputResult, body: Body, unit_days: float | None) -> bo
 
 
 def link_theory(problem: MotionProblem, link: str, body: Body) -> TheoryError:
-    """Return the error of the anomaly of one link with ideal teeth relative to the true motion of a body.
+    """Return the difference between the anomaly of one link with ideal teeth and the true motion of a body.
 
     The error is unknown if a pin that moves the link has no dimensions, or if several pins move it.
     """
@@ -296,9 +304,10 @@ def link_theory(problem: MotionProblem, link: str, body: Body) -> TheoryError:
 
 
 def minimum_difference(error: Floats, e: float) -> Floats:
-    """Return an error over one cycle minus the equation of centre at the best phase (least squares) [rad].
+    """Return an error over one cycle minus the equation of centre [rad], at the phase with the minimum mean square
+    difference.
 
-    error   error at phases 2 pi k/n, shape (n,) [rad]; the mean of the result is 0
+    error   error at phases 2 pi k/n, shape (n,) [rad]; its mean is removed
     """
     from scipy.optimize import minimize_scalar
 
@@ -322,7 +331,8 @@ def minimum_difference(error: Floats, e: float) -> Floats:
 
 
 def theory_cause(parts: list[TheoryError]) -> BudgetCause:
-    """Return one cause that combines the errors of a pointer's link and of its reference link relative to true motion.
+    """Return the cause "theory" of a pointer, which combines the errors of its link and of its reference link relative
+    to the true motion.
 
     Their cycles differ, so peak-to-peak values are added, and rms values are added in quadrature.
     """

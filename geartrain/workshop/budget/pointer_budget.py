@@ -1,4 +1,4 @@
-"""Results of an error budget: the causes of each pointer's error in degrees and in days, and causes without data."""
+"""Results of an error budget: causes of each pointer's error in degrees and in days, and causes that have no data."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ MEASURES: Mapping[CauseName, str] = {
     "lost motion": "maximum",
     "cutting": "central 95 % range",
 }
-"""Description of the quantity that the degrees of each cause measure, by cause."""
+"""Mapping from each cause to a description of what its size in degrees measures."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +37,9 @@ class BudgetCause(Result):
     degrees: float | None = None
     """Size of this contribution as defined by `measure` [deg]; None if it is unknown."""
     rms: float | None = None
-    """Root mean square of the contribution [deg]. For the ratio and for cutting, the mean is subtracted first."""
+    """Root mean square of the contribution [deg]. For the causes "ratio" and "cutting", the mean is
+    subtracted first.
+    """
     days: float | None = None
     """Time in which the pointer turns through `degrees` at its mean speed [d].
 
@@ -50,7 +52,7 @@ class BudgetCause(Result):
 
     @classmethod
     def unknown(cls, name: CauseName, note: str) -> BudgetCause:
-        """Return a cause whose size is unknown, because data are missing or the error cannot be computed.
+        """Return a cause of unknown size, for which data are missing or the error cannot be computed.
 
         name   name of the cause
         note   reason why the size is unknown
@@ -58,7 +60,8 @@ class BudgetCause(Result):
         return cls(name, "not declared", note=note)
 
     def in_days(self, degrees_per_day: float | None) -> BudgetCause:
-        """Return the cause with its size also in days; unchanged if its size or the pointer's speed is unknown.
+        """Return this cause with its size also given in days. It is returned unchanged if its size or the pointer's
+        speed is unknown.
 
         degrees_per_day   mean speed of the pointer [deg/d]; None if it does not turn, or if no unit of time is declared
         """
@@ -68,26 +71,30 @@ class BudgetCause(Result):
 
     @property
     def measure(self) -> str:
-        """Definition of `degrees`: drift over the span, peak-to-peak value, maximum, or central 95 % range."""
+        """Description of what `degrees` measures: drift over the span, peak-to-peak value, maximum, or central 95 %
+        range.
+        """
         return MEASURES[self.name]
 
 
 @dataclass(frozen=True, slots=True)
 class RatioDrift(Result):
-    """Drift of a pointer relative to a target, due to the error of its mean speed; positive if it is fast."""
+    """Drift of a pointer relative to a target, due to the error of its mean speed. It is positive if the pointer is too
+    fast.
+    """
 
     target: str
-    """Description of the target to which the drift is relative."""
+    """Description of the target relative to which the drift is measured."""
     ppm: float | None
-    """Relative error of the pointer's mean speed [parts per million]; None if the target is 0."""
+    """Relative error of the pointer's mean speed [parts per million]; None if the target speed is 0."""
     degrees_per_turn: float | None
-    """Drift per turn at the target speed [deg]; None if the target is 0."""
+    """Drift per turn at the target speed [deg]; None if the target speed is 0."""
     degrees_per_year: float | None
-    """Drift in 365.25 days [deg]; None if the train's unit is not a time."""
+    """Drift in 365.25 days [deg]; None if the train's unit is not a unit of time."""
     degrees_per_century: float | None
-    """Drift in 36525 days [deg]; None if the train's unit is not a time."""
+    """Drift in 36525 days [deg]; None if the train's unit is not a unit of time."""
     degrees_over_span: float | None
-    """Drift over the span of the budget [deg]; None if the train's unit is not a time."""
+    """Drift over the time span of the budget [deg]; None if the train's unit is not a unit of time."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,13 +126,15 @@ class PointerBudget(Result):
     speed: SpeedValue | None
     """Mean speed of the pointer relative to the link `relative_to`, in the unit of the train."""
     degrees_per_day: float | None
-    """Magnitude of the mean speed [deg/d]; None if the train's unit is not a time."""
+    """Magnitude of the mean speed [deg/d]; None if the train's unit is not a unit of time."""
     causes: tuple[BudgetCause, ...]
     """Contributions of the five causes of error, in the order of `CAUSES`."""
     drifts: tuple[RatioDrift, ...] = ()
-    """Drift relative to each target. The cause "ratio" is the magnitude of the first drift over the span."""
+    """Drift relative to each target. The size of the cause "ratio" is the magnitude of the first drift over the time
+    span.
+    """
     pairs: Mapping[str, float] | None = None
-    """Peak-to-peak pointer errors due to the teeth of each single pair [deg], in descending order; None if unknown."""
+    """Peak-to-peak pointer error due to the teeth of each pair [deg], in descending order; None if it is unknown."""
 
     def __getitem__(self, cause: CauseName) -> BudgetCause:
         return self.causes[CAUSES.index(cause)]
@@ -153,7 +162,9 @@ class PointerBudget(Result):
 
     @property
     def overtaken_after_years(self) -> float | None:
-        """Time after which the drift equals the largest other cause [Julian years]; None if either is unknown."""
+        """Time after which the drift equals the largest other contribution [Julian years]; None if one of them is
+        unknown.
+        """
         others = [cause.degrees or 0.0 for cause in self.ranked if cause.name != "ratio"]
         # the first target counts, as for the ratio itself
         yearly = self.drifts[0].degrees_per_year if self.drifts else None
@@ -196,7 +207,7 @@ class TrainBudget(Tabular, Pictured, Result):
     )
 
     name: str
-    """Name of the train."""
+    """Name of the gear train."""
     state: str | None
     """Name of the state; None for a train without states."""
     span_days: float
@@ -210,7 +221,9 @@ class TrainBudget(Tabular, Pictured, Result):
     pointers: tuple[PointerBudget, ...]
     """Budget of each requested output."""
     reversing_drivers: tuple[str, ...] = ()
-    """Pairs whose driver temporarily reverses. Their lost motion does not include the effect of the reversal."""
+    """Names of pairs whose driver temporarily reverses. The effect of the reversal is not included in their lost
+    motion.
+    """
     shown: tuple[str, ...] = ()
     """Names of the pointers in the plot: the requested outputs, or the outputs with a dial."""
 
@@ -222,7 +235,9 @@ class TrainBudget(Tabular, Pictured, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with a row for each cause of each pointer: size and rms [deg], size in days; None if unknown."""
+        """Columns of a table that has a row for each cause of each pointer: pointer, cause, size and rms [deg], and
+        size in days; unknown values are None.
+        """
         rows = [(pointer.name, cause) for pointer in self.pointers for cause in pointer.causes]
         return {
             "pointer": [name for name, _ in rows],

@@ -1,7 +1,7 @@
-"""Budget of a train in one state: its options, the collection of all causes, and the causes ratio and cutting.
+"""Budget of a train in one state: its options, the collection of all causes, and the causes "ratio" and "cutting".
 
-First cause, the ratio: a pointer of speed w (turns per unit) that should turn at t gains 360 (|w| - |t|) degrees per
-unit, and 360 (|w|/|t| - 1) per turn. Both w and t are exact.
+First cause, the ratio: a pointer with the speed w (turns per unit), which should turn at the speed t, gains 360 (|w| -
+|t|) degrees per unit, and 360 (|w|/|t| - 1) degrees per turn. Both w and t are exact.
 
 Fifth cause, cutting errors: Monte Carlo trials of the whole train. The error of a trial includes the ripple of perfect
 teeth, which is a separate cause. The motion with perfect teeth is therefore composed at the same positions and
@@ -65,23 +65,26 @@ class BudgetQuestion:
     """
 
     outputs: tuple[str, ...] = ()
-    """Names of outputs; by default all outputs with a target or a dial, or all outputs if none has one."""
+    """Names of the outputs to include. By default these are all outputs with a target or a dial, or all outputs if none
+    has one.
+    """
     without: tuple[str, ...] = ()
-    """Names of pairs to omit, so that the teeth of the remaining pairs do not form a closed loop."""
+    """Names of pairs to omit so that the teeth of the remaining pairs do not form a closed loop."""
     span_days: float = SAROS
-    """Time span over which drifts are evaluated [d], above 0 and below 1e9; by default one Saros."""
+    """Time span over which drifts are evaluated [d], above 0 and below 1e9. The default is one Saros."""
     turns: float = 20.0
     """Number of turns of the input over which transmission errors are evaluated, above 0 and up to 1e6."""
     samples: int = 20_000
     """Number of positions of the input within `turns`, 2 or more."""
     cutting: tuple[str, ...] = ()
-    """Cutting errors that replace the declared errors, such as "pitch_deviation=1 %"; by default none."""
+    """Cutting errors that replace the declared errors, such as "pitch_deviation=1 %". By default none are replaced."""
     trials: int = 256
     """Number of trials with cutting errors."""
     seed: int = 1
     """Random seed of the trials."""
     bodies: Mapping[str, Body | None] = field(default_factory=dict)
-    """Celestial body whose motion an output represents, by output, if its name does not identify it; None for no body.
+    """Celestial body whose motion an output represents, keyed by output, for outputs whose names do not identify it.
+    None means that the output represents no body.
     """
 
     def __post_init__(self) -> None:
@@ -97,7 +100,7 @@ class BudgetQuestion:
 
 
 STAGES = 3
-"""Number of stages of a budget: speeds and pins, teeth and backlash, cutting."""
+"""Number of stages in the computation of a budget: speeds and pins, teeth and backlash, cutting."""
 
 
 def find_budget(
@@ -115,7 +118,7 @@ def find_budget(
         Train to analyse. Causes for which the train declares no data are reported as "not declared"; their size is not
         set to 0.
     requested : BudgetQuestion, optional
-        Pointers, span, positions and cutting errors.
+        Options of the budget: pointers, time span, input positions and cutting errors.
     state : str, optional
         Name of a declared state. Required if the train declares states.
     means : Execution, optional
@@ -187,7 +190,8 @@ def find_budget(
 
 
 def pointer_names(answer: Answer, requested: BudgetQuestion) -> tuple[str, ...]:
-    """Return the requested outputs; by default all outputs with a target or a dial, or all outputs if none has one.
+    """Return the names of the requested outputs. By default these are all outputs with a target or a dial, or all
+    outputs if none has one.
 
     Raises `QuestionError` if a requested output does not exist or the train declares no outputs.
     """
@@ -211,7 +215,7 @@ def _theories(
     train: GearTrain, requested: BudgetQuestion, answer: Answer, motion: Motion
 ) -> dict[str, list[TheoryError]]:
     """Return the errors of each pointer's link and of its reference link relative to the true motion of their celestial
-    bodies, by pointer.
+    bodies, keyed by pointer.
     """
     problem, days = motion._problem, _float(train.declaration.unit_days)
     bodies = find_bodies(answer.outputs.values(), problem.frame, days, requested.bodies)
@@ -232,9 +236,9 @@ YEAR, CENTURY = 365.25, 36525.0  # Julian, in days
 
 
 def find_drifts(output: OutputResult, unit_days: float | None, span_days: float) -> tuple[RatioDrift, ...]:
-    """Return the drift of an output relative to each of its targets, beginning with observed periods.
+    """Return the drift of an output relative to each of its targets. Targets that are observed periods come first.
 
-    unit_days   the train's unit of time [d], None if its unit is not a time
+    unit_days   duration of the train's unit [d]; None if it is not a unit of time
     """
     judged = list(zip(output.output.targets, output.targets, strict=False))
     judged.sort(key=lambda both: not _is_observed(both[0]))  # stable, so that otherwise the declared order is kept
@@ -242,7 +246,7 @@ def find_drifts(output: OutputResult, unit_days: float | None, span_days: float)
 
 
 def _is_observed(target: Target) -> bool:
-    """Return True if a target is an observed period of the table of periods, not a period intended by the makers."""
+    """Return True if a target is an observed period from the table of periods, False if the makers intended it."""
     return target.name is not None and period_table()[target.name].kind == "period"
 
 
@@ -258,7 +262,7 @@ def _drift(result: TargetResult, unit_days: float | None, span_days: float) -> R
 
 
 def ratio_cause(drifts: tuple[RatioDrift, ...]) -> BudgetCause:
-    """Return the cause "ratio": magnitude of the drift over the span relative to the first target."""
+    """Return the cause "ratio": the magnitude of the drift over the time span relative to the first target."""
     if not drifts:
         return BudgetCause.unknown("ratio", "no target is declared for this pointer")
     first = drifts[0]
@@ -274,9 +278,10 @@ def ratio_cause(drifts: tuple[RatioDrift, ...]) -> BudgetCause:
 
 
 def cutting_cause(trials: TrialResults, even: Floats, name: str, known: DeclaredPairs) -> BudgetCause:
-    """Return the cause "cutting" of one output: the central 95 % range of its errors, with a confidence interval.
+    """Return the cause "cutting" of one output: the central 95 % range of its errors in the trials, with a confidence
+    interval.
 
-    even    errors of perfect teeth at the same input positions [rad], shape (outputs, trials)
+    even    errors with perfect teeth at the input positions of the trials [rad], shape (outputs, trials)
     known   pairs and couplings that move the output
     """
     at = trials.plan.outputs.index(name)
@@ -308,10 +313,10 @@ def cutting_cause(trials: TrialResults, even: Floats, name: str, known: Declared
 def find_cutting_trials(
     plan: TrialPlan, motion: Motion, count: int, seed: int, means: Execution
 ) -> tuple[TrialResults, Floats]:
-    """Return trials with cutting errors, and the output errors with perfect teeth at the input positions of the trials
-    [rad].
+    """Return the results of trials with cutting errors, and the output errors with perfect teeth at the input positions
+    of the trials [rad].
 
-    The errors of perfect teeth have shape (outputs, trials).
+    The output errors with perfect teeth have shape (outputs, trials).
 
     motion   motion with perfect teeth
     """
@@ -326,7 +331,8 @@ def find_cutting_trials(
 def cutting_plan(
     train: GearTrain, cutting: Sequence[str], outputs: Sequence[str], state: str | None, without: Sequence[str]
 ) -> tuple[TrialPlan | None, str]:
-    """Return the plan of the trials with cutting errors, or None with the reason why no trials are possible.
+    """Return the plan of the trials with cutting errors and an empty string, or None and the reason why no trials are
+    possible.
 
     Raises `GearTrainError` if the errors `cutting` cannot be applied.
     """

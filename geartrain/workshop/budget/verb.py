@@ -1,4 +1,4 @@
-"""Command `geartrain budget`: causes of each pointer's error, in degrees and in days."""
+"""Command `geartrain budget`: list the causes of each pointer's error, in degrees and in days."""
 
 from __future__ import annotations
 
@@ -108,7 +108,7 @@ def run(
 
 
 def _days(text: str) -> float:
-    """Convert a time, or the name of a period listed by `geartrain periods`, to days."""
+    """Convert a duration, or the name of a period listed by `geartrain periods`, to days."""
     from geartrain.train.periods import period_table
 
     row = period_table().get(text.strip())
@@ -119,7 +119,7 @@ def _days(text: str) -> float:
 
 
 def _bodies(texts: list[str] | tuple[()]) -> Mapping[str, Body | None]:
-    """Parse assignments of bodies to outputs: `moon=moon`, `b=sun`, `date=none`."""
+    """Return a mapping from output to celestial body, parsed from texts such as `moon=moon`, `b=sun` or `date=none`."""
     known: dict[str, Body | None] = {"moon": "moon", "sun": "sun", "none": None}
     found: dict[str, Body | None] = {}
     for text in texts:

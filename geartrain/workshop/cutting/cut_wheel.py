@@ -1,11 +1,11 @@
-"""Triangular wheels with cutting errors, and a pair of two of them: CutWheel, CutToothPairs, CutGearPair.
+"""Triangular wheels with cutting errors, and gear pairs of two such wheels: CutWheel, CutToothPairs, CutGearPair.
 
-Teeth are numbered in the order in which they pass the line of centres as the wheel turns forward. The tip of tooth i
-is at the angle i p + place[i] behind tooth 0 of a perfect wheel, at the radius R + tip[i]; p is the pitch, R the
-nominal tip radius. Its flanks make the angles beta + leading[i] and beta + trailing[i] with the radius through the tip,
-with the nominal half angle beta. The leading flank faces forward. It pushes if the wheel drives; the trailing flank is
-pushed if the wheel is driven. The radius of an internal wheel is negative, as in the equations of its pair, so a higher
-tip is nearer the centre.
+Teeth are numbered in the order in which they pass the line of centres as the wheel turns forward. The tip of tooth i is
+at the angle i p + place[i] behind tooth 0 of a perfect wheel, at the radius R + tip[i]; p is the pitch, R the nominal
+tip radius. The flanks of tooth i make the angles beta + leading[i] and beta + trailing[i] with the radius through the
+tip, with the nominal half angle beta. The leading flank faces forward. It pushes the mate if the wheel drives. The
+trailing flank is pushed by the mate if the wheel is driven. The radius of an internal wheel is negative, as in the
+equations of its pair, so a higher tip is nearer the centre.
 
 Tooth pair k joins tooth k of the driver to tooth k of the driven wheel, both counted through all turns. After
 lcm(z1, z2) tooth pairs the same teeth meet again. The leading flank of the driver pushes the trailing flank of the
@@ -61,7 +61,7 @@ class CutWheel:
 
     @classmethod
     def even(cls, z: int, radius: float, half_angle: float) -> CutWheel:
-        """Return a wheel of z teeth without errors."""
+        """Return a triangular wheel with z teeth and without errors."""
         return cls(radius, half_angle, *(np.zeros(z) for _ in range(4)))
 
     # ------------------------------------------------------------------------------------------------------ properties
@@ -78,7 +78,7 @@ class CutWheel:
 
     @property
     def sign(self) -> int:
-        """Sign of the radius: -1 for an internal wheel, otherwise 1."""
+        """Sign of the radius: -1 for an internal wheel, 1 for an external wheel."""
         return -1 if self.radius < 0 else 1
 
     @property
@@ -88,7 +88,7 @@ class CutWheel:
 
     @property
     def theta(self) -> Floats:
-        """Polar angle of each tip behind tooth 0 of the perfect wheel [rad]."""
+        """Polar angle of each tip behind the nominal position of tooth 0 [rad]."""
         return np.arange(self.z) * self.pitch + self.place
 
     @property
@@ -98,16 +98,20 @@ class CutWheel:
 
     @property
     def only_pitch_deviations(self) -> bool:
-        """True if no tip height and no flank angle deviates, so that the only possible errors are pitch deviations."""
+        """True if no tip height and no flank angle deviates from its nominal value, so that only pitch deviations can
+        occur.
+        """
         return not any(np.any(each) for each in (self.tip, self.leading, self.trailing))
 
     def taken(self, part: int | slice | NDArray[np.int64]) -> CutWheel:
-        """Return the wheels of selected trials, or of one trial; arrays common to all trials are not copied."""
+        """Return the wheels of the selected trials, or of one trial. Arrays that are common to all trials are not
+        copied.
+        """
         some = (each[part] if each.ndim > 1 else each for each in (self.place, self.tip, self.leading, self.trailing))
         return CutWheel(self.radius, self.half_angle, *some)
 
     def moved(self, e: ArrayLike, towards: ArrayLike) -> CutWheel:
-        """Return the wheel with teeth cut about a centre at distance e from the axis [unit of `radius`] in the
+        """Return this wheel with its teeth cut about a centre at the distance e from the axis [unit of `radius`] in the
         direction `towards` [rad].
         """
         far, direction = (np.asarray(each, dtype=float)[..., None] for each in (e, towards))
@@ -123,7 +127,8 @@ class CutWheel:
         )
 
     def filed(self, leading: Floats, trailing: Floats) -> CutWheel:
-        """Return the wheel with flanks lowered along their normals; each tip moves down along the opposite flank.
+        """Return this wheel with flanks lowered along their normals. Lowering a flank moves the tip down along the
+        opposite flank.
 
         leading, trailing   depths of filing, 0 or more, (..., z) [unit of `radius`]
         """
@@ -139,7 +144,9 @@ class CutWheel:
         )
 
     def mirrored(self, first: int = 0) -> CutWheel:
-        """Return the mirror image, which turns in the opposite sense: tooth i is tooth `first` - i of this wheel."""
+        """Return the mirror image of this wheel, which turns in the opposite sense. Tooth i of the image is tooth
+        `first` - i of this wheel.
+        """
         # mirroring reverses the order of the teeth and exchanges their flanks
         order = (first - np.arange(self.z)) % self.z
         return CutWheel(
@@ -153,7 +160,9 @@ class CutWheel:
 
     @property
     def cuttable(self) -> NDArray[np.bool_]:
-        """Mask of shape (..., z): True if a tooth and the next one have tips, flanks and a space between them."""
+        """Mask of shape (..., z): True if a tooth and the next tooth have tips and flanks, and there is a space between
+        them.
+        """
         gap = self.pitch + np.roll(self.place, -1, -1) - self.place
         near, far = np.broadcast_arrays(self.r, np.roll(self.r, -1, -1))
         # angle at each tip between its radius and the line to the other tip; the flanks must be inside both
@@ -167,7 +176,7 @@ class CutWheel:
 
 
 def of_teeth(each: Floats, rows: Ints, teeth: Ints) -> Any:
-    """Return the entries of an array of tooth data for one tooth in each trial.
+    """Return the entries of an array of tooth data for one given tooth in each given trial.
 
     The result is the scalar 0 if an array common to all trials contains only zeros, which saves memory.
     """
@@ -177,7 +186,7 @@ def of_teeth(each: Floats, rows: Ints, teeth: Ints) -> Any:
 
 
 def displaced(radius: Floats, angle: Floats, e: Floats, towards: Floats) -> tuple[Floats, Floats]:
-    """Return the exact radial displacement [unit of `radius`] and rotation about the origin [rad] of shifted points.
+    """Return the exact radial displacements [unit of `radius`] and rotations about the origin [rad] of shifted points.
 
     radius, angle   polar coordinates of the points (angle in rad)
     e, towards      length and direction (rad) of the shift
@@ -195,7 +204,8 @@ def displaced(radius: Floats, angle: Floats, e: Floats, towards: Floats) -> tupl
 
 
 class CutToothPairs(ToothPair):
-    """Contact of many pairs of a driving and a driven tooth; all arrays broadcast with each other and with the angles.
+    """Contact of many pairs of a driving and a driven tooth. All arrays broadcast with each other and with the driver
+    angles.
 
     R1, R2         radii of the tips, negative for an internal wheel
     beta1, beta2   half angles of the two flanks in contact (rad)
@@ -218,7 +228,9 @@ class CutToothPairs(ToothPair):
 
     @classmethod
     def of(cls, sizes: TriangularSizes, tips: tuple[Any, Any], flanks: tuple[Any, Any], shift: Any) -> CutToothPairs:
-        """Return the tooth pairs for the nominal sizes plus errors of tip heights, flank angles and centre distance."""
+        """Return tooth pairs with the nominal sizes plus the errors of tip heights, flank angles and centre
+        distance.
+        """
         R1, R2 = sizes.signed_radii
         return cls(
             R1 + tips[0],
@@ -231,26 +243,28 @@ class CutToothPairs(ToothPair):
         )
 
     def contact(self, x: Any) -> Any:
-        """Return the angle of the driven tooth from the line of centres [rad], with the driving tooth at the angle x
+        """Return the angle of the driven tooth from the line of centres [rad] if the driving tooth is at the angle x
         [rad].
 
-        It is the minimum of the angles in the approach and recess phases, valid for |x| up to `reach`.
+        It is the smaller of the angles in the approach phase and in the recess phase. It is valid for |x| up to
+        `reach`.
         """
         return np.fmin(self.angle(APPROACH, x, np), self.angle(RECESS, x, np))  # far out of reach one of them is NaN
 
     def approaches(self, x: Any) -> Any:
-        """Return a mask: True for tooth pairs in the approach phase at the driver angle x [rad]."""
+        """Return a mask that is True for tooth pairs in the approach phase at the driver angle x [rad]."""
         return self.angle(APPROACH, x, np) < self.angle(RECESS, x, np)
 
     def tau(self, x: Any, approaches: Any) -> Any:
-        """Return the speed ratio tau at driver angle x [rad] in the given phase.
+        """Return the speed ratio tau at driver angle x [rad] in the approach phase where `approaches` is True, and in
+        the recess phase elsewhere.
 
         It is infinite if jamming teeth overlap below the driven flank.
         """
         return np.where(approaches, self.speed(APPROACH, x, np), self.speed(RECESS, x, np))
 
     def picked(self, pick: Callable[[Any], Any]) -> CutToothPairs:
-        """Return selected or reordered tooth pairs; the function `pick` is applied to every array."""
+        """Return selected or reordered tooth pairs. The function `pick` is applied to every array."""
         # without __init__, which would recompute every constant
         found = CutToothPairs.__new__(CutToothPairs)
         found.leans, found.mirror, found.sign2, found.side = False, self.mirror, self.sign2, self.side
@@ -259,25 +273,29 @@ class CutToothPairs(ToothPair):
         return found
 
     def rolled(self, n: int) -> CutToothPairs:
-        """Return the tooth pairs cyclically shifted: each is replaced by the pair n before it in the cycle."""
+        """Return the tooth pairs shifted cyclically: each pair is replaced by the pair that is n places before it in
+        the cycle.
+        """
         return self if n == 0 else self.picked(lambda each: np.roll(each, n, -1) if np.ndim(each) else each)
 
 
 def _half_sine(R1: Any, R2: Any, D: Any, delta: Any) -> Any:
-    """Return the sine of half the maximum contact angle of wheel 1, Sorge's equation (4); 0 if tips do not meet."""
+    """Return the sine of half the maximum contact angle of wheel 1 by Sorge's equation (4); 0 if the tips do
+    not meet.
+    """
     # clipped, because delta is negative if the tips do not reach each other
     return np.sqrt(np.clip(delta * (2 * R2 - delta) / (4 * D * R1), 0.0, 1.0))
 
 
 @dataclass(frozen=True)
 class CutGearPair:
-    """Pair of cut wheels at a given centre distance, of which the first drives; `sizes` contains the nominal sizes."""
+    """Pair of cut wheels at a given centre distance. The first wheel drives; `sizes` contains the nominal sizes."""
 
     sizes: TriangularSizes
     first: CutWheel
     second: CutWheel
     shift: Any = 0.0
-    """Increase of the centre distance [unit of the radii], one value or one for each trial."""
+    """Increase of the centre distance [unit of the radii]: one value, or one value for each trial."""
 
     @cached_property
     def count(self) -> int:
@@ -295,20 +313,20 @@ class CutGearPair:
         return self.sizes.z1, self.sizes.z2
 
     def taken(self, part: slice | Ints) -> CutGearPair:
-        """Return the pairs of the selected trials, given by a slice or by indices."""
+        """Return the pairs of the selected trials, which are given by a slice or by indices."""
         shift = self.shift if np.ndim(self.shift) == 0 else self.shift[part]
         return CutGearPair(self.sizes, self.first.taken(part), self.second.taken(part), shift)
 
     def filed(self, low: tuple[Floats, Floats]) -> CutGearPair:
-        """Return the pair with material removed from its flanks. `low` contains the depths for each wheel, shape
-        (trials, 2 sides, z) [unit of the radii].
+        """Return this pair with material removed from its flanks. `low` contains the depth for each flank of each
+        wheel, shape (trials, 2 sides, z) [unit of the radii].
         """
         wheels = zip((self.first, self.second), low, strict=True)
         first, second = (wheel.filed(each[:, 0], each[:, 1]) for wheel, each in wheels)
         return CutGearPair(self.sizes, first, second, self.shift)
 
     def tooth_pairs(self, k: Any) -> CutToothPairs:
-        """Return the tooth pairs with the numbers k, where tooth pairs are counted through all turns."""
+        """Return the tooth pairs with the numbers k, which count tooth pairs through all turns."""
         i = k % self.sizes.z1
         j = k % self.sizes.z2
         one, two, sizes = self.first, self.second, self.sizes
@@ -324,7 +342,7 @@ class CutGearPair:
     def mirrored(self) -> CutGearPair:
         """Mirror image of the pair, which turns in the opposite sense.
 
-        Its tooth pair -k joins driving tooth k, which is ahead, to driven tooth k + 1.
+        Tooth pair -k of the image joins driving tooth k, which is ahead, to driven tooth k + 1.
 
         If U' is the lag of the mirrored pair at first contact, the back flanks of this pair meet at the lag L(t) =
         -U'(-t) - p2, with the driver angle t and the pitch p2 of the driven wheel.
@@ -333,8 +351,8 @@ class CutGearPair:
 
     @cached_property
     def widest(self) -> float:
-        """Upper bound of the angle of a driving tooth from the line of centres at which it can touch [rad]; -inf if it
-        never touches.
+        """Upper bound of the angle from the line of centres at which a driving tooth can touch a driven tooth [rad];
+        -inf if it never touches one.
         """
         one, two, sizes = self.first, self.second, self.sizes
         shift = float(np.min(self.shift) if sizes.side > 0 else np.max(self.shift))

@@ -1,4 +1,4 @@
-"""Manufacturing errors that a train declares, as fractions of pitch, tooth depth and half angle, with overrides."""
+"""Manufacturing errors that a train declares, as fractions of pitch, tooth depth or half angle, and their overrides."""
 
 from __future__ import annotations
 
@@ -26,17 +26,17 @@ OF_WHEELS = ("pitch_deviation", "stepping", "eccentricity", "tip", "aperture_dev
 OF_PAIRS = ("centre", "bearing")
 ERROR_KINDS = (*OF_WHEELS, *OF_PAIRS)
 _ANGLES = {"pitch_deviation": "its pitch", "stepping": "its pitch", "aperture_deviation": "its tooth angle"}
-"""Nominal value by which an error of an angle is divided, by kind of error."""
+"""Name of the nominal angle by which an angular error is divided, keyed by kind of error."""
 _OF_PITCHES = ("pitch_deviation", "stepping", "eccentricity")
-"""Kinds of errors that the measured angles of the teeth of a wheel contain."""
+"""Kinds of errors that are included in the measured angles of the teeth of a wheel."""
 MOST = {kind: 1.0 if kind in _ANGLES else 2.0 for kind in ERROR_KINDS}
-"""Exclusive upper limits of errors as fractions of pitch, half angle or depth; at the limit no tooth remains."""
+"""Exclusive upper limits of errors as fractions of pitch, half angle or depth. At the limit, no tooth remains."""
 
 
 @dataclass(frozen=True, slots=True)
 class ErrorSpecification:
-    """Error as a fraction of a nominal value: a fixed value `size`, or random with the standard deviation or half width
-    `size`.
+    """Error as a fraction of a nominal value: either the fixed value `size`, or a random value with the standard
+    deviation or half width `size`.
     """
 
     size: float = 0.0
@@ -45,7 +45,9 @@ class ErrorSpecification:
 
 @dataclass(frozen=True, slots=True)
 class ErrorOverride:
-    """Error that replaces the declared error of its kind, for the wheel or pair `of`, or for all if `of` is empty."""
+    """Error that replaces the declared error of the same kind, for the wheel or pair `of`, or for all if `of`
+    is empty.
+    """
 
     kind: str
     way: ErrorDistributionKind
@@ -55,9 +57,9 @@ class ErrorOverride:
 
 @dataclass(frozen=True, slots=True)
 class WheelErrors:
-    """Errors of one wheel.
+    """Manufacturing errors of one wheel.
 
-    pitch, half_angle  angular pitch, and half angle of the teeth, of the perfect wheel (rad)
+    pitch, half_angle  angular pitch and half angle of the teeth of the perfect wheel (rad)
     ring               True for an internal wheel
     errors             by kind: pitch_deviation and stepping in pitches, aperture_deviation in half angles, lengths in
                        depths
@@ -82,7 +84,7 @@ class WheelErrors:
 
     @property
     def depth(self) -> float:
-        """Tooth depth: divided by the tip radius for triangular teeth, in modules for displaced flanks, in rad for
+        """Tooth depth: a fraction of the tip radius for triangular teeth, in modules for displaced flanks, in rad for
         bevel gears.
         """
         return self.displaced.depth if self.displaced else abs(depth(-self.z if self.ring else self.z, self.half_angle))
@@ -94,8 +96,8 @@ class WheelErrors:
 
     @property
     def angle_radius(self) -> float:
-        """Radius at which angles are measured, in the unit of `depth`: the tip radius for triangular teeth, otherwise
-        the pitch radius.
+        """Radius at which angles are measured [unit of `depth`]: the tip radius for triangular teeth, the pitch radius
+        for other teeth.
         """
         return self.z / (2 * self.displaced.modules) if self.displaced else 1.0
 
@@ -173,7 +175,8 @@ def check_names(settings: Sequence[ErrorOverride], wheels: Sequence[str], pairs:
 
 
 def wheel_errors(train: Train, even: WheelErrors, settings: Sequence[ErrorOverride]) -> WheelErrors:
-    """Return the errors declared for one wheel, or for the train if the wheel declares none, with overrides applied.
+    """Return the errors declared for one wheel, or those of the train if the wheel declares none, with overrides
+    applied.
 
     Raises `RangeError` if an error is larger than a tooth, or is a length that cannot be converted to a fraction.
     """
@@ -204,10 +207,11 @@ def wheel_errors(train: Train, even: WheelErrors, settings: Sequence[ErrorOverri
 
 
 def _with_measured_angles(wheel: WheelErrors, measured: MeasuredTeeth) -> WheelErrors:
-    """Return the wheel with the pitch deviations and the eccentricity that follow from measured angles of its teeth.
+    """Return the wheel with the pitch deviations and the eccentricity that were estimated from measured angles of its
+    teeth.
 
-    The eccentricity is either part of the pitch deviations, or separate and removed from them. Missing teeth are
-    assumed to follow the fitted eccentricity if it is significant, otherwise an even division.
+    The eccentricity is either included in the pitch deviations, or removed from them and given separately. Missing
+    teeth are assumed to follow the fitted eccentricity if it is significant, and an even division if it is not.
     """
     found = estimate_measured(measured, wheel.z)
     depth = wheel.depth / wheel.angle_radius
@@ -237,7 +241,9 @@ def _with_measured_angles(wheel: WheelErrors, measured: MeasuredTeeth) -> WheelE
 def pair_errors(
     train: Train, mesh: GearMesh, lesser: WheelErrors, settings: Sequence[ErrorOverride]
 ) -> dict[str, ErrorSpecification]:
-    """Return the axis errors of a pair as fractions of the tooth depth of `lesser`, the wheel with less depth."""
+    """Return the axis errors of a pair as fractions of the tooth depth of `lesser`, the wheel with the
+    smaller depth.
+    """
     fitting = mesh.gear.fitting or train.fitting
     reader = _pair_reader(train, mesh, lesser)
     errors = {kind: reader.off(kind, getattr(fitting, kind, None)) for kind in OF_PAIRS}
@@ -249,7 +255,9 @@ def pair_errors(
 
 
 def filing_stroke(train: Train, mesh: GearMesh, lesser: WheelErrors) -> float:
-    """Return the depth of one stroke of the file divided by the smaller tooth depth; 0 if the pair is not filed."""
+    """Return the depth of one stroke of the file as a fraction of the smaller tooth depth; 0 if the pair is
+    not filed.
+    """
     fitting = mesh.gear.fitting or train.fitting
     filing = fitting.filing if fitting is not None else None
     return _pair_reader(train, mesh, lesser).fraction("stroke", filing.stroke) if filing is not None else 0.0
@@ -260,8 +268,8 @@ def _pair_reader(train: Train, mesh: GearMesh, lesser: WheelErrors) -> _Reader:
 
 
 def _scales(even: WheelErrors, wheel: Wheel) -> dict[str, float | None]:
-    """Return the unit of each fraction by kind, an angle [rad] or a length [m]; None for a length if there is no
-    module.
+    """Return the nominal value that a fraction of 1 represents, keyed by kind of error: an angle [rad] or a length [m];
+    None for a length if no module is declared.
     """
     deep = None
     module = wheel.transverse_module

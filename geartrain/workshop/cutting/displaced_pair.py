@@ -2,9 +2,9 @@
 
 Tooth pair k joins tooth k of the driver to tooth k of the driven wheel, both counted through all turns. The leading
 flank of the driver pushes the trailing flank of the driven tooth. The trailing flank of the driver faces the leading
-flank of the driven tooth k + 1. Each tooth pair by itself would give the driven wheel a certain lag, equation (2) of
-docs/cut-by-hand.md. The foremost tooth pair drives, and its distance from the nearest pair on the other side is the
-backlash.
+flank of the driven tooth k + 1. If it were the only tooth pair, each tooth pair would cause a certain lag of the driven
+wheel, equation (2) of docs/cut-by-hand.md. The foremost drive-flank pair drives, and its distance from the nearest
+coast-flank pair is the backlash.
 
 Teeth are numbered as they pass the line of centres while the wheel turns forward, as in `CutWheel`. Lengths are
 in modules; for bevel gears they are angles (rad) on the unit sphere.
@@ -40,16 +40,16 @@ _FINE = 512  # positions per pitch for the mean of a lag, which has a few kinks
 
 @dataclass(frozen=True, slots=True)
 class DisplacedWheel:
-    """Wheel with displaced flanks.
+    """Wheel whose flanks are displaced by manufacturing errors.
 
-    Arrays have shape (..., z) with trials as leading axes; `e` and `towards` have one value for each trial. Lengths
-    are in modules (bevel gears: rad).
+    Arrays have shape (..., z) for z teeth; the leading axes index the trials. `e` and `towards` have one value for each
+    trial. Lengths are in modules (bevel gears: rad).
     """
 
     place: Floats
     """Angle of each tooth behind its nominal position [rad]."""
     tip: Floats
-    """Height of each tip above nominal [module]."""
+    """Height of each tip above its nominal height [module]."""
     leading: Floats
     """Rotation of each leading flank about its pitch point [rad], positive if the flank becomes flatter."""
     trailing: Floats
@@ -65,7 +65,7 @@ class DisplacedWheel:
 
     @classmethod
     def even(cls, z: int) -> DisplacedWheel:
-        """Return a wheel of z teeth without errors."""
+        """Return a wheel with z teeth and without errors."""
         return cls(*(np.zeros(z) for _ in _OF_TEETH))
 
     @property
@@ -81,7 +81,7 @@ class DisplacedWheel:
 
     @property
     def tips(self) -> Floats:
-        """Height of each tip above nominal, including the effect of the eccentricity [module]."""
+        """Height of each tip above its nominal height, including the effect of the eccentricity [module]."""
         if not np.any(self.e):
             return self.tip
         angle = np.arange(self.z) * (2 * pi / self.z) - np.asarray(self.towards)[..., None]
@@ -90,24 +90,28 @@ class DisplacedWheel:
         return found
 
     def flanks(self, trailing: bool) -> tuple[Floats, Floats]:
-        """Return the flattening angles [rad] and the removed depths [module] of the trailing or leading flanks."""
+        """Return the flattening angles [rad] and the removed depths [module] of the trailing flanks (`trailing`) or of
+        the leading flanks.
+        """
         return (self.trailing, self.trailing_low) if trailing else (self.leading, self.leading_low)
 
     @property
     def cuttable(self) -> Bools:
-        """Mask of shape (..., z): True if the next tooth follows in the nominal order."""
+        """Mask of shape (..., z): True if the next tooth follows each tooth in the nominal order."""
         found: Bools = np.roll(self.place, -1, -1) - self.place > -2 * pi / self.z
         return found
 
     def taken(self, part: slice | NDArray[np.int64]) -> DisplacedWheel:
-        """Return the wheels of selected trials; arrays common to all trials are not copied."""
+        """Return the wheels of the selected trials. Arrays that are common to all trials are not copied."""
         teeth = {name: getattr(self, name) for name in _OF_TEETH}
         some = {name: each[part] if each.ndim > 1 else each for name, each in teeth.items()}
         e, towards = (each[part] if np.ndim(each) else each for each in (self.e, self.towards))
         return DisplacedWheel(**some, e=e, towards=towards)
 
     def mirrored(self, first: int = 0) -> DisplacedWheel:
-        """Return the mirror image, which turns in the opposite sense: tooth i is tooth `first` - i of this wheel."""
+        """Return the mirror image of this wheel, which turns in the opposite sense. Tooth i of the image is tooth
+        `first` - i of this wheel.
+        """
         order = (first - np.arange(self.z)) % self.z
         return DisplacedWheel(
             -self.place[..., order],
@@ -121,36 +125,38 @@ class DisplacedWheel:
         )
 
     def filed(self, leading: Floats, trailing: Floats) -> DisplacedWheel:
-        """Return the wheel with more material removed from its flanks [module], arrays of shape (trials, z)."""
+        """Return this wheel with more material removed from its flanks. The arrays contain depths [module], shape
+        (trials, z).
+        """
         return replace(self, leading_low=self.leading_low + leading, trailing_low=self.trailing_low + trailing)
 
 
 @dataclass(frozen=True)
 class SideTerms:
-    """Lags of the driven wheel due to the tooth pairs on the front (drive) or back (coast) flanks, at one driver
-    position.
+    """Lags of the driven wheel due to the tooth pairs on the drive flanks (front) or on the coast flanks (back), at one
+    driver position within a pitch.
 
-    The position is within a pitch. The lag is the sum of a term of each wheel, indexed by the number n of pitches
+    The lag is the sum of one term for each wheel. Both terms are indexed by the number n of pitches that the wheel has
     passed.
     """
 
     driver: Any
-    """Contribution of the driver to the lag [rad of the driven wheel], shape (trials, z), where the second index is the
+    """Contribution of the driver to the lag [rad of the driven wheel], shape (trials, z). The second index is the
     number n of pitches that the driver has passed.
     """
     driven: Any
-    """Contribution of the driven wheel to the lag [rad], shape (trials, z), where the second index is the number n of
-    pitches that the driven wheel has passed.
+    """Contribution of the driven wheel to the lag [rad], shape (trials, z). The second index is the number n of pitches
+    that the driven wheel has passed.
     """
     pitches: int
-    """Offset of the tooth numbers: entry n of the driver's term belongs to its tooth n - `pitches`."""
+    """Offset of the tooth numbers: entry n of `driver` belongs to driver tooth n - `pitches`."""
 
 
 @dataclass(frozen=True)
 class DisplacedPair:
-    """Pair of wheels with displaced flanks, of which the first drives.
+    """Pair of wheels with displaced flanks. The first wheel drives.
 
-    `shift` is the increase of the centre distance [module], one value or one for each trial.
+    `shift` is the increase of the centre distance [module], one value, or one value for each trial.
     """
 
     contact: DisplacedContact
@@ -174,13 +180,13 @@ class DisplacedPair:
         return np.broadcast_shapes(self.first.trials, self.second.trials, np.shape(self.shift))
 
     def taken(self, rows: Ints) -> DisplacedPair:
-        """Return the pair with the trials of the given indices."""
+        """Return the pairs of the trials with the given indices."""
         shift = self.shift if np.ndim(self.shift) == 0 else self.shift[rows]
         return DisplacedPair(self.contact, self.first.taken(rows), self.second.taken(rows), shift)
 
     @cached_property
     def widest(self) -> tuple[float, float]:
-        """First and last angle at which a tooth can touch, relative to its nominal position [rad of the driver]."""
+        """First and last driver angle at which a tooth can touch its mate, relative to its nominal position [rad]."""
         at, (leaving, entering) = self.contact, self._end_margins
         return at.start - at.entering.most - entering, at.end + at.leaving.most + leaving
 
@@ -192,7 +198,9 @@ class DisplacedPair:
 
     @cached_property
     def _end_margins(self) -> tuple[float, float]:
-        """Maximum angles by which errors advance the end of contact and the start of contact [rad of the driver]."""
+        """Maximum angles by which errors can advance the end of contact and the start of contact [rad of the
+        driver].
+        """
         late = float(np.abs(self.first.place).max(initial=0.0))
         tips = (float(np.abs(each.tips).max(initial=0.0)) for each in (self.first, self.second))
         leaving, entering = (late + longer * tip for longer, tip in zip(self.contact.longer, tips, strict=True))
@@ -201,7 +209,9 @@ class DisplacedPair:
     # ------------------------------------------------------------------------------------------------- pair by pair
 
     def side_terms(self, u: float, back: bool) -> Iterator[SideTerms]:
-        """Yield the lag contributions of all tooth pairs that can touch, at the driver angle u within a pitch [rad]."""
+        """Yield the lag contributions of all tooth pairs that can touch at the driver angle u, which is within a pitch
+        [rad].
+        """
         sign = -1.0 if back else 1.0
         low, high = self.widest
         pitch = self.contact.pitches[0]
@@ -213,7 +223,8 @@ class DisplacedPair:
                 yield self._side(u, x, int(sign) * steps, back)
 
     def _kinks(self, x: Floats, tip1: Any = 0.0, tip2: Any = 0.0) -> Floats:
-        """Return the lag [rad] of the driven wheel while tips touch beyond the path of contact, at driver angles x.
+        """Return the lag of the driven wheel [rad] at driver angles x [rad] at which tips touch beyond the path of
+        contact.
 
         `tip1` and `tip2` are the errors of the tip heights.
         """
@@ -222,12 +233,15 @@ class DisplacedPair:
         return np.asarray(beyond + at.entering(at.start - at.longer[1] * tip2 - x))
 
     def _along(self, column: Floats, x: Any) -> Any:
-        """Return a quantity tabulated along the path of contact, interpolated at x [rad] and constant beyond it."""
+        """Return a quantity that is tabulated along the path of contact, interpolated at driver angle x [rad] and
+        constant beyond the path.
+        """
         at, last = self.contact, len(column) - 1
         return np.interp(x, at.start + (at.end - at.start) / last * np.arange(last + 1), column)
 
     def _columns(self, x: Any) -> list[Any]:
-        """Return all quantities tabulated along the path of contact, each interpolated at x [rad] by `_along`.
+        """Return all quantities that are tabulated along the path of contact, each interpolated at driver angle x [rad]
+        by `_along`.
 
         They are the fields `across`, `along` and `tilt` of both wheels, then `normal`, `even` and `apart` of the
         contact.
@@ -236,8 +250,8 @@ class DisplacedPair:
         return [self._along(each, x) for each in (*at.across, *at.along, *at.tilt, at.normal, at.even, at.apart)]
 
     def _side(self, u: float, x: float, j: int, back: bool, late: Any = None) -> SideTerms:
-        """Return the contributions of both wheels to the lag at x [rad], indexed by n = tooth + j; docs/cut-by-hand.md
-        (2).
+        """Return the contributions of both wheels to the lag at driver angle x [rad], indexed by n = tooth + j, from
+        equation (2) of docs/cut-by-hand.md.
 
         late    (trials, z): angle by which the driver is later for each n (rad); tips are then assumed to be nominal
         """
@@ -268,7 +282,7 @@ class DisplacedPair:
 
     @staticmethod
     def _eccentric_terms(wheel: DisplacedWheel, turned: float, phase: float, across: float, along: float) -> Any:
-        """Return the lag [rad of the driven wheel] due to the eccentricity of a wheel, for each number n of pitches
+        """Return the lag due to the eccentricity of a wheel [rad of the driven wheel], for each number n of pitches
         passed.
         """
         if not np.any(wheel.e):
@@ -280,8 +294,8 @@ class DisplacedPair:
     # --------------------------------------------------------------------------------------------- backlash, and jams
 
     def _opposite_pairs(self) -> Iterator[tuple[SideTerms, SideTerms]]:
-        """Yield the lag contributions of each drive-flank and coast-flank tooth pair that can touch at one driver
-        position.
+        """Yield the lag contributions for each combination of a drive-flank and a coast-flank tooth pair that can touch
+        at the same driver position.
         """
         pitch, (start, end) = self.contact.pitches[0], (self.contact.start, self.contact.end)
         ends = np.mod([start, end, -start, -end], pitch)
@@ -292,8 +306,7 @@ class DisplacedPair:
     def backlash(self) -> Floats:
         """Return the minimum backlash over the whole meshing cycle [rad of the driven wheel], shape (trials,).
 
-        The contributions of the wheels are separate, so the minimum sum over all tooth pairs is the sum of minimum
-        terms.
+        The contributions of the two wheels are independent, so the minimum of their sum is the sum of their minima.
         """
         best = np.full(self.trials, np.inf)
         for front, back in self._opposite_pairs():
@@ -301,7 +314,9 @@ class DisplacedPair:
         return best + self.contact.backlash
 
     def tight_place(self) -> TightPlace:
-        """Return the position of minimum backlash, and the most protruding of the four flanks in contact there."""
+        """Return the position of minimum backlash and, of the four flanks in contact there, the flank that protrudes
+        most.
+        """
         count = self.trials[0]
         best, where = np.full(count, np.inf), np.zeros((3, count), np.int64)
         gain = np.full(count, float(self.contact.normal.max()))
@@ -314,7 +329,9 @@ class DisplacedPair:
         return TightPlace(best + self.contact.backlash, where[0], where[1], where[2], gain)
 
     def _most_protruding(self, front: SideTerms, back: SideTerms, rows: Ints, n1: Ints, n2: Ints) -> Ints:
-        """Return wheel, tooth and side of the most protruding of the four flanks in contact, in selected trials."""
+        """Return the indices of wheel, tooth and side of the flank that protrudes most among the four in contact, for
+        selected trials.
+        """
         z1, z2 = self.teeth
         # contribution of each of the four to the backlash: the smallest belongs to the most protruding flank
         terms = (front.driver, n1), (back.driver, n1), (back.driven, n2), (front.driven, n2)
@@ -325,8 +342,8 @@ class DisplacedPair:
         return np.stack([flank // 2, np.take_along_axis(teeth, flank[None], axis=0)[0], flank % 2])
 
     def filed(self, low: tuple[Floats, Floats]) -> DisplacedPair:
-        """Return the pair with more material removed from its flanks. `low` contains the depths for each wheel, shape
-        (trials, 2 sides, z) [module].
+        """Return this pair with more material removed from its flanks. `low` contains the depth for each flank of each
+        wheel, shape (trials, 2 sides, z) [module].
         """
         first, second = (
             wheel.filed(each[:, 0], each[:, 1]) for wheel, each in zip((self.first, self.second), low, strict=True)
@@ -339,7 +356,9 @@ class DisplacedPair:
         return MeshingVerdicts(self.backlash(), clash, dwell, self.disengaged())
 
     def disengaged(self) -> Bools:
-        """Return a mask, shape (trials,): True if at some position no tooth pair can touch (loss of contact)."""
+        """Return a mask of shape (trials,): True if there is a position at which no tooth pair can touch (loss of
+        contact).
+        """
         at = self.contact
         whole = (at.end + at.leaving.most) - (at.start - at.entering.most)
         gap = at.pitches[0] + np.roll(self.first.place, -1, -1) - self.first.place
@@ -347,10 +366,11 @@ class DisplacedPair:
         return found
 
     def tip_contacts(self, entering: bool) -> Bools:
-        """Return a mask of shape (trials,): True if tip meets tip where a tooth pair enters (`entering`) or leaves.
+        """Return a mask of shape (trials,): True if tips meet where a tooth pair enters contact (`entering`) or leaves
+        it.
 
-        At an entry this is a clash; at an exit it is a dwell. It occurs if the neighbouring pair, which should hold the
-        driven wheel, gives it a larger lag than the pair itself.
+        Contact of tips is a clash at an entry, and a dwell at an exit. It occurs if the neighbouring pair, which should
+        be in contact, causes a larger lag of the driven wheel than the pair itself.
         """
         at = self.contact
         x, j = (at.start - at.entering.most, 1) if entering else (at.end + at.leaving.most, -1)
@@ -371,7 +391,7 @@ class DisplacedPair:
     def lag(self, rows: Ints, S: Floats, k: Ints, back: bool = False) -> Floats:
         """Return the lag of the driven wheel [rad] due to tooth pairs k at driver angles S [rad].
 
-        For back flanks it is the angle by which the driven wheel is ahead.
+        For back flanks (`back`), the result is the angle by which the driven wheel is ahead.
         """
         at, sign = self.contact, -1.0 if back else 1.0
         one, two, ratio = self.first, self.second, float(self.contact.ratio)
@@ -396,7 +416,7 @@ class DisplacedPair:
 
     def minimum_lag(self, rows: Ints, S: Floats, back: bool = False) -> tuple[Floats, Ints]:
         """Return the minimum lag of the driven wheel [rad] at driver angles S [rad], and the number of the tooth pair
-        that causes it; inf if no teeth touch.
+        that causes this lag. The lag is inf if no teeth touch.
         """
         sign, pitch = -1.0 if back else 1.0, self.contact.pitches[0]
         n = np.floor(S / pitch).astype(np.int64)
@@ -416,7 +436,9 @@ def even_backlash(contact: DisplacedContact) -> float:
 
 
 def mean_lag(contact: DisplacedContact) -> float:
-    """Return the mean lag of the driven wheel of a perfect pair [rad]; 0 for conjugate flanks at nominal distance."""
+    """Return the mean lag of the driven wheel of a perfect pair [rad]; 0 for conjugate flanks at the nominal centre
+    distance.
+    """
     if not contact.even.any():
         return 0.0
     pair = DisplacedPair(contact, *(DisplacedWheel.even(wheel.z) for wheel in contact.wheels))
@@ -426,12 +448,14 @@ def mean_lag(contact: DisplacedContact) -> float:
 
 
 def terms_at(terms: Any, rows: Ints, n: Ints) -> Floats:
-    """Return the entries of a term array for one tooth number n in each selected trial."""
+    """Return the entries of an array of lag terms for one tooth number n in each selected trial."""
     return np.asarray(terms)[rows, n] if np.ndim(terms) > 1 else np.asarray(terms)[n]
 
 
 def minimum_sum_places(driver: Any, driven: Any, count: int) -> tuple[Floats, Ints, Ints]:
-    """Return the minimum sum as in `extreme_sum`, and the indices of its two terms, each of shape (trials,)."""
+    """Return the minimum sum as defined by `extreme_sum`, and the tooth indices of its two terms, three arrays of shape
+    (trials,).
+    """
     one, two = by_residue(np.atleast_2d(driver), np.atleast_2d(driven))
     rests = one.shape[-1]
     total = one.min(axis=1) + two.min(axis=1)

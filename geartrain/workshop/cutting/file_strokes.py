@@ -1,7 +1,8 @@
-"""Filing of pairs to fit: a pair is turned through its cycle, and a tooth that jams is filed until the pair turns on.
+"""Filing of pairs to fit: a pair is turned through its meshing cycle, and each tooth that jams is filed until the pair
+turns.
 
-At minimum backlash, four flanks of two tooth pairs are in contact. The most protruding of them is filed until the tooth
-pairs pass. This is repeated at the next tightest position, until the pair turns through its cycle.
+At minimum backlash, four flanks of two tooth pairs are in contact. The flank that protrudes most is filed until the
+tooth pairs pass. This is repeated at the next tightest position, until the pair turns through its cycle.
 """
 
 from __future__ import annotations
@@ -28,7 +29,9 @@ Pair = TypeVar("Pair", "CutGearPair", "DisplacedPair")
 
 @dataclass(frozen=True)
 class FilingWork(Generic[Pair]):
-    """Result of filing many pairs: the filed pairs, numbers of strokes and numbers of filed teeth, shape (trials,)."""
+    """Result of filing many pairs: the filed pairs, and the numbers of strokes and of filed teeth, both of shape
+    (trials,).
+    """
 
     pair: Pair
     strokes: Ints
@@ -38,9 +41,10 @@ class FilingWork(Generic[Pair]):
 def file_to_fit(
     pair: Pair, tight_place: Callable[[Pair], TightPlace], stroke: float, deepest: float
 ) -> FilingWork[Pair]:
-    """Return pairs, one for each trial, filed until they turn without a jam, one `stroke` of depth at a time.
+    """Return pairs, one for each trial, that are filed until they turn without a jam. Each stroke removes the depth
+    `stroke`.
 
-    A pair remains jammed if more than `deepest` would have to be removed from a flank.
+    A pair remains jammed if a depth above `deepest` would have to be removed from a flank.
 
     tight_place   function that returns the position of minimum backlash of each pair
     """
@@ -79,7 +83,9 @@ def _some(tight: TightPlace, rows: Bools) -> TightPlace:
 
 
 def tight_place(pair: CutGearPair) -> TightPlace:
-    """Return the position of minimum backlash of triangular pairs, and the most protruding flank in contact there."""
+    """Return the position of minimum backlash of triangular pairs and, among the flanks in contact there, the one that
+    protrudes most.
+    """
     parts = [MeshingCycle(part).tightest() for part in chunks(pair, CHUNK // pair.count)]
     backlash, front, apart = (np.concatenate(each) for each in zip(*parts, strict=True))
     rows, (z1, z2), sizes = np.arange(len(backlash)), pair.teeth, pair.sizes
@@ -103,7 +109,9 @@ def tight_place(pair: CutGearPair) -> TightPlace:
 
 
 def _flank_height(wheel: CutWheel, side: int) -> Floats:
-    """Return the height of each flank above nominal, along its normal and halfway down the tooth, shape (..., z)."""
+    """Return the height of each flank above its nominal position, along its normal and at half the tooth depth, shape
+    (..., z).
+    """
     lean, ahead = (wheel.leading, -wheel.place) if side == 0 else (wheel.trailing, wheel.place)
     half = abs(wheel.radius) * (1 - cos(np.pi / wheel.z)) / 2
     found: Floats = cos(wheel.half_angle) * np.abs(wheel.r) * ahead + np.sin(wheel.half_angle) * wheel.tip + half * lean

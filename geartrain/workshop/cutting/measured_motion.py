@@ -21,11 +21,11 @@ if TYPE_CHECKING:
 def measured_motion(
     train: GearTrain, state: str | None = None, outputs: Sequence[str] = (), without: Sequence[str] = ()
 ) -> Motion:
-    """Return the motion of a train with its wheels as measured: with tables, fixed errors and filing, but without
+    """Return the motion of a train with its wheels as measured. It includes tables, fixed errors and filing, but not
     random errors.
 
-    The other arguments are described in `GearTrain.motion`. Raises `QuestionError` if no wheel has measured teeth or
-    fixed errors, and `RangeError` if a pair jams or disengages.
+    The arguments `state`, `outputs` and `without` are described in `GearTrain.motion`. Raises `QuestionError` if no
+    wheel has measured teeth or fixed errors, and `RangeError` if a pair jams or disengages.
     """
     plan = find_trial_plan(train, (), outputs, state, without)
     # an eccentricity without a direction is random

@@ -1,15 +1,16 @@
-"""Events of many pairs of cut wheels at once: jam, clash, dwell and loss of contact.
+"""Events of many pairs of cut wheels, computed together: jam, clash, dwell and loss of contact.
 
-Events occur only at a few positions. Two flanks jam where a front and a back tooth pair come nearest (`tightest`). The
-driven wheel dwells only where a tooth pair leaves, and a tooth meets a tip only where one enters. A cycle of
-lcm(z1, z2) tooth pairs therefore needs a few contact computations each, without time steps (`MeshingCycle`).
+Events occur only at a few positions. Flanks jam where the distance of a front and a back tooth pair is a minimum
+(`tightest`). The driven wheel dwells only where a tooth pair leaves contact, and tips meet only where a tooth pair
+enters. Each of the lcm(z1, z2) tooth pairs in a cycle therefore needs only a few contact computations, without time
+steps (`MeshingCycle`).
 
 With pitch deviations only, a trial costs z1 + z2 operations for a cycle of any length: 1000 trials of `freeth-2021-cut`
-take 13 s, and 412 s pair by pair. The contact of every tooth pair is the same function, and the driven teeth only add
-their deviations. The minimum backlash of a front tooth pair against the back tooth pair n before it is J_n(difference
-of the two driving teeth) minus the distance between the two driven teeth: one term depends on driving teeth, the other
-on driven teeth. Over lcm(z1, z2) tooth pairs, two teeth meet if their numbers are congruent modulo gcd(z1, z2). So the
-minimum of the sums is, in each residue class, the sum of the two minima.
+take 13 s, compared with 412 s if every tooth pair is computed. The contact of every tooth pair is the same function,
+and the driven teeth only add their deviations. The minimum backlash of a front tooth pair against the back tooth pair n
+before it is J_n(difference of the two driving teeth) minus the distance between the two driven teeth: one term depends
+on driving teeth, the other on driven teeth. Over lcm(z1, z2) tooth pairs, two teeth meet if their numbers are congruent
+modulo gcd(z1, z2). So the minimum of the sums is, in each residue class, the sum of the two minima.
 
 With the driver's front tooth at x and its back tooth `delta` before it, the backlash is f(x) + f'(delta - x) plus terms
 of the driven teeth. Here f belongs to the leading flank and f' to the mirrored tooth pair. Both are the minimum of two
@@ -55,41 +56,46 @@ class MeshingVerdicts:
     It is negative if front and back flanks overlap (jam), and inf if no teeth touch.
     """
     clash: Bools
-    """Mask of clashes: a tooth enters with its tip against or ahead of the mate's tip while the driven wheel lags.
+    """Mask of clashes: while the driven wheel lags, a tooth enters with its tip against or ahead of the tip of its
+    mate.
 
     The pair then locks or, rarely, skips a tooth; turning the driven wheel by hand within its backlash may free it.
     """
     dwell: Bools
-    """Mask of dwells: the driven wheel stops until the next tooth reaches it."""
+    """Mask of dwells: the driven wheel stops until the next driving tooth reaches it."""
     disengaged: Bools
-    """Mask of losses of contact: at some position no front (drive) flanks or no back (coast) flanks can touch."""
+    """Mask of losses of contact: at some position, no drive (front) flanks or no coast (back) flanks can touch."""
 
     @property
     def jams(self) -> Bools:
-        """Mask of jams: the pair cannot turn at any position of the driven wheel within its backlash."""
+        """Mask of jams: at some position, the pair cannot turn, wherever the driven wheel is within its backlash."""
         stuck: Bools = self.backlash < 0
         return stuck
 
     @property
     def stops(self) -> Bools:
-        """Mask of pairs that jam or clash, so that they cannot turn through their cycle while the driven wheel lags."""
+        """Mask of pairs that jam or clash, and therefore cannot turn through their cycle while the driven
+        wheel lags.
+        """
         return self.jams | self.clash
 
     @classmethod
     def joined(cls, parts: list[MeshingVerdicts]) -> MeshingVerdicts:
-        """Return the verdicts of several batches, concatenated."""
+        """Return the verdicts of several batches, concatenated into one object."""
         names = cls.__slots__
         return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in names))
 
 
 @dataclass(frozen=True)
 class TightPlace:
-    """Position of minimum backlash of each pair, and the flank to file there."""
+    """Position of minimum backlash of each pair, and the flank to be filed there."""
 
     backlash: Floats
     """Minimum backlash over the meshing cycle [rad of the driven wheel]; negative if the pair jams."""
     wheel: Ints
-    """Wheel to file: 0 driver, 1 driven wheel; `tooth` is its tooth, and `side` its flank (0 leading, 1 trailing)."""
+    """Wheel to be filed: 0 for the driver, 1 for the driven wheel. `tooth` is the index of its tooth, and `side` its
+    flank (0 leading, 1 trailing).
+    """
     tooth: Ints
     side: Ints
     gain: Floats
@@ -99,9 +105,10 @@ class TightPlace:
 def batch_verdicts(
     sizes: TriangularSizes, first: CutWheel, second: CutWheel, shift: Any = 0.0, chunk: int = CHUNK
 ) -> MeshingVerdicts:
-    """Return the events of each trial, for wheels with arrays (trials, z), or (z,) for a wheel common to all trials.
+    """Return the events of each trial. Wheels have arrays of shape (trials, z), or (z,) if the wheel is common to all
+    trials.
 
-    shift   increase of the centre distance [unit of the radii], one value or (trials,)
+    shift   increase of the centre distance [unit of the radii], one value or shape (trials,)
     chunk   number of tooth pairs processed at once
     """
     whole = CutGearPair(sizes, first, second, shift)
@@ -113,7 +120,7 @@ def batch_verdicts(
 
 
 def chunks(pair: CutGearPair, trials: int) -> Iterator[CutGearPair]:
-    """Yield parts of a batch of pairs, each with at most `trials` trials."""
+    """Yield batches of pairs, each with at most `trials` trials."""
     count, step = pair.trials[0], max(1, trials)
     for start in range(0, count, step):
         yield pair.taken(slice(start, min(start + step, count)))
@@ -124,23 +131,23 @@ def chunks(pair: CutGearPair, trials: int) -> Iterator[CutGearPair]:
 
 @dataclass(frozen=True, slots=True)
 class BacklashCandidate:
-    """Drive-flank (front) tooth pair, and the coast-flank (back) pair that is n pairs before it, at the minimum
-    backlash of perfect wheels.
+    """Combination of a drive-flank (front) tooth pair and the coast-flank (back) tooth pair n pairs before it, at the
+    minimum backlash of perfect wheels.
 
-    Each pair is in one given phase, approach or recess.
+    Each of the two tooth pairs is in a given phase, approach or recess.
     """
 
     n: int
     phases: tuple[str, str]
     offset: float
-    """Angle of the front driving tooth from the line of centres at the minimum, minus half of n pitches [rad]."""
+    """Angle of the front driving tooth from the line of centres at the minimum backlash, minus n/2 pitches [rad]."""
     backlash: float
-    """Backlash at the minimum [rad of the driven wheel]."""
+    """Minimum backlash of perfect wheels for this combination of tooth pairs [rad of the driven wheel]."""
 
 
 def common(front: CutToothPairs, back: CutToothPairs, delta: Any) -> tuple[Any, Any]:
-    """Return the range of the front tooth's driver angle in which both tooth pairs can touch [rad]; empty if low >
-    high.
+    """Return the lower and upper limits of the front tooth's driver angle [rad] at which both tooth pairs can touch.
+    The range is empty if low > high.
     """
     return np.maximum(-front.reach, delta - back.reach), np.minimum(front.reach, delta + back.reach)
 
@@ -152,8 +159,8 @@ def minimum_backlash_sum(
     the driver angle there [rad].
 
     The backlash is the sum of their contact functions; it is inf if the pairs never touch at the same time. The
-    algorithm is Newton's method safeguarded by bisection, starting at half of `delta`. The last step improves the value
-    only, by a parabola.
+    algorithm is Newton's method safeguarded by bisection, starting at half of `delta`. The last step improves only the
+    minimum value, by parabolic interpolation.
     """
     low, high = common(front, back, delta)
     minimum, most = low, high
@@ -185,7 +192,7 @@ def _slopes(front: CutToothPairs, back: CutToothPairs, delta: Any, phases: tuple
 
 
 def minimum_sum(front: CutToothPairs, back: CutToothPairs, delta: Any) -> Any:
-    """Return the minimum of f(x) + f'(delta - x) over the driver angles x at which both tooth pairs can touch [rad].
+    """Return the minimum of f(x) + f'(delta - x) [rad] over the driver angles x at which both tooth pairs can touch.
 
     Here f and f' are the contact functions of the front (drive-flank) pair and of the mirrored back (coast-flank) pair.
     The result is inf if the pairs never touch at the same time.
@@ -198,16 +205,17 @@ def minimum_sum(front: CutToothPairs, back: CutToothPairs, delta: Any) -> Any:
 
 
 def even_tooth_pair(sizes: TriangularSizes) -> CutToothPairs:
-    """Return the contact of one tooth pair of wheels without errors."""
+    """Return the contact data of a tooth pair of wheels without errors."""
     return CutToothPairs.of(sizes, (0.0, 0.0), (0.0, 0.0), 0.0)
 
 
 @lru_cache(maxsize=1024)
 def backlash_candidates(sizes: TriangularSizes, most: int) -> tuple[BacklashCandidate, ...]:
-    """Return the minima of backlash of perfect wheels, for coast-flank pairs up to `most` tooth pairs before a
+    """Return the minima of the backlash of perfect wheels, for coast-flank tooth pairs up to `most` pairs before a
     drive-flank pair.
 
-    For each distance n, the result contains the phases whose minimum is within `SLACK` of the smallest minimum.
+    For each number n of pairs between them, the result contains the phases whose minimum is within `SLACK` of the
+    smallest minimum.
     """
     tooth_pair = even_tooth_pair(sizes)
     candidates = []
@@ -227,14 +235,16 @@ def backlash_candidates(sizes: TriangularSizes, most: int) -> tuple[BacklashCand
 
 
 def farthest(pair: CutGearPair) -> int:
-    """Return the maximum number of pitches between tooth pairs in simultaneous contact; -1 if no pair can touch."""
+    """Return the maximum number of pitches between two tooth pairs that are in contact at once; -1 if no pair can
+    touch.
+    """
     if pair.widest <= 0:
         return -1
     return floor((2 * pair.widest + 2 * float(np.abs(pair.first.place).max())) / pair.sizes.p1)
 
 
 def steepest(tooth_pair: CutToothPairs) -> float:
-    """Return the maximum speed ratio of a tooth pair, which occurs where tips meet at entry.
+    """Return the maximum speed ratio of a tooth pair, which occurs where its tips meet at entry.
 
     The result is 0 if the teeth never touch, and inf if the ratio is undefined.
     """
@@ -253,12 +263,12 @@ def nominal_backlash(sizes: TriangularSizes) -> float:
 
 
 def jamming_bound(sizes: TriangularSizes, sigma: float) -> float:
-    """Return an upper bound of the probability of a jam in a cycle: 2 lcm(z1, z2) Q(j / (2 sigma)), at most 1.
+    """Return an upper bound of the probability of a jam in a meshing cycle: 2 lcm(z1, z2) Q(j / (2 sigma)), at most 1.
 
     The teeth of both wheels have independent normal pitch deviations of `sigma` pitches. Q is the normal tail
     probability and j the minimum backlash in pitches. Four teeth take part in a jam, and each moves the driven wheel by
-    about its own deviation, so the backlash has the deviation 2 sigma. Every tooth pair counts twice, for the spaces
-    before and behind it.
+    about its own deviation, so the standard deviation of the backlash is 2 sigma. Every tooth pair is counted twice,
+    once for each adjacent tooth space.
     """
     backlash = nominal_backlash(sizes)
     if backlash < 0:
@@ -274,7 +284,7 @@ def jamming_bound(sizes: TriangularSizes, sigma: float) -> float:
 
 
 def cycle_verdicts(pair: CutGearPair) -> MeshingVerdicts:
-    """Return the events of each trial of a batch, computed tooth pair by tooth pair."""
+    """Return the events of each trial of a batch, computed for one tooth pair after another."""
     cycle = MeshingCycle(pair)
     backlash, dwell, clash = cycle.tightest()[0], cycle.dwells(), cycle.clashes()
     if dwell.any():
@@ -283,7 +293,7 @@ def cycle_verdicts(pair: CutGearPair) -> MeshingVerdicts:
 
 
 class MeshingCycle:
-    """Tooth pairs of a full meshing cycle for all trials of a batch, as arrays (trials, tooth pairs)."""
+    """Tooth pairs of a full meshing cycle for all trials of a batch. Arrays have shape (trials, tooth pairs)."""
 
     def __init__(self, pair: CutGearPair) -> None:
         self.pair, self.sizes, self.trials = pair, pair.sizes, pair.trials[0]
@@ -296,11 +306,15 @@ class MeshingCycle:
     # ------------------------------------------------------------------------------------------------------- positions
 
     def ahead(self, n: int) -> Any:
-        """Return the angle by which each driving tooth is behind the driving tooth n tooth pairs before it [rad]."""
+        """Return the angle by which each driving tooth is behind the driving tooth of the tooth pair n pairs before it
+        [rad].
+        """
         return n * self.sizes.p1 + (self.driver - np.roll(self.driver, n, -1))
 
     def apart(self, n: int) -> Any:
-        """Return the angle by which each driven tooth is behind the driven tooth n tooth pairs before it [rad]."""
+        """Return the angle by which each driven tooth is behind the driven tooth of the tooth pair n pairs before it
+        [rad].
+        """
         return n * self.sizes.p2 + (self.driven - np.roll(self.driven, n, -1))
 
     def _all(self, found: Any) -> Any:
@@ -312,7 +326,7 @@ class MeshingCycle:
         """Return for each trial the minimum backlash [rad], its front (drive-flank) tooth pair, and the distance to its
         back (coast-flank) tooth pair.
 
-        The distance is the number of tooth pairs by which the back pair precedes the front pair.
+        The distance is the number of tooth pairs from the back pair to the front pair.
 
         The backlash is estimated for all tooth pairs, and computed exactly for those near the minimum.
         """
@@ -328,7 +342,9 @@ class MeshingCycle:
         return backlash, where[0], where[1]
 
     def _refine(self, backlash: Floats, where: Ints, n: int, rough: Floats) -> None:
-        """Compute the exact backlash of tooth pairs that may have the minimum, with an adapted margin."""
+        """Compute the exact backlash of the tooth pairs that may have the minimum backlash, with an adaptive margin,
+        and store it.
+        """
         slack, open_ = SLACK * self.sizes.p2, np.isfinite(rough)
         chosen = np.zeros_like(open_)
         chosen[np.arange(self.trials), rough.argmin(axis=1)] = True
@@ -348,7 +364,7 @@ class MeshingCycle:
             slack = max(slack, 2 * float(np.max(rough[rows, columns] - exact)))
 
     def _rough(self, pinch: BacklashCandidate) -> Any:
-        """Return an upper bound of the backlash of every tooth pair [rad]: its value at the position of the nominal
+        """Return an upper bound of the backlash of every tooth pair [rad]: the backlash at the position of the nominal
         minimum.
         """
         delta, back = self.ahead(pinch.n), self.back.rolled(pinch.n)
@@ -359,8 +375,8 @@ class MeshingCycle:
             return np.where(low < high, y, inf) + self._driven_term(pinch.n)
 
     def _driven_term(self, n: int) -> Any:
-        """Return the term of the driven teeth [rad] in the backlash between each front (drive-flank) pair and the back
-        (coast-flank) pair n pairs before it.
+        """Return the contribution of the driven teeth [rad] to the backlash between each front (drive-flank) pair and
+        the back (coast-flank) pair n pairs before it.
         """
         return (1 - n) * self.sizes.p2 + (np.roll(self.driven, n - 1, -1) - self.driven)
 
@@ -382,9 +398,9 @@ class MeshingCycle:
     # ------------------------------------------------------------------------------------------------ entries and exits
 
     def _pairs_in_reach(self) -> int:
-        """Return an upper bound of the number of tooth pairs that touch at once.
+        """Return an upper bound of the number of tooth pairs that can be in contact at once.
 
-        It is the number of pairs in the cycle minus 2 if some tooth pair can never touch.
+        The bound is the number of pairs in the cycle minus 2 if some tooth pair can never touch.
         """
         place = self.pair.first.place
         if self.pair.widest == -inf or not np.all(np.asarray(self.front.reach) > -inf):
@@ -392,8 +408,8 @@ class MeshingCycle:
         return max(1, int(np.ceil((2 * self.pair.widest + float(place.max() - place.min())) / self.sizes.p1)))
 
     def dwells(self) -> Bools:
-        """Return a mask, shape (trials,): True if some tooth pair leaves before a later pair touches its driven tooth
-        (dwell).
+        """Return a mask of shape (trials,): True if some tooth pair leaves contact before a later pair touches its
+        driven tooth (dwell).
         """
         front = self.front
         dwelling: Any = np.array(self._all(self.front.reach > -inf))
@@ -409,8 +425,8 @@ class MeshingCycle:
         return found
 
     def clashes(self) -> Bools:
-        """Return a mask, shape (trials,): True if some tooth pair enters while its driven tooth is behind the tip
-        (clash).
+        """Return a mask of shape (trials,): True if some tooth pair enters while its driven tooth is behind the tip of
+        the driving tooth (clash).
         """
         tip = self._all(-self.front.exit_angle) + ROUNDING * self.sizes.p2
         y = np.where(self._all(self.front.reach > -inf), inf, -inf)
@@ -422,8 +438,8 @@ class MeshingCycle:
         return found
 
     def backlash_at_entries(self) -> Floats:
-        """Return the minimum backlash [rad] at positions where a coast-flank pair enters and the driven wheel may
-        dwell.
+        """Return the minimum backlash at positions where a coast-flank pair enters contact and the driven wheel may
+        dwell [rad].
 
         The result has shape (trials,).
         """
@@ -435,7 +451,8 @@ class MeshingCycle:
         return found
 
     def _before(self, n: int, reach: Any) -> Any:
-        """Return the driven tooth's angle from the line of centres at which the tooth pair n before holds it [rad].
+        """Return the driven tooth's angle from the line of centres while the tooth pair n pairs before its own pair is
+        in contact [rad].
 
         The driving tooth of the driven tooth's own pair is then at the angle `reach`. The result is inf if the teeth do
         not touch.
@@ -449,14 +466,14 @@ class MeshingCycle:
     def _held(tooth_pairs: CutToothPairs, x: Any) -> Any:
         """Return the driven tooth's angle from the line of centres [rad] in contact at driver angle x [rad].
 
-        After the loss of contact it is the angle at which contact ended.
+        After the loss of contact, the result is the angle at which contact ended.
         """
         with np.errstate(all="ignore"):
             y = tooth_pairs.contact(np.clip(x, -tooth_pairs.reach, tooth_pairs.reach))
             return np.where(x < -tooth_pairs.reach, tooth_pairs.exit_angle, y)
 
     def disengaged(self) -> Bools:
-        """Return a mask, shape (trials,): True if no drive flanks or no coast flanks touch at some position."""
+        """Return a mask of shape (trials,): True if at some position no drive flanks or no coast flanks can touch."""
         return self._gap(self.front) | self._gap(self.back)
 
     def _gap(self, tooth_pairs: CutToothPairs) -> Bools:
@@ -479,8 +496,8 @@ class MeshingCycle:
 
 
 def verdicts_of_pitch_errors(pair: CutGearPair, chunk: int) -> MeshingVerdicts:
-    """Return the events of each trial with pitch deviations only; trials with uncertain events are computed pair by
-    pair.
+    """Return the events of each trial that has pitch deviations only. Trials with uncertain events are recomputed pair
+    by pair.
     """
     teeth, never = _EntriesAndExits(pair), np.zeros(pair.trials, bool)
     found = MeshingVerdicts(backlash_of_pitch_errors(pair), never, never.copy(), teeth.disengaged)
@@ -494,13 +511,15 @@ def verdicts_of_pitch_errors(pair: CutGearPair, chunk: int) -> MeshingVerdicts:
 
 
 def _parts(chosen: Bools, size: int) -> Iterator[Ints]:
-    """Yield the indices of the true entries of a mask, at most `size` at a time."""
+    """Yield the indices of the true entries of a mask, in arrays of at most `size` indices."""
     rows = np.flatnonzero(chosen)
     return (rows[at : at + size] for at in range(0, len(rows), size))
 
 
 def backlash_of_pitch_errors(pair: CutGearPair) -> Floats:
-    """Return the minimum backlash over the cycle (trials,) [rad of the driven wheel], to 1e-6 of a pitch."""
+    """Return the minimum backlash over the meshing cycle [rad of the driven wheel] with an accuracy of 1e-6 pitch,
+    shape (trials,).
+    """
     sizes = pair.sizes
     driver, driven = pair.first.place, pair.second.place
     # two driving teeth may deviate in opposite directions; a power of 2, so that few tables serve many batches
@@ -522,23 +541,25 @@ def backlash_of_pitch_errors(pair: CutGearPair) -> Floats:
 
 
 def by_residue(driver: Any, driven: Any) -> list[Any]:
-    """Return the terms of both wheels grouped by residue modulo gcd(z1, z2): teeth of equal residue meet."""
+    """Return the terms of both wheels grouped by tooth number modulo gcd(z1, z2). Teeth with equal residues meet."""
     rests = gcd(driver.shape[-1], driven.shape[-1])
     return [each.reshape(*each.shape[:-1], -1, rests) for each in (driver, driven)]
 
 
 def extreme_sum(driver: Any, driven: Any, extreme: Any) -> Any:
-    """Return the minimum or maximum sum of a term of a driving and a term of a driven tooth that meet in the cycle."""
+    """Return the minimum or maximum of the sum of a driver term and a driven term over all teeth that meet in the
+    cycle.
+    """
     one, two = by_residue(driver, driven)
     return extreme.reduce(extreme.reduce(one, axis=-2) + extreme.reduce(two, axis=-2), axis=-1)
 
 
 @lru_cache(maxsize=256)
 def _table(sizes: TriangularSizes, n: int, spread: float) -> Floats:
-    """Return a table of the minimum backlash J_n [rad] between a drive-flank pair and the coast-flank pair n pairs
-    before it.
+    """Return a table of the minimum backlash J_n between a drive-flank pair and the coast-flank pair n pairs before it
+    [rad].
 
-    The distance of the two driving teeth deviates by up to `spread` from nominal [rad].
+    In the table, the angle between the two driving teeth deviates by up to `spread` from its nominal value [rad].
     """
     nodes = np.linspace(-spread, spread, _NODES)
     tooth_pair = even_tooth_pair(sizes)
@@ -558,7 +579,9 @@ def _read(table: Floats, spread: float, apart: Floats) -> Floats:
 
 
 class _EntriesAndExits:
-    """Entries and exits of teeth with a common contact function: driven teeth only add their pitch deviations."""
+    """Entries and exits of teeth that have the same contact function, to which driven teeth only add their pitch
+    deviations.
+    """
 
     def __init__(self, pair: CutGearPair) -> None:
         self.pair, self.sizes = pair, pair.sizes
@@ -568,13 +591,15 @@ class _EntriesAndExits:
         self.driver, self.driven = (np.atleast_2d(wheel.place) for wheel in (pair.first, pair.second))
 
     def _between(self, n: int) -> tuple[Any, Any]:
-        """Return the angle from each tooth to the tooth n teeth later, for the driver and the driven wheel [rad]."""
+        """Return the angles from each tooth to the tooth n teeth later, for the driver and for the driven
+        wheel [rad].
+        """
         driver = n * self.sizes.p1 + np.roll(self.driver, -n, -1) - self.driver
         return driver, n * self.sizes.p2 + np.roll(self.driven, -n, -1) - self.driven
 
     def _entering(self, n: int) -> tuple[Any, Any]:
-        """Return the driven tooth's angle from the line of centres at its entry [rad], as a sum of terms of both
-        wheels.
+        """Return the driven tooth's angle from the line of centres at its entry into contact [rad], as two terms to be
+        added, one for each wheel.
 
         The tooth pair n pairs earlier determines the angle, and both terms are indexed by its teeth.
         """
@@ -582,7 +607,8 @@ class _EntriesAndExits:
         return self._held(self.reach - driver), driven
 
     def _leaving(self, n: int) -> tuple[Any, Any]:
-        """Return the driven tooth's angle from the line of centres at its exit [rad], as a sum of terms of both wheels.
+        """Return the driven tooth's angle from the line of centres at its exit from contact [rad], as two terms to be
+        added, one for each wheel.
 
         The tooth pair n pairs later determines the angle.
         """
@@ -595,14 +621,16 @@ class _EntriesAndExits:
 
     @property
     def disengaged(self) -> Bools:
-        """Mask of shape (trials,): True if no tooth pair can touch at some position."""
+        """Mask of shape (trials,): True if there is a position at which no tooth pair can touch."""
         gap = self._between(1)[0].max(axis=1) > 2 * self.reach + ROUNDING * self.sizes.p1
         found: Bools = np.broadcast_to(gap, self.pair.trials).copy()
         return found
 
     @property
     def doubtful(self) -> Bools:
-        """Mask (trials,): True if the next tooth pair may be late somewhere, so that all pairs must be compared."""
+        """Mask of shape (trials,): True if the next tooth pair may be late at some position, so that all pairs must be
+        compared.
+        """
         if self.reach < 0:  # the tip circles do not intersect
             return np.zeros(self.pair.trials, bool)
         # far above rounding errors; closer cases are computed pair by pair
@@ -613,8 +641,8 @@ class _EntriesAndExits:
         return found
 
     def events(self) -> tuple[Bools, Bools, Floats]:
-        """Return masks of clashes and dwells, and the minimum backlash at entries in trials with a dwell (inf in
-        others).
+        """Return masks of clashes and of dwells, and the minimum backlash at entries [rad] in trials with a dwell (inf
+        in trials without one).
         """
         dwelling = (self._minimum(self._leaving) > -self.tip + self.small).any(axis=1)
         y = self._minimum(self._entering)
@@ -623,7 +651,9 @@ class _EntriesAndExits:
         return clash, dwelling, np.where(dwelling, (y + next_on - self.tip).min(axis=1), inf)
 
     def _minimum(self, terms: Callable[[int], tuple[Any, Any]]) -> Any:
-        """Return the minimum over neighbouring tooth pairs, for each tooth pair of the cycle (trials, tooth pairs)."""
+        """Return the minimum over neighbouring tooth pairs for each tooth pair of the cycle, shape (trials, tooth
+        pairs).
+        """
         k = np.arange(self.pair.count)
         coming = terms == self._entering
         spread = float(np.ptp(self.driver))

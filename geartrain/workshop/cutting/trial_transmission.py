@@ -1,4 +1,4 @@
-"""Transmission functions of many pairs of cut wheels at once: each angle belongs to one trial."""
+"""Transmission functions of many pairs of cut wheels, computed together: each driver angle belongs to one trial."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class TrialTransmissionFunction(TransmissionFunction):
     even     mean transmission error of wheels without errors (rad)
     rows     number of the trial at each angle, or the number of one trial for all angles
     count    number of tooth pairs in a full meshing cycle; `pitches` are the angular pitches of both wheels (rad)
-    last     errors (rad of the driven wheel) of the last evaluation of each trial
+    last     transmission errors from the last evaluation of each trial (rad of the driven wheel)
     """
 
     def __init__(self, teeth: tuple[int, int], even: float, rows: Ints) -> None:
@@ -45,7 +45,9 @@ class TrialTransmissionFunction(TransmissionFunction):
 
     @abstractmethod
     def _evaluate(self, S: Floats, rows: Ints) -> tuple[Floats, Floats]:
-        """Return transmission errors [rad of the driven wheel] and speed ratios of selected trials."""
+        """Return the transmission errors [rad of the driven wheel] and the speed ratios of the selected trials at
+        driver angles S [rad].
+        """
 
     def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
         """Return transmission errors [rad of the driven wheel] and speed ratios at driver angles S [rad].
@@ -69,12 +71,14 @@ class TrialTransmissionFunction(TransmissionFunction):
         return not np.ndim(self.rows)
 
     def reversed_motion(self) -> TrialTransmissionFunction:
-        """Raise `QuestionError`, because cut teeth are evaluated in the declared sense of rotation only."""
+        """Raise `QuestionError`, because cut teeth are evaluated only in the declared sense of rotation."""
         what, why = "the train turns backwards", "cut teeth are evaluated in the declared sense of rotation only"
         raise QuestionError(Problem(what, why, "give positive turns, or omit the measured teeth"))
 
     def picked(self, columns: Ints) -> TrialTransmissionFunction:
-        """Return the functions of the selected columns; their errors are also recorded in the shared array `last`."""
+        """Return the transmission functions of the selected columns. Their transmission errors are also recorded in the
+        shared array `last`.
+        """
         if self.measured:
             return self
         found = copy(self)
@@ -90,30 +94,32 @@ class TrialTransmissionFunction(TransmissionFunction):
         return self.error_and_speed(S)[1]
 
     def error_moments(self) -> tuple[float, float]:
-        """Return the mean error of perfect wheels [rad] and the rms deviation 0, as superposition of errors requires;
-        for a single trial, the mean and the rms deviation of samples.
+        """Return the mean transmission error of perfect wheels [rad] and the rms deviation 0, as the superposition of
+        errors requires. For a single trial, return the mean and the rms deviation of its samples.
         """
         return (float(self._samples.mean()), float(self._samples.std())) if self.measured else (self.even, 0.0)
 
     def error_range(self) -> tuple[float, float]:
-        """Return infinite limits, because the range is unknown before all trials are evaluated; for a single trial, the
-        limits of samples [rad].
+        """Return infinite limits, because the range of the transmission error is unknown before all trials are
+        evaluated. For a single trial, return the limits of its samples [rad].
         """
         return (float(self._samples.min()), float(self._samples.max())) if self.measured else (-inf, inf)
 
     @cached_property
     def _samples(self) -> Floats:
-        """Errors of a single trial at 64 positions per pitch [rad]."""
+        """Transmission errors of a single trial at 64 positions per pitch [rad]."""
         return self.error(np.linspace(0, self.period, _SAMPLES * self.count, endpoint=False))
 
     def speed_range(self) -> tuple[float, float]:
-        """Return the limits 0 and infinity, because the range is unknown before all trials are evaluated."""
+        """Return the limits 0 and infinity of the speed ratio, because its range is unknown before all trials are
+        evaluated.
+        """
         return 0.0, inf
 
 
 class CutTrialTransmission(TrialTransmissionFunction):
-    """Transmission function of triangular teeth; arrays of a wheel of `pair` have shape (trials, z), or (z,) for all
-    trials.
+    """Transmission function of triangular teeth. The arrays of each wheel of `pair` have shape (trials, z), or (z,) if
+    they are common to all trials.
     """
 
     def __init__(self, pair: CutGearPair, even: float, rows: Ints) -> None:
@@ -139,7 +145,9 @@ class CutTrialTransmission(TrialTransmissionFunction):
         return -lag, self._speed(rows, first, (first - n) * pitch - u)
 
     def _lag(self, rows: Ints, k: Ints, ahead: Floats) -> Floats:
-        """Return the lag of the driven wheel due to tooth pairs k [rad]; inf before contact, constant after it."""
+        """Return the lag of the driven wheel due to tooth pairs k [rad]; inf before contact, and constant after
+        contact.
+        """
         pair, sizes = self.pair, self.pair.sizes
         i, j = k % sizes.z1, k % sizes.z2
         place = of_teeth(pair.first.place, rows, i)
@@ -151,7 +159,7 @@ class CutTrialTransmission(TrialTransmissionFunction):
         return np.where((x <= reach) & (reach > -inf), lag, inf)
 
     def _speed(self, rows: Ints, k: Ints, ahead: Floats) -> Floats:
-        """Return the speed ratio of tooth pairs k; 0 after they have left contact."""
+        """Return the speed ratio of tooth pairs k; 0 after a pair has left contact."""
         i, j = k % self.pair.sizes.z1, k % self.pair.sizes.z2
         x, tooth_pairs = ahead + of_teeth(self.pair.first.place, rows, i), self._tooth_pairs(rows, i, j)
         reach = tooth_pairs.reach

@@ -1,13 +1,14 @@
 """Eccentricity and pitch deviations of a wheel, estimated from measured angles of its teeth.
 
 Let y_j be the angle of tooth j minus j pitches, positive towards later teeth, and gamma_j = 2 pi j / z. Teeth that are
-evenly divided about a centre at the distance e from the axis, in the direction psi, satisfy the first of the equations
+evenly divided about a centre, which is at the distance e from the axis in the direction psi, satisfy the first of these
+equations:
 
     y = c + atan2(E sin(psi - gamma), 1 + E cos(psi - gamma)),      y = c + A cos gamma + B sin gamma + delta,
 
 where E = e / R, and R is the radius of the measured points. The second equation is its first-order approximation with
 deviations delta: E = hypot(A, B) and psi = atan2(A, -B). A and B are estimated by least squares. The deviations delta
-are independent, or follow from division by stepping (`closed_steps`).
+are independent, or result from division by stepping (`closed_steps`).
 """
 
 from __future__ import annotations
@@ -35,9 +36,10 @@ _ROUNDING = 1e-15  # rad: minimum standard deviation, that of the angles of a pe
 
 
 def closed_steps(steps: Any) -> Floats:
-    """Return the deviations of teeth that are marked one from another by steps with the errors `steps`, shape (..., z).
+    """Return the deviations of teeth that are marked out one after another with the step errors `steps`, shape (...,
+    z).
 
-    The sum of all steps is a full turn, so their mean error is divided evenly (Brownian bridge). The mean deviation is
+    The sum of all steps is a full turn, so the mean step error is subtracted (Brownian bridge). The mean deviation is
     0. The covariance is equation (5) of docs/cut-by-hand.md.
     """
     walk = np.cumsum(steps - np.mean(steps, axis=-1, keepdims=True), axis=-1)
@@ -46,7 +48,9 @@ def closed_steps(steps: Any) -> Floats:
 
 
 def stepped_covariance(teeth: Ints, z: int) -> Floats:
-    """Return the covariance matrix of `closed_steps` for some of z teeth, by index, if the steps have variance 1."""
+    """Return the covariance matrix of the deviations that `closed_steps` returns, for the teeth with given indices
+    among z teeth, if the steps have variance 1.
+    """
     apart = np.abs(teeth[:, None] - teeth)
     found: Floats = (z * z - 1) / (12 * z) - apart * (z - apart) / (2 * z)
     return found
@@ -82,24 +86,24 @@ class WheelEstimate(Result):
     numbers: Ints
     """Indices of the measured teeth, from 0."""
     law: DeviationLaw
-    """Assumed deviations of the teeth: independent, or from division by stepping."""
+    """Assumed model of the tooth deviations: independent deviations, or deviations due to division by stepping."""
     coefficients: Floats
     """Mean angle c and coefficients A and B of the first harmonic [rad]."""
     covariance: Floats
     """Covariance matrix of A and B [rad^2]."""
     eccentricity: IntervalEstimate
-    """Eccentricity [1], the square root of the unbiased estimate of its square (at least 0), with its interval."""
+    """Eccentricity [1] with its interval: the square root of the unbiased estimate of its square, at least 0."""
     eccentricity_error: float
     """Standard error of the eccentricity [1]."""
     direction: IntervalEstimate
-    """Direction of the eccentricity from the first tooth to later teeth [rad], with its interval."""
+    """Direction of the eccentricity, measured from the first tooth towards later teeth [rad], with its interval."""
     direction_error: float
     """Standard error of the direction [rad]."""
     deviation: IntervalEstimate
     """Standard deviation of the pitch deviations, or of the steps of the dividers [rad], with its chi-square interval.
     """
     deviation_error: float
-    """Standard error of the standard deviation [rad]."""
+    """Standard error of the estimated standard deviation `deviation` [rad]."""
     cutting_deviation: float
     """Standard deviation as in `deviation`, with the variance of the measurement error subtracted [rad]."""
     residuals: Floats
@@ -107,9 +111,9 @@ class WheelEstimate(Result):
     F: float
     """Statistic of the test for an eccentricity, with 2 and n - 3 degrees of freedom for n measured teeth [1]."""
     p: float
-    """Probability that a wheel without eccentricity has at least this value of F [1]."""
+    """Probability that a wheel without eccentricity has this value of F or a higher one [1]."""
     detectable: float
-    """Eccentricity that would be significant with a probability of 95 % [1]."""
+    """Eccentricity that would be found significant with a probability of 95 % [1]."""
     q: float
     """Von Neumann's ratio of the residuals [1]: about 2 for independent deviations, smaller for division by stepping.
     """
@@ -127,14 +131,14 @@ class WheelEstimate(Result):
 
     @property
     def off(self) -> Floats:
-        """Angle of each measured tooth minus its angle in an even division with the same mean [rad]."""
+        """Angle of each measured tooth minus its angle in an even division with the same mean angle [rad]."""
         gamma = 2 * pi * self.numbers / self.teeth
         found: Floats = self.residuals + self.coefficients[1:] @ [np.cos(gamma), np.sin(gamma)]
         return found
 
     @property
     def fitted(self) -> tuple[float, float]:
-        """Fitted eccentricity, which is biased upwards [1], and its direction [rad]."""
+        """Fitted eccentricity [1], which is biased upwards, and its direction [rad]."""
         _, A, B = self.coefficients.tolist()
         return hypot(A, B), atan2(A, -B)
 
@@ -145,7 +149,7 @@ class WheelEstimate(Result):
 
     @property
     def stepped(self) -> bool:
-        """True if q is below its 5 % point, so that the teeth were probably set off from one another."""
+        """True if q is below its 5 % quantile, so that each tooth was probably marked from the tooth before it."""
         return self.q < self.q_limit
 
 
@@ -200,8 +204,8 @@ def estimate_wheel(
 
 
 def estimate_measured(measured: MeasuredTeeth, count: int) -> WheelEstimate:
-    """Return the estimates from the angles declared for a wheel, with the deviation law that von Neumann's ratio
-    indicates.
+    """Return the estimates from the measured angles declared for a wheel, with the deviation model that von Neumann's
+    ratio indicates.
     """
     angles = [None if each is None else each.si for each in measured.angles or ()]
     return estimate_wheel(angles, count, 0.0 if measured.error is None else measured.error.si)
@@ -264,7 +268,7 @@ def _estimate(numbers: Ints, off: Floats, z: int, error: float, law: DeviationLa
 
 
 def _successive_ratio(step: Floats, ratio: float, n: int) -> tuple[float, float]:
-    """Return von Neumann's ratio, scaled to all n - 1 differences, and its 5 % point for independent deviations.
+    """Return von Neumann's ratio, scaled to all n - 1 differences, and its 5 % quantile for independent deviations.
 
     The ratio is nearly normal, with the moments of a quotient of quadratic forms of normal variables.
     """

@@ -1,4 +1,6 @@
-"""Assembly instructions of an exported folder: its README, the steps in order of height, and their pictures."""
+"""Assembly instructions of an exported folder: its README, the assembly steps in order of height, and their
+pictures.
+"""
 
 from __future__ import annotations
 
@@ -49,7 +51,7 @@ _NEW, _OLD = (series_colour(0), _PAPER.band), (_PAPER.line, "none")  # edge and 
 
 
 def unproved() -> str:
-    """Return the sentence of the README for parts that were not checked, because packages are missing."""
+    """Return the sentence of the README which states that the parts were not checked, because packages are missing."""
     return (
         "**Not proved**: the parts were not turned, because shapely and manifold3d are not installed: "
         f"`{install_command('proof')}`."
@@ -63,7 +65,8 @@ def readme(
     parts: bool,
     proof: TrainProof | None = None,
 ) -> str:
-    """Return the text of the README: verdict on cutting, list of files, parts, assembly, and parts that are missing.
+    """Return the text of the README: verdict on cutting, lists of files, parts and assembly steps, and parts that could
+    not be made.
 
     files     paths and descriptions of the files
     missing   problems with parts that could not be made
@@ -100,13 +103,13 @@ def readme(
 
 
 def _backlashes(work: SolidModel) -> list[str]:
-    """Return the backlash of every pair of cut wheels as the lines of a list."""
+    """Return the lines of a list with the backlash of every pair of cut wheels."""
     found = [f"- {_cell(each.pair)}: {each.length:.4g} mm, {_cell(_angles(each))}" for each in work.blanks.backlashes]
     return ["", "## Backlash of the teeth as cut, along the pitch circles", "", *found] if found else []
 
 
 def _angles(backlash: PairBacklash) -> str:
-    """Return a phrase with the backlash as angles of both wheels, and a note if the pair jams."""
+    """Return a phrase that gives the backlash as an angle of each wheel, and notes if the pair jams."""
     turned = ", ".join(
         f"{degrees(angle):.4g}° of {wheel}" for wheel, angle in zip(backlash.wheels, backlash.angles, strict=True)
     )
@@ -145,7 +148,7 @@ def _cell(text: str) -> str:
 
 
 def _verdict_lines(proof: TrainProof) -> list[str]:
-    """Return the lines with the verdict and all findings."""
+    """Return the lines of the README with the verdict and all findings of the proof."""
     lines = [f"**{'Ready to cut.' if proof.is_ready else 'Not ready to cut.'}**", ""]
     groups: dict[str, list[BuildFinding]] = {}
     for found in proof.findings:
@@ -157,7 +160,7 @@ def _verdict_lines(proof: TrainProof) -> list[str]:
 
 
 def _proof_lines(proof: TrainProof) -> list[str]:
-    """Return the lines with the measured values of the proof, and its method."""
+    """Return the lines of the README with the measured values and the method of the proof."""
     lines = ["", "## Proof on the written outlines", ""]
     lines += [
         f"The drawings were read back, with arcs as chords within {TOLERANCE:g} mm, and the wheels of every mesh were",
@@ -197,14 +200,16 @@ class AssemblyStep(Shown):
     parts: tuple[str, ...]
     """Names of the parts that are added in this step."""
     shown: bool = True
-    """True if the picture of the step shows the parts. Hanging parts are too tall for a picture."""
+    """True if the picture of the assembly step shows the parts; False for hanging parts, which are too tall for a
+    picture.
+    """
 
 
 def assembly_steps(work: SolidModel) -> list[AssemblyStep]:
     """Return the assembly steps of a train, from the arbors to the dials.
 
-    The order is: arbors with their wheels, parts on carriers, the back plate with its studs, all arbors, the front
-    plate, dials.
+    The steps follow this order: arbors with their wheels, parts on carriers, the back plate with its studs, all arbors,
+    the front plate, dials.
     """
     return [] if work.frame is None else list(_Steps(work, work.frame).all())
 
@@ -264,7 +269,9 @@ class _Steps:
         yield AssemblyStep("Before oiling, turn the driving link until the slowest wheel has turned once", ())
 
     def _cross_parts(self) -> Iterator[AssemblyStep]:
-        """Yield the steps for arms of pins, cages of carriers and brackets of arbors across the plates."""
+        """Yield the steps that mount the arms of pins, the cages of carriers and the brackets of arbors across the
+        plates.
+        """
         arms = sorted(name for name in self.known if name.endswith(" pin arm"))
         cages = [part.name for cage in self.work.cages for part in cage.parts]
         brackets = [bracket.part.name for bracket in self.work.brackets]
@@ -280,7 +287,7 @@ class _Steps:
         return AssemblyStep(text, tuple(name for name in parts if name in self.known))
 
     def _column(self, column: AxisColumn) -> Iterator[AssemblyStep]:
-        """Yield the steps that mount wheels on arbors or pipes, and pipes over each other."""
+        """Yield the steps that mount wheels on arbors or pipes, and slide pipes over each other."""
         for member in column.members:
             every = [disc.name for disc in sorted(member.discs, key=lambda disc: disc.low)]
             wheels = [name for name in every if name not in self.plan.cut]
@@ -324,7 +331,9 @@ class _Steps:
                 yield self._step(text, pins)
 
     def _on_eccentrics(self, names: Sequence[str]) -> Iterator[AssemblyStep]:
-        """Yield the steps that mount wheels on eccentrics, after all eccentrics that they need."""
+        """Yield the steps that mount wheels on eccentrics. The eccentrics that a step requires are mounted in earlier
+        steps.
+        """
         every = self.plan.stack.eccentrics
         for each in (each for each in every if each.name in names):
             own = [other.name for other in every if other.wheels == each.wheels]
@@ -336,7 +345,9 @@ class _Steps:
                 yield self._step(text, [*each.wheels, *washers])
 
     def _carried(self) -> Iterator[AssemblyStep]:
-        """Yield the steps for the studs of carriers with the parts that turn on them, in order from the carrier."""
+        """Yield the steps that mount the studs of carriers and the parts that turn on them, beginning next to the
+        carrier.
+        """
         for seat in self.plan.choice.seats:
             own = {
                 label: column
@@ -389,12 +400,12 @@ class _Steps:
 
 
 def picture_path(number: int) -> str:
-    """Return the path of the picture of a step, relative to the folder."""
+    """Return the path of the picture of an assembly step, relative to the exported folder."""
     return f"assembly/{number:02d}.svg"
 
 
 def step_pictures(work: SolidModel) -> Iterator[tuple[str, str, Callable[[], bytes]]]:
-    """Yield path, title and drawing function of the picture of each step that adds parts."""
+    """Yield path, title and drawing function of one picture for each assembly step that adds parts."""
     steps = assembly_steps(work)
     pictures = AssemblyPictures(work, steps) if steps else None
     before: dict[str, None] = {}
@@ -406,7 +417,7 @@ def step_pictures(work: SolidModel) -> Iterator[tuple[str, str, Callable[[], byt
 
 
 class AssemblyPictures:
-    """Pictures of the assembly of one train, in the coordinates of its stack [mm]."""
+    """Pictures of the assembly steps of one train, in the coordinate system of the stacked parts [mm]."""
 
     def __init__(self, work: SolidModel, steps: Sequence[AssemblyStep]) -> None:
         assert work.frame is not None
@@ -416,7 +427,9 @@ class AssemblyPictures:
 
     @cached_property
     def boxes(self) -> dict[str, Floats]:
-        """Minimum and maximum of x (right), y (up) and height of each part [mm], shape (2, 3)."""
+        """Minimum and maximum of x (rightwards), y (upwards) and height of each part [mm], shape (2, 3),
+        keyed by part.
+        """
         found = {}
         for name, part in self.parts.items():
             seen = part.placed.vertices @ self.stack.turn
@@ -425,12 +438,12 @@ class AssemblyPictures:
 
     @cached_property
     def extent(self) -> tuple[Floats, Floats]:
-        """Minimum and maximum coordinates of all parts [mm]."""
+        """Minimum and maximum coordinates over all parts [mm]."""
         boxes = np.array(list(self.boxes.values()))
         return boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)
 
     def draw(self, step: AssemblyStep, number: int, before: Sequence[str]) -> bytes:
-        """Return one step as an SVG file, together with the parts of earlier steps."""
+        """Return the picture of one assembly step as an SVG file. It also shows the parts of earlier steps."""
         low, high = self.extent
         wide, deep, tall = (high - low).tolist()
         gap, margin = _GAP * wide, _MARGIN * wide
@@ -465,7 +478,9 @@ class AssemblyPictures:
         return "\n".join([*lines, "</g></svg>", ""]).encode("utf-8")
 
     def _plan(self, part: SolidPart, corner: Floats, fine: bool) -> Iterator[str]:
-        """Yield the outlines of a part in the top view; turned parts and wheels of earlier steps are circles."""
+        """Yield the outlines of a part in the top view. Turned parts, and wheels of earlier steps, are drawn as
+        circles.
+        """
         low, high = self.extent
         # round parts, and wheels of earlier steps, are drawn as circles
         radius = part.turned.diameter / 2 if part.turned is not None else 0.0
@@ -487,7 +502,9 @@ class AssemblyPictures:
             yield _closed(x, corner[1] + high[1] - np.array([y0, y0, y1, y1]))
 
     def _names(self, step: AssemblyStep, labels: LabelBoxes, corner: Floats) -> Iterator[str]:
-        """Yield the labels of at most `_MOST_NAMED` new parts near their centres, with lines to distant centres."""
+        """Yield the labels of at most `_MOST_NAMED` new parts. A label that is far from the centre of its part is
+        connected to it by a line.
+        """
         low, high = self.extent
         for name in step.parts if len(step.parts) <= _MOST_NAMED else ():
             x, y, _ = self.boxes[name].mean(axis=0)

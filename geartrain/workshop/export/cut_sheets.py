@@ -1,7 +1,7 @@
 """Flat drawings of an export for cutting: wheels, plates, and sheets of stock with all parts.
 
-Wheels of equal shape share one drawing. Outlines are offset outwards, and holes inwards, by half the kerf. On sheets of
-stock, parts are placed in rows, the tallest first.
+Wheels of equal shape share one drawing. Outer edges are offset outwards, and the edges of holes inwards, by half the
+kerf. On sheets of stock, parts are placed in rows, the tallest first.
 """
 
 from __future__ import annotations
@@ -28,19 +28,21 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Sheet:
-    """Drawing of one shape of flat part, or of a sheet of stock with several parts."""
+    """Drawing of one shape of flat part, or of a sheet of stock that contains several parts."""
 
     file: str
-    """Name of the file without suffix, and label of the part on sheets of stock."""
+    """Name of the file without suffix, which is also the label of the part on sheets of stock."""
     drawing: FlatDrawing
     parts: tuple[str, ...]
-    """Names of the parts, with one entry for each piece."""
+    """Names of the parts in the drawing, with one entry for each piece."""
     thickness: float
     """Thickness of the sheet [mm]."""
 
 
 def cut_sheets(work: SolidModel) -> Iterator[tuple[str, FlatDrawing]]:
-    """Yield path (without suffix) and kerf-compensated drawing of each wheel, plate and sheet of stock."""
+    """Yield path (without suffix) and kerf-compensated drawing for each shape of wheel, each plate and each sheet of
+    stock.
+    """
     kerf, plates = work.process.kerf, plate_sheets(work)
     names = file_names(plate.name for plate in plates)
     flat = [("wheels", each) for each in wheel_sheets(work.blanks.wheels)]
@@ -73,7 +75,7 @@ _RESERVED = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\.|$)", re.I)  # file nam
 
 
 def wheel_sheets(blanks: Mapping[str, Blank]) -> tuple[Sheet, ...]:
-    """Return one drawing for each shape of wheel, which all wheels of this shape share."""
+    """Return one drawing for each shape of wheel. Wheels of the same shape share a drawing."""
     alike: dict[object, list[Blank]] = {}
     for blank in blanks.values():
         alike.setdefault(_shape(blank), []).append(blank)
@@ -85,7 +87,7 @@ def wheel_sheets(blanks: Mapping[str, Blank]) -> tuple[Sheet, ...]:
 
 
 def file_names(names: Iterable[str]) -> list[str]:
-    """Return file names that are valid on every file system and unique without regard to case."""
+    """Return file names that are valid on every file system and remain unique if case is ignored."""
     used: set[str] = set()
     found = []
     for name in names:
@@ -129,7 +131,9 @@ def _drawing(group: list[Blank]) -> FlatDrawing:
 
 
 def _holes(blank: Blank) -> list[tuple[complex, float]]:
-    """Return centres and radii [mm] of circles around a wheel's holes except its bore; empty for spoked wheels."""
+    """Return the centres and radii [mm] of circles around the holes of a wheel, except its bore; empty for spoked
+    wheels.
+    """
     own = blank.contours[1:] if blank.kind == "external" else blank.contours[2:]
     found = []
     for hole in own if not blank.arms and blank.kind != "pins" else ():
@@ -144,7 +148,9 @@ def _holes(blank: Blank) -> list[tuple[complex, float]]:
 def _label_off_holes(
     holes: list[tuple[complex, float]], mark: EngravedText, inner: float, outer: float
 ) -> EngravedText:
-    """Return engraved text moved off the holes of a wheel, in the largest size that fits; unchanged if no size fits."""
+    """Return engraved text that is moved off the holes of a wheel, in the largest size that fits. If no size fits, it
+    is returned unchanged.
+    """
 
     def free(at: complex, along: complex, height: float) -> bool:
         half, tall = _LETTER_WIDTH * height * len(mark.text) / 2, height / 2
@@ -202,7 +208,8 @@ _AROUND = 16  # chords per quarter circle around a corner
 
 
 def compensated(drawing: FlatDrawing, kerf: float) -> FlatDrawing:
-    """Return a drawing compensated for a kerf [mm]: outer edges are offset outwards by half a kerf, holes inwards.
+    """Return a drawing compensated for a kerf [mm]: outer edges are offset outwards, and holes inwards, by half the
+    kerf.
 
     Circles remain circles. Other curves are replaced by chords within the tolerance of the drawing, and then offset.
     Raises `GearTrainError` if a hole or slot is narrower than the cut, and `MissingExtraError` if shapely is not
@@ -246,14 +253,14 @@ _CHORD = 0.005  # mm: maximum deviation of chords from a curve
 
 
 def stock_sheets(parts: Iterable[Sheet], size: tuple[float, float], gap: float) -> tuple[Sheet, ...]:
-    """Return all parts laid out on sheets of one size [mm], with parts of one thickness together.
+    """Return all parts laid out on sheets of one size [mm]. Each sheet contains parts of one thickness only.
 
     The algorithm is next-fit decreasing height (Coffman et al. 1980, SIAM J. Comput. 9, 808). Parts are placed in rows,
     the tallest first. A part that does not fit in the row begins the next one, and a row that does not fit begins the
-    next sheet. The longer side of a part is along the width of the sheet if it fits in this orientation, else along
-    its height.
+    next sheet. The longer side of a part is along the width of the sheet if it fits in this orientation, and along the
+    height if it does not.
 
-    gap   minimum distance between parts, and from the edge [mm]
+    gap   minimum distance between parts, and between a part and the edge of the sheet [mm]
 
     Raises `QuestionError` if a part is larger than the sheet.
     """
@@ -269,7 +276,9 @@ def stock_sheets(parts: Iterable[Sheet], size: tuple[float, float], gap: float) 
 
 
 def _fitted_to_sheet(part: Sheet, size: tuple[float, float], gap: float) -> Sheet:
-    """Return a part turned to fit on a sheet, if possible with its longer side along the width of the sheet."""
+    """Return a part rotated so that it fits on a sheet, if possible with its longer side along the width of
+    the sheet.
+    """
     low, high = _box(part.drawing)
     wide, tall = (high - low).tolist()
     room = [side - 2 * gap for side in size]
@@ -283,7 +292,7 @@ def _fitted_to_sheet(part: Sheet, size: tuple[float, float], gap: float) -> Shee
 
 
 def _rows(pieces: list[Sheet], size: tuple[float, float], gap: float) -> Iterator[list[Sheet]]:
-    """Yield the pieces of each sheet, shifted to their positions."""
+    """Yield a list of pieces for each sheet, with the pieces shifted to their positions."""
     boxes = [_box(piece.drawing) for piece in pieces]
     order = sorted(range(len(pieces)), key=lambda at: -float(np.ptp(boxes[at], axis=0)[1]))
     sheet: list[Sheet] = []

@@ -1,4 +1,6 @@
-"""Files of an export: one file by its suffix, or a whole folder; tables of the train as CSV."""
+"""Files of an export: a single file whose format follows from its suffix, or a whole folder. Tables of the train are
+written as CSV.
+"""
 
 from __future__ import annotations
 
@@ -37,10 +39,10 @@ SUFFIXES = {
     **{".graphml": "graphml", ".dot": "dot", ".gv": "dot", ".rexsj": "rexs", ".json": "rexs"},
     **{".rexs": "rexs-xml", ".urdf": "urdf", ".xml": "mjcf"},
 }
-"""Format of an export file of a whole train, by the suffix of the file."""
+"""Mapping from file suffix to the format of an export file of a whole train."""
 
 WHEEL_SUFFIXES = (".svg", ".dxf", ".stl")
-"""Suffixes of files with a single wheel."""
+"""Suffixes of export files that contain a single wheel."""
 
 _NEEDED = {"dxf": ("ezdxf", "dxf"), "step": ("OCP", "step")}  # kind -> (library, extra that installs it)
 _TITLES = {
@@ -69,7 +71,9 @@ class ExportFile(Shown):
 
 
 def installed(kinds: Sequence[str]) -> tuple[list[str], list[Problem]]:
-    """Return the kinds whose libraries are installed, and for each other kind a problem with its install command."""
+    """Return the formats whose libraries are installed, and a problem with the install command for each of the other
+    formats.
+    """
     found, missing = [], []
     for kind in kinds:
         library, extra = _NEEDED.get(kind, ("", ""))
@@ -250,7 +254,7 @@ def _readme(work: SolidModel, files: Sequence[ExportFile], kinds: Sequence[str],
 
 
 def parts_requested(kinds: Sequence[str]) -> bool:
-    """Return True if any of the kinds of files shows parts to make, False otherwise."""
+    """Return True if any of the given formats shows parts to be made, False otherwise."""
     return bool({"svg", "dxf", "stl", "glb", "step"} & set(kinds))
 
 
@@ -313,7 +317,9 @@ def notices(work: SolidModel, kinds: Sequence[str]) -> list[Problem]:
 
 
 def simplifications(work: SolidModel, kind: str) -> list[Problem]:
-    """Return the parts of a train that a format for other programs omits or simplifies; empty for other formats."""
+    """Return a problem for each part that the given format omits or simplifies; empty for formats without
+    such parts.
+    """
     if kind in ("rexs", "rexs-xml"):
         return [*omitted_parts(work)]
     if kind in ("urdf", "mjcf"):
@@ -324,7 +330,7 @@ def simplifications(work: SolidModel, kind: str) -> list[Problem]:
 
 
 def kind_of(name: str) -> str:
-    """Return the kind of export file for a whole train by the suffix of its name.
+    """Return the format of an export file of a whole train, which follows from the suffix of the file name.
 
     Raises `GearTrainError` for an unknown suffix.
     """
@@ -340,19 +346,21 @@ def kind_of(name: str) -> str:
 
 
 def to_tables(work: SolidModel) -> Mapping[str, str]:
-    """Return the tables of a train in CSV format by name: wheels, links, pairs, circuits, couplings, axes, outputs."""
+    """Return the tables of a train in CSV format, keyed by name: wheels, links, pairs, circuits, couplings, axes,
+    outputs.
+    """
     made = (_wheels, _links, _pairs, _circuits, _couplings, _axes, _outputs)
     tables = {make.__name__[1:]: make(work) for make in made}
     return {name: csv_text(head.split(), rows) for name, (head, rows) in tables.items()}
 
 
 def _both(value: Fraction | None) -> tuple[str, str]:
-    """Return a number as an exact and as a decimal string; two empty strings for None."""
+    """Return a number as two strings, one exact and one decimal; two empty strings for None."""
     return ("", "") if value is None else (fraction_text(value), decimal(value, _DIGITS))
 
 
 def _answers(work: SolidModel) -> Iterator[Answer]:
-    """Yield the exact speeds of the train in the selected state, or in every state if none is selected."""
+    """Yield the exact speeds of the train in the selected state, or in each of its states if no state is selected."""
     states = work.train.states if work.state is None else (work.state,)
     return (work.train.solve(state, method="exact") for state in states or (None,))
 
@@ -401,7 +409,9 @@ def _pairs(work: SolidModel) -> tuple[str, Rows]:
 
 
 def _teeth_without_shape(declared: Train) -> Iterator[Problem]:
-    """Yield a notice on the pairs that declare a transmission error instead of the shape of their teeth."""
+    """Yield a notice that names the pairs whose tooth form gives a transmission error instead of a shape, if there are
+    any.
+    """
     forms = {gear.name: declared.form_of(gear) for gear in declared.gears}
     names = [name for name, form in forms.items() if form is not None and not form.has_shape and form.form != "ideal"]
     if names:

@@ -1,8 +1,9 @@
 """Train as a tree of coupled joints for robot and multibody simulators: URDF with mimic joints, and MJCF (MuJoCo).
 
-Every link turns on the link that carries its axis, so the rate of a joint is the difference of their speeds. In URDF
-each joint follows the joint of the input by its exact ratio. In MJCF every gear pair, coupling, brake and lock is an
-equality constraint: of two joints, or of more joints on a fixed tendon. Masses are nominal.
+Every link turns on the link that carries its axis, so the rate of its joint is the speed of the link minus the speed of
+this carrier. In URDF each joint follows the joint of the input by its exact ratio. In MJCF every gear pair, coupling,
+brake and lock is an equality constraint between two joints, or between more joints on a fixed tendon. Masses are
+nominal.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ _INERTIA = "1e-4"  # kg m^2
 
 
 def to_urdf(work: SolidModel) -> str:
-    """Return the train in one state as URDF, in which every joint mimics the joint of the input.
+    """Return the train in one state in URDF format, in which every joint mimics the joint of the input.
 
     Raises `GearTrainError` if the speeds are not determined, or do not follow from one input.
     """
@@ -56,7 +57,9 @@ def to_urdf(work: SolidModel) -> str:
 
 
 def to_mjcf(work: SolidModel) -> str:
-    """Return the train in one state as MJCF, in which every row of its Willis system is an equality constraint."""
+    """Return the train in one state in MJCF format, in which every row of its Willis system is an equality
+    constraint.
+    """
     bodies = _bodies(work)
     root = Element("mujoco", model=work.train.name)
     SubElement(root, "compiler", angle="radian")
@@ -89,7 +92,7 @@ def to_mjcf(work: SolidModel) -> str:
 
 
 def mean_ratios(work: SolidModel) -> Iterator[Problem]:
-    """Yield a problem for each coupling whose ratio varies about the mean that a file of joints contains."""
+    """Yield a problem for each coupling whose ratio varies. Files with joints contain only its mean ratio."""
     why, fix = "the ratio of two coupled joints is a constant", "use .glb or .fmu for its motion"
     for circuit in work.train.circuits:
         if circuit.swings:
@@ -97,7 +100,9 @@ def mean_ratios(work: SolidModel) -> Iterator[Problem]:
 
 
 def _bodies(work: SolidModel) -> Sequence[SceneBody]:
-    """Return the links as bodies. Raises `GearTrainError` if one slides, because only joints that turn are written."""
+    """Return the links as bodies. Raises `GearTrainError` if a link slides, because only rotating joints are
+    written.
+    """
     for link in sorted(work.train.declaration.sliding):
         why = "only revolute joints are written, and the travel of the link is a length per turn"
         raise GearTrainError(Problem(f"link '{link}' slides", why, "choose another format, such as .glb", "-o"))
@@ -105,7 +110,7 @@ def _bodies(work: SolidModel) -> Sequence[SceneBody]:
 
 
 def _rates(work: SolidModel) -> dict[str, Fraction]:
-    """Return the rate of the joint of each link at the declared inputs; empty if speeds are not determined."""
+    """Return the joint rate of each link at the declared inputs; empty if the speeds are not determined."""
     answer, bodies = work.train.solve(work.scene.state, method="exact"), work.scene.bodies
     if not answer.verdict:
         return {}
@@ -115,7 +120,7 @@ def _rates(work: SolidModel) -> dict[str, Fraction]:
 
 
 def _constraints(work: SolidModel) -> Iterator[tuple[str, Mapping[str, Fraction]]]:
-    """Yield the rows of the Willis system, without frame and inputs, as sums of joint rates with their coefficients."""
+    """Yield name and joint-rate coefficients of each row of the Willis system, except the rows of frame and inputs."""
     bodies = {body.id: body for body in work.scene.bodies}
     for equation in work.train.equations(work.scene.state).equations:
         if equation.kind in ("frame", "input"):
@@ -132,7 +137,7 @@ def _constraints(work: SolidModel) -> Iterator[tuple[str, Mapping[str, Fraction]
 
 
 def _metres(body: SceneBody, parent: SceneBody) -> str:
-    """Return the position of the joint of a body [m], relative to the joint of its parent."""
+    """Return the position of the joint of a body relative to the joint of its parent, as text in metres."""
     origin = (0.0, 0.0, 0.0) if parent.parent is None else parent.point
     return _numbers(tuple(each / 1000 for each in minus(body.point, origin)))
 

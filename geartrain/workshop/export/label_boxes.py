@@ -1,4 +1,4 @@
-"""Placement of text on the drawings of an export, so that no two texts overlap."""
+"""Placement of texts on the drawings of an export so that they do not overlap."""
 
 from __future__ import annotations
 
@@ -6,32 +6,33 @@ from dataclasses import dataclass, field
 from math import cos, pi, sin
 
 WIDE = 0.64
-"""Mean width of a letter of a sans-serif font, divided by the font size."""
+"""Mean width of a letter in a sans-serif font, divided by the font size."""
 _TALL = 1.15  # height of a line over the font size
 _WAYS, _RINGS = 16, 40  # directions and distances that are tried
 
 Box = tuple[float, float, float, float]
-"""Left, upper, right and lower edge, with ordinates that increase downwards."""
+"""Left, upper, right and lower edges of a box. Ordinates increase downwards."""
 
 
 @dataclass(slots=True)
 class LabelBoxes:
-    """Boxes of text and of marks on a page, in the unit of the page."""
+    """Occupied boxes of texts and of marks on a page, in the length unit of the page."""
 
     page: Box
     size: float
-    """Font size."""
+    """Font size of the texts, in the length unit of the page."""
     taken: list[Box] = field(default_factory=list)
 
     def box(self, text: str, x: float, y: float) -> Box:
-        """Return the box of a line of text centred at a point."""
+        """Return the box of a line of text that is centred at the point (x, y)."""
         half, tall = WIDE * self.size * len(text) / 2, _TALL * self.size / 2
         return x - half, y - tall, x + half, y + tall
 
     def place(self, text: str, x: float, y: float) -> tuple[float, float]:
-        """Return the centre of a line of text at the nearest free place to a point, and mark it as occupied.
+        """Return the centre of a line of text in the free place that is nearest to the point (x, y), and mark this
+        place as occupied.
 
-        Places are tried at the point and on circles around it. If none is free, the last place is returned.
+        The point itself and points on circles around it are tried. If no place is free, the last point is returned.
         """
         for ring in range(_RINGS):
             for way in range(_WAYS if ring else 1):

@@ -1,7 +1,7 @@
-"""Workshop drawings: plates with a datum and a hole table, and a table of all wheels.
+"""Workshop drawings: a drawing of each plate with a datum and a hole table, and a table of all wheels.
 
-Plates are drawn at full scale (1:1), in mm. Holes have their finished size, without kerf compensation. The datum is the
-centre of a hole, because the edge of a plate has few straight parts.
+Plates are drawn at full scale (1:1), in mm. Holes are drawn in their finished size, without kerf compensation. The
+datum is the centre of a hole, because the edge of a plate has few straight parts.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ _WHEELS = (
 
 
 def maker_sheets(work: SolidModel) -> Iterator[tuple[str, str, Callable[[], bytes]]]:
-    """Yield path, title and function that returns the content of each sheet and of its tables as CSV."""
+    """Yield path, title and content function for each sheet, and for each of its tables as CSV."""
     plates = [] if work.frame is None else [plate for plate in work.frame.plates() if plate.holes]
     for name, plate in zip(file_names(plate.name for plate in plates), plates, strict=True):
         title = f"{plate.name}: holes from a datum, to read"
@@ -55,7 +55,7 @@ def maker_sheets(work: SolidModel) -> Iterator[tuple[str, str, Callable[[], byte
 
 
 def hole_rows(plate: FlatPlate) -> list[tuple[str, ...]]:
-    """Return number, name, coordinates from the datum and diameter of each hole of a plate [mm].
+    """Return number, name, x and y relative to the datum [mm] and diameter [mm] of each hole of a plate, as text.
 
     The datum is the first hole of an axis, or the first hole if the plate has no axis.
     """
@@ -68,12 +68,12 @@ def hole_rows(plate: FlatPlate) -> list[tuple[str, ...]]:
 
 
 def _ordered(plate: FlatPlate) -> list[Hole]:
-    """Return the holes of a plate, beginning with the holes of axes."""
+    """Return the holes of a plate. The holes for axes come first."""
     return sorted(plate.holes, key=lambda hole: hole.name in _NO_AXIS)
 
 
 def wheel_rows(work: SolidModel) -> list[tuple[str, ...]]:
-    """Return the sizes of each shape of wheel [mm]: transverse module and diameters; the inside diameter of a ring is
+    """Return the sizes of each shape of wheel [mm]: transverse module and diameters. The inside diameter of a ring is
     its tip diameter.
     """
     rows = []
@@ -90,7 +90,7 @@ def wheel_rows(work: SolidModel) -> list[tuple[str, ...]]:
 
 
 def _mm(length: float) -> str:
-    """Return a length in mm with four decimals at most."""
+    """Return a length [mm] as text with at most four decimals."""
     return f"{round(length, 4) + 0.0:.4f}".rstrip("0").rstrip(".")
 
 
@@ -122,7 +122,7 @@ def plate_sheet(work: SolidModel, plate: FlatPlate) -> bytes:
 
 
 def wheel_sheet(work: SolidModel) -> str:
-    """Return the table of all wheels as SVG, with a title block."""
+    """Return a drawing sheet with the table of all wheels and a title block, as SVG."""
     found = wheel_rows(work)
     used = [at for at in range(len(_WHEELS)) if any(row[at] for row in found)]
     header, *rows = [[row[at] for at in used] for row in (_WHEELS, *found)]
@@ -133,7 +133,7 @@ def wheel_sheet(work: SolidModel) -> str:
 
 
 def _marks(plate: FlatPlate, origin: tuple[float, float], page: tuple[float, float, float, float]) -> Iterator[str]:
-    """Yield the centre cross and number of each hole, and the axes of the datum at the first hole."""
+    """Yield a centre cross and the number for each hole, and the coordinate axes of the datum at the first hole."""
     labels, spots = LabelBoxes(page, _SIZE), []
     for hole in _ordered(plate):
         x, y, reach = origin[0] + hole.at[0], origin[1] - hole.at[1], hole.diameter / 2 + 0.5
@@ -153,7 +153,7 @@ def _marks(plate: FlatPlate, origin: tuple[float, float], page: tuple[float, flo
 
 
 def _table(header: Sequence[str], rows: Rows, left: float, top: float) -> tuple[list[str], float]:
-    """Return the texts and rules of a table, and its width [mm]; the first column is flush left."""
+    """Return the drawn texts and lines of a table, and its width [mm]. The first column is left-aligned."""
     every = [header, *rows]
     widths = [WIDE * _SIZE * max(map(len, column)) + _SIZE for column in zip(*every, strict=True)]
     ends = left + np.cumsum(widths)
@@ -180,7 +180,7 @@ def _text(text: str, x: float, y: float, style: str = "") -> str:
 
 
 def _page(work: SolidModel, part: str, what: str, remark: str, size: tuple[float, float], lines: Sequence[str]) -> str:
-    """Return a page with a title block below its contents; it is as wide as the block requires."""
+    """Return a page with a title block below its contents. The page is at least as wide as the title block."""
     declared = work.train.declaration
     title = f"{declared.name}: {declared.title}" if declared.title else declared.name
     block = [title, f"{part}; {what}", f"lengths in mm; process: {work.process.name}", remark]

@@ -1,4 +1,4 @@
-"""List of parts of an export: count, material, size, mass and fits of each part; also as CSV."""
+"""List of the parts of an export, with count, material, size, mass and fits of each part; also in CSV format."""
 
 from __future__ import annotations
 
@@ -24,22 +24,22 @@ _SAME = 4  # decimals of a mm to which sizes are rounded and compared
 
 @dataclass(frozen=True, slots=True)
 class ListedPart(Shown):
-    """Row of a parts list, for all parts of the same shape."""
+    """Row of a parts list, which describes all parts of the same shape."""
 
     names: tuple[str, ...]
     """Names of the parts of this shape."""
     kind: str
-    """Kind of the parts: wheel, plate, arbor, pipe, eccentric, stud, collar, spacer, collet, barrel, pillar, post,
-    cock, pin, rod, bob or weight.
+    """Kind of part: wheel, plate, arbor, pipe, eccentric, stud, collar, spacer, collet, barrel, pillar, post, cock,
+    pin, rod, bob or weight.
     """
     material: str
     """Name of the material from which the mass is computed."""
     size: str
-    """Diameter and length of turned parts, or thickness of flat parts [mm], as a string."""
+    """Text with diameter and length of turned parts, or thickness of flat parts [mm]."""
     mass: float
     """Mass of one part [g]."""
     fits: str
-    """Description of the holes or seats, and of the method of joining; empty if there is none."""
+    """Description of the holes or seats of the part and of the joining method; empty if there are none."""
 
     @property
     def count(self) -> int:
@@ -65,7 +65,9 @@ def parts_list(work: SolidModel) -> list[ListedPart]:
 
 
 def material_of(work: SolidModel, part: SolidPart) -> str:
-    """Return the name of the material of a part, as declared or by its kind and the manufacturing process."""
+    """Return the name of the material of a part: as declared, or typical of its kind and of the manufacturing
+    process.
+    """
     declared = work.train.declaration
     wheel = _wheel(work, part)
     own = None if wheel is None else wheel.material or declared.material
@@ -94,7 +96,9 @@ def _density(work: SolidModel, part: SolidPart, material: str) -> float:
 
 
 def _volume(part: SolidPart) -> float:
-    """Return the volume of a part [mm3], exact for turned and flat parts, otherwise from its triangles."""
+    """Return the volume of a part [mm3]. It is exact for turned and flat parts, and computed from triangles for other
+    parts.
+    """
     if part.turned is not None:
         return part.turned.volume
     if part.contours:
@@ -129,14 +133,16 @@ def _fits(work: SolidModel, part: SolidPart) -> Iterator[str]:
 
 
 def _eccentric_of(work: SolidModel, wheel: str) -> str:
-    """Return a phrase on the eccentric on which a wheel turns or by which it is bent; empty if there is none."""
+    """Return a phrase that names the eccentric on which a wheel turns or which deforms the wheel; empty if there is
+    none.
+    """
     own = () if work.frame is None else work.frame.plan.stack.eccentrics
     on = next((each for each in own if wheel in each.wheels), None)
     return "" if on is None else f"{'turns on' if on.wave is None else 'bent by'} {on.name}"
 
 
 def to_csv(rows: Iterable[ListedPart]) -> str:
-    """Return the parts list in CSV format, with one row for each shape."""
+    """Return the parts list in CSV format, with one row for all parts of the same shape."""
     head = ("part", "count", "kind", "material", "size_mm", "mass_g", "fits")
     return csv_text(
         head,

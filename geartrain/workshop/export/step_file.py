@@ -1,4 +1,4 @@
-"""Assembly as STEP: wheels and plates extruded from their outlines, with exact arcs, names and positions."""
+"""Assembly in STEP format: wheels and plates are extruded from their outlines, with exact arcs, names and positions."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _DATE = re.compile(rb"'\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d'")  # replaced, so that th
 
 
 def to_step(work: SolidModel) -> bytes:
-    """Return the assembly in the zero pose as a STEP file in mm, without the parts in `omitted`.
+    """Return the assembly in the zero pose as a STEP file in mm. The parts listed by `omitted` are not included.
 
     Raises `MissingExtraError` if the library that writes STEP is not installed.
     """
@@ -43,7 +43,7 @@ def to_step(work: SolidModel) -> bytes:
 
 
 def omitted(work: SolidModel) -> tuple[Problem, ...]:
-    """Return a problem for each part that has no exact shape and is therefore omitted."""
+    """Return a problem for each part that has no exact shape and is therefore omitted from the STEP file."""
     why = "its shape is approximated by triangles, and STEP needs an exact shape"
     return tuple(
         Problem(f"'{part.name}' is not included in the STEP file", why, "use the GLB or STL file")
@@ -80,7 +80,7 @@ def _write(name: str, parts: Sequence[SolidPart]) -> bytes:
 
 
 def _assemble(document: Any, name: str, parts: Sequence[SolidPart]) -> None:
-    """Add one shape for each group of equal parts, and one component for each part."""
+    """Add one shape to the document for each group of equal parts, and one component for each part."""
     from OCP.XCAFDoc import XCAFDoc_DocumentTool
 
     tool = XCAFDoc_DocumentTool.ShapeTool_s(document.Main())
@@ -137,7 +137,9 @@ def _shape(part: SolidPart) -> Any:
 
 
 def _revolved(part: TurnedPart) -> Any:
-    """Return a solid of revolution about the z axis; several pieces of one part become a compound."""
+    """Return a part as a solid of revolution about the z axis. If it consists of several pieces, they form a
+    compound.
+    """
     from OCP.BRep import BRep_Builder
     from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeFace, BRepBuilderAPI_MakePolygon
     from OCP.BRepPrimAPI import BRepPrimAPI_MakeRevol
@@ -185,7 +187,7 @@ def _wire(contour: Contour, height: float) -> Any:
 
 
 def _curve(line: Floats, height: float) -> Any:
-    """Return a B-spline with few poles through the points of a flank."""
+    """Return a B-spline curve with few poles that passes through the points of a flank."""
     from OCP.GeomAbs import GeomAbs_C1
     from OCP.GeomAPI import GeomAPI_PointsToBSpline
     from OCP.gp import gp_Pnt
@@ -202,7 +204,7 @@ def _curve(line: Floats, height: float) -> Any:
 
 
 class _Arc(NamedTuple):
-    """Circular arc by its start, middle and end point."""
+    """Circular arc, defined by its start, middle and end points."""
 
     start: Floats
     middle: Floats
@@ -210,7 +212,7 @@ class _Arc(NamedTuple):
 
 
 def _edges(contour: Contour) -> Iterator[Floats | _Arc]:
-    """Yield the edges of a contour in order: arcs, chords (two points), and smooth runs of more points."""
+    """Yield the edges of a contour in order: arcs, chords (two points), and smooth curves (more than two points)."""
     apart = np.linalg.norm(np.roll(contour.points, -1, axis=0) - contour.points, axis=1) > _POINT
     points, bulges = contour.points[apart], contour.bulges[apart]
     count = len(points)
@@ -234,7 +236,7 @@ def _edges(contour: Contour) -> Iterator[Floats | _Arc]:
 
 
 def _smooth(line: Floats) -> Iterator[Floats]:
-    """Yield the parts of a line between its corners; parts that would need many chords remain smooth runs."""
+    """Yield the parts of a line between its corners. A part that would need many chords is a single smooth curve."""
     steps = np.diff(line, axis=0)
     turn = np.diff(np.unwrap(np.arctan2(steps[:, 1], steps[:, 0])))
     ends = [0, *(np.flatnonzero(abs(turn) > _CORNER) + 1).tolist(), len(line) - 1]

@@ -1,9 +1,9 @@
 """Triangle meshes: binary STL in mm, and the animated assembly as binary glTF (GLB) in metres.
 
-A GLB file has one node for each body, whose rotation is animated, and below it one node for each part of the body.
-Vertices are quantised (glTF extension KHR_mesh_quantization). Positions are 16-bit multiples of a step about the middle
-of the bounding box; the step is the largest extent of the part divided by 65534. Normals are 8-bit. The node of a part
-contains the transform from steps to mm, so that parts of equal shape share one mesh.
+A GLB file has one node for each body, whose rotation is animated, and child nodes for the parts of the body. Vertices
+are quantised (glTF extension KHR_mesh_quantization). Positions are 16-bit integer multiples of a length increment,
+relative to the middle of the bounding box. The increment is the largest extent of the part divided by 65534. Normals
+are 8-bit. The node of a part contains the transform from increments to mm, so that parts of equal shape share one mesh.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ _TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attrib
 
 
 def to_stl(solid: Solid, name: str) -> bytes:
-    """Return a solid as a binary STL file; its header contains the name."""
+    """Return a solid as a binary STL file, with the name in its header."""
     corners = solid.vertices[solid.faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     length = np.linalg.norm(normals, axis=1, keepdims=True)
@@ -60,7 +60,9 @@ _COLOURS: dict[str, tuple[float, float, float]] = {
 _VERTEX = np.dtype(
     {"names": ["position", "normal"], "formats": [("<i2", 3), ("i1", 3)], "offsets": [0, 8], "itemsize": 12}
 )
-"""Data type of a vertex: position and normal, each at a multiple of four bytes, as glTF requires."""
+"""Data type of a vertex, consisting of position and normal. Each begins at a multiple of four bytes, as glTF
+requires.
+"""
 
 _BYTE, _SHORT, _UNSIGNED_SHORT, _UNSIGNED_INT, _FLOAT = 5120, 5122, 5123, 5125, 5126  # component types
 _VERTICES, _INDICES, _KEYS = range(3)  # the buffer views
@@ -83,24 +85,24 @@ class _GlbFile:
     shared: dict[object, int] = field(default_factory=dict)  # numbers of accessors and meshes, by their content
 
     def append(self, view: int, values: np.ndarray[Any, Any]) -> int:
-        """Append an array to a buffer view, padded to a multiple of four bytes; return its offset [byte]."""
+        """Append an array, padded to a multiple of four bytes, to a buffer view and return its offset [byte]."""
         start, raw = len(self.views[view]), values.tobytes()
         self.views[view].extend(raw + b"\0" * (-len(raw) % 4))
         return start
 
     def accessor(self, view: int, start: int, count: int, kind: str, component: int, **more: Any) -> int:
-        """Add an accessor of `count` elements of a buffer view; return its index."""
+        """Add an accessor for `count` elements of a buffer view, and return its index."""
         own = {"bufferView": view, "byteOffset": start, "componentType": component, "count": count, "type": kind}
         self.accessors.append(own | more)
         return len(self.accessors) - 1
 
     def node(self, **content: Any) -> int:
-        """Add a node; return its index."""
+        """Add a node with the given content, and return its index."""
         self.nodes.append(content)
         return len(self.nodes) - 1
 
     def to_bytes(self, name: str, root: int) -> bytes:
-        """Return the file: a header, the JSON chunk and the binary chunk (glTF 2.0, section 4.4)."""
+        """Return the bytes of the file: a header, the JSON chunk and the binary chunk (glTF 2.0, section 4.4)."""
         data, views = b"", []
         for each, more in zip(self.views, _VIEWS, strict=True):
             own = each or bytes(4)  # glTF does not allow an empty view
@@ -128,7 +130,9 @@ class _GlbFile:
 
 
 def to_glb(work: SolidModel, turns: Fraction | None = None) -> bytes:
-    """Return the assembly as a GLB file with its motion over `turns` turns of the driving link (see `Keyframes.of`)."""
+    """Return the assembly as a GLB file with its motion over `turns` turns of the driving link. See `Keyframes.of` for
+    the default.
+    """
     file, bodies = _GlbFile(), work.scene.bodies
     points = [np.array(body.point) for body in bodies]
     for body, point in zip(bodies, points, strict=True):
@@ -170,7 +174,9 @@ def _material(part: SolidPart) -> int:
 
 
 def _part(file: _GlbFile, part: SolidPart, origin: Floats) -> int:
-    """Add the node of a part below the node of its body, whose origin is `origin` [mm]; return its index."""
+    """Add the node of a part as a child of the node of its body, whose origin is `origin` [mm], and return
+    its index.
+    """
     solid = part.solid
     low, high = solid.vertices.min(axis=0), solid.vertices.max(axis=0)
     middle, step = (low + high) / 2, float((high - low).max()) / _STEPS
@@ -182,7 +188,9 @@ def _part(file: _GlbFile, part: SolidPart, origin: Floats) -> int:
 
 
 def _vertices(solid: Solid, steps: np.ndarray[Any, Any]) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
-    """Return the vertices of a mesh and their indices in its triangles; vertices with equal normals are merged."""
+    """Return the vertices of a mesh, and the vertex indices of its triangles. Vertices with equal positions and normals
+    are merged.
+    """
     corners, at = solid.vertices[solid.faces], solid.faces.reshape(-1).astype(np.int64)
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     length = np.linalg.norm(normals, axis=1, keepdims=True)
@@ -199,7 +207,9 @@ def _vertices(solid: Solid, steps: np.ndarray[Any, Any]) -> tuple[np.ndarray[Any
 
 
 def _mesh(file: _GlbFile, part: SolidPart, vertices: np.ndarray[Any, Any], indices: np.ndarray[Any, Any]) -> int:
-    """Return the index of the mesh with the given triangles and the material of the part; add it if it is new."""
+    """Return the index of the mesh with the given triangles and the material of the part. The mesh is added if it does
+    not exist.
+    """
     shape, material = (vertices.tobytes(), indices.tobytes()), _material(part)
     if shape not in file.shared:
         start, positions = file.append(_VERTICES, vertices), vertices["position"]
@@ -218,7 +228,7 @@ def _mesh(file: _GlbFile, part: SolidPart, vertices: np.ndarray[Any, Any], indic
 
 
 def _animate(file: _GlbFile, work: SolidModel, turns: Fraction | None) -> None:
-    """Add the animation of the rotation or travel of each body relative to its parent."""
+    """Add an animation of the rotation or translation of each body relative to its parent."""
     turning = Keyframes.of(work, turns)
     if turning is None:
         return
@@ -266,24 +276,26 @@ _LONGEST = 120.0  # maximum duration [s]
 
 @dataclass(frozen=True)
 class Keyframes:
-    """Motion of an animation: speeds of the bodies, and duration."""
+    """Motion in an animation: speeds of the bodies, and duration."""
 
     work: SolidModel
     turns: Fraction
-    """Revolutions of the driving link."""
+    """Number of turns of the driving link in the animation."""
     seconds: float
     """Duration of the animation [s]."""
     speeds: tuple[Fraction | None, ...]
-    """Speed of each body relative to its parent divided by the speed of the driving link; None if undetermined."""
+    """Speed of each body relative to its parent, divided by the speed of the driving link; None if it is
+    undetermined.
+    """
     ripples: bool
     _found: dict[int, Floats] = field(default_factory=dict, repr=False, compare=False)
 
     @classmethod
     def of(cls, work: SolidModel, turns: Fraction | None = None) -> Keyframes | None:
-        """Return the motion of a train over `turns` turns of the driving link; None if nothing turns.
+        """Return the motion of a train over `turns` turns of the driving link, or None if nothing turns.
 
-        The default is one period. If the period is long, it is ten turns, or the maximum number of turns if that is
-        smaller.
+        The default is one period of the motion. If the period is long, the default is ten turns, or the maximum number
+        of turns if this is smaller.
         """
         scene = work.scene
         if scene.movement.kind == "still" or scene.driving_link is None:
@@ -311,7 +323,9 @@ class Keyframes:
         return cls(work, turns, seconds, speeds, ripples)
 
     def keys(self, body: int) -> int:
-        """Return the number of intervals between key frames of a body; 0 if it is fixed relative to its parent."""
+        """Return the number of intervals between the key frames of a body; 0 if the body is fixed relative to its
+        parent.
+        """
         speed = self.speeds[body]
         if self.work.scene.bodies[body].travels and not self.ripples:
             return 1 if speed else 0
@@ -335,7 +349,7 @@ class Keyframes:
         return found
 
     def _errors(self, count: int) -> Floats:
-        """Return the errors of body angles due to teeth and pins [rad], shape (bodies, count + 1)."""
+        """Return the transmission errors of the bodies due to teeth and pins [rad], shape (bodies, count + 1)."""
         bodies = self.work.scene.bodies
         if not self.ripples:
             return np.zeros((len(bodies), count + 1))

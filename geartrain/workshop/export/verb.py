@@ -1,4 +1,4 @@
-"""Command `geartrain export`: files for manufacturing and for other tools."""
+"""Command `geartrain export`: write files for manufacturing and for other programs."""
 
 from __future__ import annotations
 
@@ -160,14 +160,14 @@ def run(
 
 
 def _refuse(given: Mapping[str, object], what: str, why: str, fix: str) -> None:
-    """Raise `GearTrainError` if an option is given that does not apply to the requested file."""
+    """Raise `GearTrainError` if any given option does not apply to the requested file."""
     for option, value in given.items():
         if value is not None:
             raise GearTrainError(Problem(f"{option} {what}", why, fix, option))
 
 
 def _unit(file: str, state: str | None, of_time: Mapping[str, Any], to: Sink) -> None:
-    """Write a functional mock-up unit (FMU) for co-simulation, and exit."""
+    """Write a functional mock-up unit (FMU) for co-simulation, and end the command."""
     from geartrain.analysis.gear_train import load
 
     simulation = wing("simulation")
@@ -196,7 +196,7 @@ def _sizes(given: Mapping[str, Size], process: str | None, spokes: int | None, s
 
 
 def _sheet(text: str) -> tuple[float, float]:
-    """Parse the width and height [mm] of a sheet, written as 300x200mm."""
+    """Parse the width and height of a sheet [mm] from text such as 300x200mm."""
     sides = text.lower().replace("×", "x").split("x")
     unit = sides[-1].strip().lstrip("0123456789.+-/ e")
     if len(sides) != 2 or not unit:
@@ -228,7 +228,7 @@ def _write_one(work: SolidModel, out: Path, wheel: str | None, turns: Fraction |
 def _write_folder(
     work: SolidModel, to: Path, kinds: str | None, wheel: str | None, turns: Fraction | None, force: bool
 ) -> bool:
-    """Write all files of an export, and return False if its parts are proved not to be ready to cut."""
+    """Write all files of an export. Return False if its parts are proved not to be ready to cut, True otherwise."""
     from geartrain.numerics.files import check_folder, write_folder
     from geartrain.workshop.export.assembly_guide import unproved
     from geartrain.workshop.export.file_set import KINDS, export_files, installed, notices, parts_requested
@@ -256,7 +256,9 @@ def _write_folder(
 
 
 def _proof(work: SolidModel) -> TrainProof | None:
-    """Run the proof of the train, with a progress bar if it takes long; None if its libraries are not installed."""
+    """Return the proof of the train, or None if its libraries are not installed. A progress bar is shown if it takes
+    long.
+    """
     from geartrain.workshop.export.proof import proof_is_installed, proof_steps, prove_train
 
     if not proof_is_installed():
@@ -273,7 +275,7 @@ def _print_notices(problems: Sequence[Problem]) -> None:
 
 
 def _with_progress(files: Iterable[tuple[str, bytes]], count: int) -> Iterator[tuple[str, bytes]]:
-    """Yield the same files, with a progress bar if writing them takes long."""
+    """Yield the given files unchanged, and show a progress bar if writing them takes long."""
     with progress("export", count, _PATIENCE) as bar:
         for each in files:
             yield each

@@ -1,7 +1,7 @@
 """Input data of feasibility trials: cutting errors, friction, torque limit at the crank, strength of loaded parts.
 
-Stresses are proportional to the torques of gear pairs. They are computed once, under the declared loads, and scaled by
-the torques of each trial.
+Stresses are proportional to the torques of gear pairs. Stresses are computed once for the declared loads, and then
+scaled by the torques of each trial.
 """
 
 from __future__ import annotations
@@ -32,9 +32,8 @@ _SAMPLES = 2_000  # positions of the input in a run
 
 
 def wedge_torque(torque: float, front: tuple[float, float], back: tuple[float, float]) -> float:
-    """Return the torque that the flanks of a jammed pair exert on its driven wheel [unit of `torque`],
-    docs/cut-by-hand.md, equation (7); 0 if the pair releases itself. Equal ratios without friction give an infinite
-    torque.
+    """Return the torque that the flanks of a jammed pair exert on its driven wheel [unit of `torque`] by equation (7)
+    of docs/cut-by-hand.md; 0 if the pair releases itself. Equal ratios without friction give an infinite torque.
 
     torque        torque on the driver
     front, back   ratio of driven to driver speed, and efficiency, of each flank; at the back the driven wheel drives
@@ -48,8 +47,8 @@ def wedge_torque(torque: float, front: tuple[float, float], back: tuple[float, f
 
 
 def _pivot_stress(sizes: ArborSizes, pressure: float) -> float:
-    """Return the bending stress [MPa] of a pivot with diameter d and length l, 16 F l / (pi d^3), where the force F is
-    d l times the pressure on the projected area [MPa].
+    """Return the bending stress of a pivot of diameter d and length l [MPa], 16 F l / (pi d^3). The force F is the
+    pressure on the projected area [MPa] times d l.
     """
     diameter = 1e3 * (sizes.pivot or sizes.diameter).si
     length = diameter if sizes.pivot_length is None else 1e3 * sizes.pivot_length.si
@@ -57,7 +56,7 @@ def _pivot_stress(sizes: ArborSizes, pressure: float) -> float:
 
 
 class PairLoads(NamedTuple):
-    """Torque at the crank [N m], and the torque on the driven wheel [N m] and the efficiency of each gear pair."""
+    """Torque at the crank [N m], and the torque on the driven wheel [N m] and the efficiency [1] of each gear pair."""
 
     crank: float
     driven: Mapping[str, float]
@@ -66,11 +65,11 @@ class PairLoads(NamedTuple):
 
 @dataclass(frozen=True)
 class LoadedPart:
-    """Tooth of a wheel, or arbor with its pivots, that may break.
+    """Tooth of a wheel, or arbor with its pivots, which may break under load.
 
     strength   median of the strength [MPa]; `spread` is the standard deviation of its logarithm
-    stress     stress under the declared loads [MPa]; `loads` are the torques on the driven wheels under these loads [N
-               m], by pair
+    stress     stress under the declared loads [MPa]; `loads` are the torques on the driven wheels of the pairs under
+               these loads [N m]
     """
 
     name: str
@@ -81,8 +80,8 @@ class LoadedPart:
     loads: Mapping[str, float]
 
     def stresses(self, torques: Mapping[str, Floats | float]) -> Floats:
-        """Return the stress [MPa] under other torques of the pairs [N m]; an upper bound if several pairs load the
-        part.
+        """Return the stress of the part under other torques of the pairs [MPa]. The torques [N m] are keyed by pair.
+        The result is an upper bound if several pairs load the part.
         """
         ratios = [np.asarray(torques[name]) / own for name, own in self.loads.items() if own and name in torques]
         found: Floats = self.stress * np.max(ratios, axis=0) if ratios else np.zeros(1)
@@ -91,7 +90,7 @@ class LoadedPart:
 
 @dataclass(frozen=True)
 class FeasibilityPlan:
-    """Input data of feasibility trials of a train in one state; `find_feasibility_plan` describes the fields."""
+    """Input data of feasibility trials of a train in one state. The fields are described in `find_feasibility_plan`."""
 
     cutting: TrialPlan
     declared: Train
@@ -101,27 +100,31 @@ class FeasibilityPlan:
 
     @cached_property
     def train(self) -> GearTrain:
-        """Train as declared."""
+        """Gear train as declared, without random changes."""
         return _train(self.declared)
 
     @cached_property
     def crank(self) -> str:
-        """Link whose torque is computed: the crank, or the input."""
+        """Name of the link whose torque is computed: the crank or, if there is none, the driving link."""
         return self.declared.crank or self.cutting.driving_link
 
     @cached_property
     def torques(self) -> Torques:
-        """Torques under the declared loads, without spreads."""
+        """Torques under the declared loads, with nominal friction."""
         return self.train.torques(self.state)
 
     @cached_property
     def nominal(self) -> PairLoads | None:
-        """Torques without spreads; None if no loads with a unit are declared, or if they do not give the torques."""
+        """Torques with nominal friction; None if no loads with a unit are declared, or if the loads do not determine
+        the torques.
+        """
         known = self.declared.is_loaded(self.state) and self.declared.has_torque_units(self.state)
         return self.loads(self.train) if known else None
 
     def loads(self, train: GearTrain) -> PairLoads | None:
-        """Return the torques of a train, infinite if friction locks it; None if the loads do not determine them."""
+        """Return the torques of a train, or None if the loads do not determine them. They are infinite if friction
+        locks the train.
+        """
         found = train.torques(self.state)
         crank = found.external.get(self.crank)
         if found.verdict.kind in ("self-locking", "stalled"):
@@ -138,7 +141,7 @@ class FeasibilityPlan:
         return PairLoads(inf if run.maximum is None else run.maximum.torque, {**driven, **maxima}, shares)
 
     def drawn_loads(self, seed: int, trial: int) -> PairLoads | None:
-        """Return the torques with the friction of one trial; None if no loads are declared."""
+        """Return the torques with the random friction of one trial, or None if no loads are declared."""
         if self.nominal is None or not friction_spreads(self.declared):
             return self.nominal
         return self.loads(_train(draw_friction(self.declared, seed, trial, self.per_part)))
@@ -168,7 +171,9 @@ class FeasibilityPlan:
             yield LoadedPart(name, material, known.strength.si / 1e6, float(known.spread.value), stress, loads)
 
     def strengths(self, seed: int, trials: int) -> Floats:
-        """Return the strength of each part in each trial, lognormal, shape (trials, parts) [MPa]."""
+        """Return the strength of each part in each trial [MPa], drawn from lognormal distributions, shape (trials,
+        parts).
+        """
         materials, found = sorted({part.material for part in self.parts}), np.zeros((trials, len(self.parts)))
         for at, part in enumerate(self.parts):
             item = at if self.per_part else materials.index(part.material)
@@ -176,7 +181,9 @@ class FeasibilityPlan:
         return found
 
     def hands(self, seed: int, trials: int) -> Floats | None:
-        """Return the maximum torque at the crank in each trial, shape (trials,) [N m]; None if no drive limits it."""
+        """Return the maximum torque at the crank in each trial [N m], shape (trials,), or None if no drive limits the
+        torque.
+        """
         drive = self.declared.case(self.state).drive
         if drive is None or drive.steady_torque is None:
             return None
@@ -186,8 +193,9 @@ class FeasibilityPlan:
         return low + (high - low) * _drawn("random", seed, trials, 0, HAND)
 
     def held(self, pair: str) -> Mapping[str, float]:
-        """Return the torque on the driven wheel of each pair for a unit torque at the crank while the driven link of
-        one pair is held, without losses; empty if the torques are not determined.
+        """Return a mapping from pair to the torque on its driven wheel for a unit torque at the crank, while the driven
+        link of the pair `pair` is held fixed. Losses are neglected. The mapping is empty if the torques are not
+        determined.
         """
         gear = self.torques.pairs.get(pair)
         if gear is None or gear.driver not in self.declared.wheels:
@@ -204,7 +212,9 @@ class FeasibilityPlan:
         return {name: each / abs(float(torque)) for name, each in _driven_torques(train, found) if each}
 
     def at_accuracy(self, degrees: float) -> TrialPlan:
-        """Return the plan of the trials with normal pitch deviations of another standard deviation [deg]."""
+        """Return the plan of trials in which pitch deviations are normally distributed with the given standard
+        deviation [deg].
+        """
         wheels = tuple(
             replace(w, errors={**w.errors, "pitch_deviation": ErrorSpecification(radians(degrees) / w.pitch, "normal")})
             for w in self.cutting.wheels
@@ -219,7 +229,9 @@ def _train(declared: Train) -> GearTrain:
 
 
 def _drawn(law: str, seed: int, trials: int, item: int, kind: int) -> Floats:
-    """Return random numbers of a stream, from whole blocks, so that they do not depend on the number of trials."""
+    """Return the random numbers of one stream. Whole blocks are drawn, so that the numbers do not depend on the number
+    of trials.
+    """
     blocks = (RandomStreams(seed, block).rng(item, kind) for block in range(-(-trials // BLOCK)))
     found: Floats = np.concatenate([getattr(rng, law)(BLOCK) for rng in blocks])[:trials]
     return found
@@ -234,7 +246,7 @@ def _driven_torques(train: GearTrain, found: Torques) -> Iterator[tuple[str, flo
 
 
 def _lossless(declared: Train) -> Train:
-    """Return the train without friction and with efficiencies of 1."""
+    """Return the train without friction, and with all efficiencies equal to 1."""
 
     def without(part: object, *keys: str) -> object:
         return part.model_copy(update={key: None for key in keys if key in type(part).model_fields})  # type: ignore[attr-defined]

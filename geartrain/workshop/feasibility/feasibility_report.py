@@ -1,4 +1,6 @@
-"""Report on the feasibility of a train: outcomes, crank torque, accuracy, pointer errors; plot of the accuracies."""
+"""Report on the feasibility of a train (outcomes, crank torque, accuracy, pointer errors), and plot of the probability
+of turning.
+"""
 
 from __future__ import annotations
 
@@ -77,7 +79,9 @@ def _torque_text(figure: IntervalEstimate) -> str:
 
 
 def feasibility_figure(found: FeasibilityResult) -> Figure:
-    """Draw the probability that a train turns against its accuracy. Raises `QuestionError` if there is no curve."""
+    """Draw the probability that a train turns as a function of its accuracy. Raises `QuestionError` if no accuracies
+    were computed.
+    """
     from geartrain.drawing.style import headed, name_axes
     from geartrain.workshop.monte_carlo.monte_carlo_plots import probability_figure
 

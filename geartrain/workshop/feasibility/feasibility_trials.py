@@ -1,6 +1,7 @@
-"""Trials of feasibility. Each trial draws errors of all wheels, friction, strengths of metals, and the torque limit.
+"""Feasibility trials. In each trial, the errors of all wheels, friction, strengths of metals and the torque limit are
+random.
 
-Cutting and pointer errors are equal to the errors in `run_trials` with the same seed.
+Cutting errors and pointer errors are the same as in `run_trials` with the same seed.
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools, Floats, Ints
 
 OUTCOMES = ("cannot be cut", "jams", "too stiff", "breaks", "turns")
-"""Outcomes of a trial, in the order in which they are examined; exactly one of them applies."""
+"""Outcomes of a trial, in the order in which they are examined. Exactly one of them applies to each trial."""
 
 _MOST = 100  # accuracies of a curve: each costs nearly as much as the trials
 
@@ -66,7 +67,7 @@ class FeasibilityResult(Pictured, Result):
     trials: TrialResults
     """Trials with cutting errors: events of the pairs, and pointer errors."""
     torque: Floats | None
-    """Torque at the crank in each trial, shape (trials,) [N m]; infinite if friction locks the train; None if no loads
+    """Torque at the crank in each trial [N m], shape (trials,); infinite if friction locks the train, None if no loads
     are declared.
     """
     driven: Mapping[str, Floats]
@@ -74,14 +75,14 @@ class FeasibilityResult(Pictured, Result):
     efficiency: Mapping[str, Floats]
     """Efficiency of each pair in each trial, shape (trials,) [1]."""
     stops: Mapping[float, Bools] = field(default_factory=dict)
-    """Mask of the trials with a jam or a wheel that cannot be cut, by accuracy [deg]."""
+    """Masks of the trials with a jam or with a wheel that cannot be cut, keyed by accuracy [deg]."""
 
     def _summary(self) -> str:
         return ", ".join(f"{name} {100 * each.value:.3g} %" for name, each in self.outcomes.items() if each.count)
 
     @cached_property
     def hand(self) -> Floats | None:
-        """Maximum torque that the hand or the drive can exert on the crank in each trial, shape (trials,) [N m]; None
+        """Maximum torque that the hand or the drive can exert on the crank in each trial [N m], shape (trials,); None
         if it is not declared.
         """
         return self.plan.hands(self.trials.seed, self.trials.done)
@@ -93,14 +94,16 @@ class FeasibilityResult(Pictured, Result):
 
     @cached_property
     def stiff(self) -> Bools:
-        """Mask of the trials in which friction locks the train or the crank torque is too large, shape (trials,)."""
+        """Mask of the trials in which friction locks the train or the crank torque exceeds its maximum, shape
+        (trials,).
+        """
         if self.torque is None:
             return np.zeros(self.trials.done, dtype=bool)
         return np.isinf(self.torque) if self.hand is None else self.torque > self.hand
 
     @cached_property
     def excess(self) -> Floats:
-        """Stress divided by strength of each part in each trial, shape (trials, parts)."""
+        """Ratio of stress to strength of each part in each trial [1], shape (trials, parts)."""
         return self._excess(self.driven)
 
     def _excess(self, torques: Mapping[str, Floats | float]) -> Floats:
@@ -125,12 +128,12 @@ class FeasibilityResult(Pictured, Result):
 
     @property
     def rough(self) -> ProbabilityEstimate:
-        """Probability that tips of teeth clash (rough running), in the trials in which the train turns."""
+        """Probability that tips of teeth clash (rough running), among the trials in which the train turns."""
         return self._of_turning(CLASH)
 
     @property
     def loose(self) -> ProbabilityEstimate:
-        """Probability that a pair loses contact, in the trials in which the train turns."""
+        """Probability that a pair loses contact, among the trials in which the train turns."""
         return self._of_turning(DISENGAGED)
 
     def _of_turning(self, mark: int) -> ProbabilityEstimate:
@@ -139,11 +142,11 @@ class FeasibilityResult(Pictured, Result):
 
     @cached_property
     def forced(self) -> Mapping[str, ProbabilityEstimate] | None:
-        """Probability that the maximum torque at the crank breaks a tooth, in the trials in which the train jams; None
-        if no strengths or no maximum torque is declared. `torque` is a lower bound from this torque; `wedge` includes
-        the squeezed flanks of the pair.
+        """Probability that the maximum torque at the crank breaks a tooth, among the trials in which the train jams;
+        None if no strengths or no maximum torque is declared. The value `torque` is a lower bound that includes only
+        this torque; `wedge` also includes the forces between the jammed flanks.
 
-        Jams of pairs that the crank does not press, or whose driven wheel is fixed, are not counted.
+        Jams of pairs that the crank does not load, or whose driven wheel is fixed, are not counted.
         """
         if self.hand is None or not self.plan.parts:
             return None
@@ -165,8 +168,9 @@ class FeasibilityResult(Pictured, Result):
 
     @cached_property
     def causes(self) -> Mapping[str, Mapping[str, ProbabilityEstimate]]:
-        """Probability of each cause of each outcome, the most frequent cause first. Causes are the pairs that cannot be
-        cut or that jam (several may jam in a trial), and the part with the highest ratio of stress to strength.
+        """Probability of each cause of each outcome, the most frequent cause first. The causes are the pairs that
+        cannot be cut, the pairs that jam (several may jam in one trial), and the part with the highest ratio of stress
+        to strength.
         """
         names = [pair.name for pair in self.plan.cutting.pairs]
         masks = dict(zip(OUTCOMES, (self._marked(UNCUT), self._marked(JAM)), strict=False))
@@ -181,21 +185,23 @@ class FeasibilityResult(Pictured, Result):
 
     @property
     def crank_torque(self) -> Mapping[float, IntervalEstimate] | None:
-        """Percentiles 5, 50 and 95 of the torque at the crank over all trials in which friction does not lock the
-        train, with 95 % confidence intervals [N m]; None if no loads are declared.
+        """Percentiles 5, 50 and 95 of the crank torque with 95 % confidence intervals [N m], over all trials in which
+        friction does not lock the train; None if no loads are declared.
         """
         known = np.zeros(0) if self.torque is None else np.sort(self.torque[np.isfinite(self.torque)])
         return {percent: percentile_of(known, percent) for percent in (5.0, 50.0, 95.0)} if known.size else None
 
     @property
     def curve(self) -> Mapping[float, ProbabilityEstimate]:
-        """Probability that the train turns, by standard deviation of the pitch deviation of all wheels [deg]."""
+        """Probability that the train turns, keyed by the standard deviation of the pitch deviations of all wheels
+        [deg].
+        """
         sound, every = ~self.stiff & ~(self.excess > 1).any(axis=1), np.ones(self.trials.done, dtype=bool)
         return {accuracy: _estimate(sound & ~stops, every) for accuracy, stops in self.stops.items()}
 
     def accuracy_for(self, probability: float = 0.5) -> float | None:
         """Return the accuracy at which the train turns with a given probability, by linear interpolation of the curve
-        [deg]; None if the curve does not cross the probability.
+        [deg]; None if the curve does not reach the probability.
 
         Parameters
         ----------
@@ -209,7 +215,9 @@ class FeasibilityResult(Pictured, Result):
 
     @property
     def conditions(self) -> str:
-        """Conditions of the probabilities: clearance, friction, filing, and how often spreads are drawn."""
+        """Description of the conditions of the trials: clearance, friction, filing, and how often random values are
+        drawn.
+        """
         return ", ".join(self._conditions())
 
     def _conditions(self) -> Iterator[str]:
@@ -233,12 +241,12 @@ class FeasibilityResult(Pictured, Result):
 
     @property
     def perfect(self) -> bool:
-        """True if no wheel has a cutting error, so that the wheels of all trials are the same."""
+        """True if no wheel has a cutting error, so that the wheels are the same in all trials."""
         return all(wheel.true for wheel in self.plan.cutting.wheels)
 
     @property
     def neglected(self) -> tuple[str, ...]:
-        """Outcomes that are not examined, because their data are not declared."""
+        """Names of the outcomes that are not examined, because their data are not declared."""
         found = []
         if self.perfect:
             found.append("cutting errors: declare `cutting: {pitch_deviation: {normal: 0.1 deg}}`, or give --cutting")
@@ -252,12 +260,12 @@ class FeasibilityResult(Pictured, Result):
 
     @property
     def partial(self) -> PartialTrials | None:
-        """Numbers of completed and requested trials if the run was interrupted; None for a complete run."""
+        """Numbers of completed and requested trials if the run was interrupted; None if all trials were completed."""
         return None if self.trials.complete else PartialTrials(self.trials.done, self.trials.wanted)
 
 
 def _estimate(event: Bools, of: Bools) -> ProbabilityEstimate:
-    """Return the probability of an event in the trials selected by the mask `of`."""
+    """Return the probability of an event among the trials selected by the mask `of`."""
     return ProbabilityEstimate(int(np.count_nonzero(event & of)), int(np.count_nonzero(of)))
 
 
@@ -279,7 +287,7 @@ def run_feasibility(
     Parameters
     ----------
     plan : FeasibilityPlan
-        Train with its spreads, from `find_feasibility_plan`.
+        Train with its random data, from `find_feasibility_plan`.
     trials : int
         Number of trials, 1 to 10^9.
     seed : int
@@ -338,7 +346,9 @@ def run_feasibility(
 
 
 def _columns(plan: FeasibilityPlan, loads: Sequence[Any]) -> tuple[Floats | None, dict[str, Floats], dict[str, Floats]]:
-    """Return the crank torque, and the torque and efficiency of each pair, in each trial."""
+    """Return the crank torque, the torque of each pair and the efficiency of each pair. Arrays have one value for each
+    trial.
+    """
     if plan.nominal is None:
         return None, {}, {}
     crank = np.array([inf if row is None or row[0] is None else row[0] for row in loads])
@@ -353,8 +363,8 @@ def _columns(plan: FeasibilityPlan, loads: Sequence[Any]) -> tuple[Floats | None
 
 
 def work_feasibility(plan: FeasibilityPlan, seed: int, accuracies: tuple[float, ...], task: Sequence[int]) -> Any:
-    """Return the results of some trials as plain data: records and loads or, for a given accuracy, whether the trials
-    stop.
+    """Return the results of some trials as plain data: records and loads if no accuracies are given, or for one
+    accuracy a flag for each trial that stops.
     """
     at, first, trials = task
     if at < 0:

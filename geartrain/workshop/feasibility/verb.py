@@ -1,4 +1,4 @@
-"""Command `geartrain feasibility`: probability that a train turns, jams, is too stiff or breaks."""
+"""Command `geartrain feasibility`: estimate the probability that a train turns, jams, is too stiff or breaks."""
 
 from __future__ import annotations
 

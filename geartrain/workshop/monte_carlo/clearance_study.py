@@ -1,4 +1,6 @@
-"""Probability that wheels with cutting errors jam at other clearances and with scaled errors, from the same trials."""
+"""Jam probability of wheels with cutting errors for several clearance factors and error scales, estimated from one
+common set of random wheels.
+"""
 
 from __future__ import annotations
 
@@ -25,35 +27,37 @@ _MOST = 1000  # clearances of a sweep: each costs as much as the trials themselv
 
 @dataclass(frozen=True, slots=True)
 class ClearanceCase(Result):
-    """Probabilities of a jam, clash, dwell and loss of contact in a train at one clearance and one factor of the
-    errors.
+    """Probabilities of a jam, clash, dwell and loss of contact in a train, for one clearance factor and one scale
+    factor of the errors.
     """
 
     KEYS = ("clearance", "scale", Key("", "rates"), "pairs")
 
     clearance: float | None
     """Clearance factor (1 or more), or relative position between the limits of each pair's clearance factor (below 1);
-    None for the declared clearance.
+    None for the declared clearance factor.
     """
     scale: float
-    """Factor by which manufacturing errors are multiplied, except errors measured tooth by tooth."""
+    """Factor by which all manufacturing errors are multiplied, except errors that were measured tooth by tooth."""
     events: Mapping[str, ProbabilityEstimate]
-    """Probability that each event occurs in at least one pair: jam, clash, stops (jam or clash), dwell, disengaged."""
+    """Probability that each event (jam, clash, stops, dwell, disengaged) occurs in at least one pair; stops means jam
+    or clash.
+    """
     pairs: Mapping[str, Mapping[str, ProbabilityEstimate]]
-    """Probability of each event (as in `events`) in each pair, by pair."""
+    """Probability of each event in each pair, keyed by pair and then by event, as in `events`."""
 
     @property
     def rates(self) -> EventRates:
-        """Probability that an event occurs in at least one pair, by name of the event."""
+        """Probability that an event occurs in at least one pair, keyed by the name of the event."""
         return cast("EventRates", self.events)
 
 
 _SWEPT = {"clearance_factor": (1.0, 10.0), "window": (0.0, 1.0), "accuracy": (0.0, 90.0)}
-"""Range of each quantity of a sweep, without its upper end."""
+"""Range of each quantity that can be varied; the upper limit is excluded."""
 
 
 def read_sweep(text: str, option: str = "--vary") -> list[float]:
-    """Parse a sweep such as `window=0.1:0.9:9` or `accuracy=0.02:0.3:6` into equally spaced values.
+    """Return equally spaced values parsed from text such as `window=0.1:0.9:9` or `accuracy=0.02:0.3:6`.
 
     Values of `window` are below 1, clearance factors are at least 1, and accuracies are in degrees.
     """
@@ -82,8 +86,8 @@ def jamming_map(
     seed: int = 1,
     means: Execution | None = None,
 ) -> list[ClearanceCase]:
-    """Return the probabilities of a jam, clash, dwell and loss of contact for a grid of clearance factors and of
-    factors that multiply the cutting errors.
+    """Return the probabilities of a jam, clash, dwell and loss of contact for a grid of clearance factors and of scale
+    factors of the cutting errors.
 
     The same random wheels are used in all cases.
 
@@ -92,9 +96,9 @@ def jamming_map(
     plan : TrialPlan
         Train with its cutting and fitting errors.
     clearances : sequence of float or None
-        Values of 1 or more are factors of the minimum centre distance, at which teeth touch the bottom; values below 1
-        are relative positions between the limits of each pair's clearance factor; None is the declared clearance. The
-        clearance varies in the outer loop.
+        Clearance factors. A value of 1 or more multiplies the minimum centre distance, at which tips touch the roots. A
+        value below 1 is a relative position between the limits of each pair's clearance factor. None is the declared
+        clearance factor. These values vary in the outer loop.
     scales : sequence of float
         Factors, 0 or more, by which all errors except measured tables are multiplied; by default 1.
     trials : int
@@ -107,7 +111,7 @@ def jamming_map(
     Returns
     -------
     list of ClearanceCase
-        One case for each clearance and scale.
+        One case for each combination of clearance factor and scale.
 
     Raises
     ------
@@ -140,9 +144,10 @@ def jamming_map(
 
 
 def work_case(plan: TrialPlan, seed: int, task: Sequence[Any]) -> list[Any]:
-    """Return the numbers of events in some trials of one case: a list for each pair, then a list for the train.
+    """Return the numbers of events in some trials of one case: one list for each pair, followed by one list for the
+    train.
 
-    Each list has a pair [occurrences, trials] for each event, without trials in which a wheel cannot be cut.
+    Each list contains [occurrences, trials] for each event. Trials in which a wheel cannot be cut are not counted.
     """
     clearance, scale, first, trials = task
     changed = plan.scaled(scale)

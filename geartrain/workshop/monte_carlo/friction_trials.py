@@ -1,8 +1,8 @@
-"""Monte Carlo trials of friction: torque over a run with friction coefficients drawn from their distributions.
+"""Monte Carlo trials of friction: torque over several turns with friction coefficients drawn from their distributions.
 
-A coefficient declared by the train is drawn once per trial for all its pairs, or separately for each pair on request. A
-coefficient declared by a pair or a coupling is drawn separately. Negative values are set to 0; the ratio of `static` to
-`sliding` is kept.
+A coefficient declared by the train is drawn once per trial for all pairs, or on request separately for each pair. A
+coefficient declared by a pair or a coupling is drawn separately. Negative values are set to 0. The ratio of `static` to
+`sliding` does not change.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 
 FIGURES = ("mean", "maximum", "starting", "efficiency")
 _TRAIN = "train"
-"""Name of the coefficient of friction that the train itself declares."""
+"""Name under which the friction coefficient of the train itself is listed."""
 
 _TASKS = 32  # minimum number of tasks, so that all processes have work until nearly the end
 _MOST = 8  # trials of a task: its fixed cost is then smaller than the cost of its trials
@@ -55,14 +55,14 @@ class FrictionSpread(NamedTuple):
     """Normal or uniform distribution of a friction coefficient."""
 
     sliding: float
-    """Declared sliding friction coefficient, the mean of a normal distribution [1]."""
+    """Declared coefficient of sliding friction, which is the mean of a normal distribution [1]."""
     deviation: float
-    """Standard deviation of the sliding friction coefficient [1]."""
+    """Standard deviation of the coefficient of sliding friction [1]."""
     range: tuple[float, float] | None = None
-    """Minimum and maximum of a uniform distribution [1]; None for a normal distribution."""
+    """Minimum and maximum of a uniform distribution of the coefficient [1]; None for a normal distribution."""
 
     def __str__(self) -> str:
-        """Return the distribution as text."""
+        """Return a description of the distribution as text."""
         if self.range is None:
             return f"{self.sliding:g} ± {self.deviation:g}"
         return f"{self.range[0]:g} to {self.range[1]:g} (uniform)"
@@ -110,7 +110,9 @@ class FrictionPlan:
 
     @property
     def spreads(self) -> Mapping[str, FrictionSpread]:
-        """Distributions of the random friction coefficients, by `train`, pair or coupling that declares them."""
+        """Distributions of the random friction coefficients, keyed by the pair or coupling that declares them, or by
+        "train".
+        """
         return friction_spreads(self.declared)
 
     def question(self, trials: int, seed: int) -> dict[str, Any]:
@@ -128,7 +130,9 @@ class FrictionPlan:
 
 
 def friction_spreads(declared: Train) -> dict[str, FrictionSpread]:
-    """Return the distributions of random friction coefficients, by the part that declares them, or "train"."""
+    """Return the distributions of random friction coefficients, keyed by the pair or coupling that declares them, or by
+    "train".
+    """
     found = {name: _spread(friction) for name, _, friction in _declarers(declared) if _is_random(friction)}
     for name, link in declared.links.items():
         bearing = link.bearing
@@ -142,7 +146,7 @@ def friction_spreads(declared: Train) -> dict[str, FrictionSpread]:
 def draw_friction(declared: Train, seed: int, trial: int, per_part: bool = False) -> Train:
     """Return the train with the friction coefficients drawn for one trial.
 
-    per_part   True to draw the coefficient that the train declares separately for each of its pairs
+    per_part   True if the coefficient that the train declares is drawn separately for each pair
     """
     streams = RandomStreams(seed, trial // BLOCK)
     drawn: dict[str, CoulombFriction] = {}
@@ -163,7 +167,7 @@ def draw_friction(declared: Train, seed: int, trial: int, per_part: bool = False
 def _drawn_bearing(
     bearing: BearingFriction, streams: RandomStreams, item: int, row: int, per_part: bool
 ) -> BearingFriction:
-    """Return a bearing with its coefficient and radius drawn for trial number `row` of a block."""
+    """Return a bearing with its friction coefficient and its radius drawn for the trial in row `row` of a block."""
 
     def between(low: float, high: float, kind: int) -> str:
         shared = not per_part and ("coefficient" if kind == PIVOT else "radius") in bearing.shared
@@ -184,9 +188,9 @@ def _friction_update(name: str, drawn: Mapping[str, CoulombFriction]) -> dict[st
 
 
 def _declarers(declared: Train, per_part: bool = False) -> Iterator[tuple[str, int, Any]]:
-    """Yield name, index and friction of the train and of each pair and coupling that declares it.
+    """Yield name, index and declared friction of the train and of each pair and coupling that declares friction.
 
-    per_part   True if a pair without its own friction is listed with the friction of the train
+    per_part   True if a pair without declared friction is also listed, with the friction of the train
     """
     parts: list[tuple[str, Train | GearPair | Coupling]] = [(_TRAIN, declared)]
     parts += [(gear.name, gear) for gear in declared.gears]
@@ -210,7 +214,9 @@ def _spread(friction: CoulombFriction) -> FrictionSpread:
 
 
 def _with_coefficient(friction: CoulombFriction, rng: np.random.Generator, row: int) -> CoulombFriction:
-    """Return the friction with the coefficient drawn for trial `row` of a block; negative values are set to 0."""
+    """Return the friction with its coefficient drawn for the trial in row `row` of a block. Negative coefficients are
+    set to 0.
+    """
     spread = _spread(friction)
     # a whole block is drawn, so that a trial does not depend on the trials computed with it
     if spread.range is not None:
@@ -228,34 +234,34 @@ def _with_coefficient(friction: CoulombFriction, rng: np.random.Generator, row: 
 
 @dataclass(frozen=True)
 class TrialFigure(Result):
-    """Distribution of one result over the trials."""
+    """Distribution of one computed quantity over the trials."""
 
     KEYS = ("mean", "deviation", "percentiles")
 
     values: Floats
-    """Values of the result in the order of the trials, without the trials in which it is undefined."""
+    """Values of the quantity in the order of the trials, without the trials in which it is undefined."""
 
     @property
     def mean(self) -> IntervalEstimate:
-        """Mean of the values of the result, with its 95 % confidence interval."""
+        """Mean of the quantity, with its 95 % confidence interval."""
         return mean_of(self.values)
 
     @property
     def deviation(self) -> IntervalEstimate:
-        """Standard deviation of the values of the result, with its 95 % confidence interval."""
+        """Standard deviation of the quantity, with its 95 % confidence interval."""
         return deviation_of(self.values)
 
     @property
     def percentiles(self) -> Mapping[float, IntervalEstimate]:
-        """Percentiles of the result with 95 % confidence intervals, by percentage. The two outermost percentiles
-        enclose 95 % of the values.
+        """Percentiles of the quantity with 95 % confidence intervals, keyed by percentage. The two outermost
+        percentiles enclose 95 % of the values.
         """
         return percentiles_of(self.values)
 
 
 @dataclass(frozen=True)
 class FrictionTrials(Result):
-    """Results of trials with random friction coefficients: the torque and the efficiency over a run."""
+    """Results of trials with random friction coefficients: torque and efficiency over a given number of turns."""
 
     PAGE = "workshop.monte_carlo.friction_trials:trials_document"
 
@@ -270,20 +276,23 @@ class FrictionTrials(Result):
     seed: int
     """Random seed of the trials."""
     spreads: Mapping[str, FrictionSpread]
-    """Distributions of the friction coefficients, by the pair or coupling that declares them, or "train"."""
+    """Distributions of the friction coefficients, keyed by the pair or coupling that declares them, or by "train"."""
     mean: TrialFigure
-    """Distribution of the mean torque over the run [N m, or the unit of the loads], in trials in which the train turns.
+    """Distribution of the mean torque over the turns of a trial [N m, or the unit of the loads], among trials in which
+    the train turns.
     """
     maximum: TrialFigure
-    """Distribution of the maximum torque over the run [N m, or the unit of the loads], in trials in which the train
-    turns.
+    """Distribution of the maximum torque over the turns of a trial [N m, or the unit of the loads], among trials in
+    which the train turns.
     """
     starting: TrialFigure
-    """Distribution of the starting torque [N m, or the unit of the loads], in trials in which the train turns."""
+    """Distribution of the starting torque [N m, or the unit of the loads], among trials in which the train turns."""
     efficiency: TrialFigure
-    """Distribution of the efficiency over the run, output energy divided by input energy, where it is defined."""
+    """Distribution of the efficiency, output energy divided by input energy [1], among trials in which it is
+    defined.
+    """
     locks: ProbabilityEstimate
-    """Probability that friction locks the train at some position of the run."""
+    """Probability that friction locks the train at one or more of the positions."""
 
     def _summary(self) -> str:
         cut = "" if self.done == self.wanted else f" of {self.wanted}"
@@ -361,8 +370,8 @@ def try_frictions(plan: FrictionPlan, trials: int, seed: int = 1, means: Executi
 
 
 def work_frictions(plan: FrictionPlan, seed: int, task: Sequence[int]) -> list[list[float | None]]:
-    """Return the results of some trials as plain data: mean, maximum and starting torque, and efficiency of each trial;
-    None if undefined, for example if the train locks.
+    """Return the results of some trials as plain data: mean, maximum and starting torque, and efficiency of each trial.
+    Undefined values are None, for example if the train locks.
     """
     from geartrain.analysis.gear_train import GearTrain
 
@@ -379,7 +388,7 @@ def work_frictions(plan: FrictionPlan, seed: int, task: Sequence[int]) -> list[l
 
 
 def _link(plan: FrictionPlan) -> str:
-    """Return the name of the link whose torque is reported, without computing the run."""
+    """Return the name of the link whose torque is reported, without running the trials."""
     from geartrain.analysis.gear_train import GearTrain
 
     return plan.of or GearTrain(plan.declared).torques(plan.state).requested[0]
@@ -394,7 +403,7 @@ def trials_document(found: FrictionTrials) -> Document:
 
 
 def trial_sections(found: FrictionTrials) -> Iterator[Section]:
-    """Yield the report sections on the distribution of torques due to uncertain friction."""
+    """Yield the report sections that describe the distribution of torques due to uncertain friction."""
     lines = [f"{found.done} trials, seed {found.seed}; estimates with their 95 % confidence intervals."]
     if not found.complete:
         lines.insert(0, f"PARTIAL: stopped after {found.done} of {found.wanted} trials.")

@@ -1,7 +1,7 @@
-"""Plots of Monte Carlo trials: pointer errors, probabilities of jams, and sensitivities.
+"""Plots of Monte Carlo trials: pointer errors, jam probabilities and sensitivities.
 
 `monte_carlo_figure` draws one picture of a result: a chart of the errors of pointers, bands of their errors over a
-turn, a map of probabilities over two quantities, a chart of variance shares, or the convergence of an estimate.
+turn, a map of jam probabilities over two quantities, a chart of variance shares, or the convergence of an estimate.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ _TICKS = 8  # approximate number of tick labels: more would overlap
 
 
 def monte_carlo_figure(findings: MonteCarloResult, picture: str = "errors") -> Figure:
-    """Draw one figure of the Monte Carlo trials of a train with cutting errors."""
+    """Draw the figure of the given kind for the Monte Carlo trials of a train with cutting errors."""
     if picture not in PICTURES:
         what = f"'{picture}' is not a kind of picture"
         raise QuestionError(Problem(what, "the kind selects the study to draw", f"use one of {', '.join(PICTURES)}"))
@@ -103,7 +103,7 @@ def _require(what: Collection[object], why: str, fix: str) -> None:
 
 
 def _jam_map(cleared: Sequence[ClearanceCase]) -> Figure:
-    """Draw a map of the probability of a jam over the clearance and the factor of the errors."""
+    """Draw a map of the jam probability as a function of the clearance factor and the scale factor of the errors."""
     clearances = sorted({each.clearance for each in cleared if each.clearance is not None})
     scales = sorted({each.scale for each in cleared})
     several = cleared if len(clearances) > 1 < len(scales) else ()
@@ -119,10 +119,11 @@ def _jam_map(cleared: Sequence[ClearanceCase]) -> Figure:
 
 
 def course_figure(courses: Sequence[PointerErrorCourse], driving_link: str = "the input") -> Figure:
-    """Draw median, central 50 and 95 % ranges and extremes of each pointer's error over turns of the driving link.
+    """Draw the median, the central 50 and 95 % ranges and the extremes of each pointer's error over turns of the
+    driving link.
 
-    The thin dashed line is one trial; trials without a finite error at every position are excluded. Raises
-    `QuestionError` if there is no pointer to draw.
+    The thin dashed line shows one trial. Trials in which an error is not finite are excluded. Raises `QuestionError` if
+    there is no pointer to draw.
     """
     given = {each.name: each for each in courses}
     errors = {name: np.degrees(each.errors[np.isfinite(each.errors).all(axis=1)]) for name, each in given.items()}
@@ -149,7 +150,9 @@ def course_figure(courses: Sequence[PointerErrorCourse], driving_link: str = "th
 
 
 def _bands(errors: Floats) -> Floats:
-    """Return minimum, `PERCENTS` and maximum over the trials, shape (7, positions)."""
+    """Return the minimum, the percentiles `PERCENTS` and the maximum of the errors over the trials, shape (7,
+    positions).
+    """
     if not errors.size:
         raise _no_errors("a pointer cannot turn in any trial")
     found: Floats = np.percentile(errors, (0, *PERCENTS, 100), axis=0)
@@ -157,7 +160,8 @@ def _bands(errors: Floats) -> Floats:
 
 
 def error_figure(trials: TrialResults) -> Figure:
-    """Draw the median and the central 50 and 95 % ranges of each shown pointer's error; the widest range is at the top.
+    """Draw the median and the central 50 and 95 % ranges of each shown pointer's error. The pointer with the widest
+    range is at the top.
 
     Raises `QuestionError` if a pointer has no errors.
     """
@@ -187,7 +191,9 @@ def _known(pointer: PointerErrorStatistics) -> Floats:
 
 
 def _largest_spreads(bands: Mapping[str, Floats]) -> tuple[dict[str, Floats], str]:
-    """Return the bands of the pointers with the largest spread, in the given order, and a note on the others."""
+    """Return the bands of the pointers with the largest spread, in the given order, and a note on the omitted
+    pointers.
+    """
     spread = {name: float(np.ptp(levels[1:-1])) for name, levels in bands.items()}
     names = sorted(bands, key=lambda name: -spread[name])[:_COURSES]
     left = len(bands) - len(names)
@@ -196,7 +202,7 @@ def _largest_spreads(bands: Mapping[str, Floats]) -> tuple[dict[str, Floats], st
 
 
 def _bands_key() -> list[Patch]:
-    """Return legend patches in the visible shades of the bands, since each band is drawn over the wider ones."""
+    """Return legend patches in the visible shades of the bands. Each band is drawn over the wider bands."""
     through = np.cumprod([1 - shade for shade in _SHADES])
     return [
         Patch(color=BLUE, alpha=1 - float(left), linewidth=0, label=label)
@@ -214,8 +220,8 @@ def _no_errors(why: str) -> QuestionError:
 def jam_map_figure(clearances: ArrayLike, scales: ArrayLike, probabilities: ArrayLike) -> Figure:
     """Draw the probability of a jam as a shaded map, with contour lines at 1, 10 and 50 %.
 
-    clearances     ascending clearance factors, or relative positions between their limits, (n,)
-    scales         ascending factors of the errors, (m,)
+    clearances     ascending clearance factors, or relative positions between the limits of the clearance factor, (n,)
+    scales         ascending scale factors of the errors, (m,)
     probabilities  probabilities of a jam, 0 to 1, (n, m); NaN for missing data
     """
     x, y, table = (np.asarray(each, dtype=float) for each in (clearances, scales, probabilities))
@@ -249,12 +255,12 @@ def _arcsine(probability: Any) -> Any:
 
 
 def share_figure(shares: Mapping[str, Sequence[IntervalEstimate]], title: str = "") -> Figure:
-    """Draw a chart with the first-order and the total share of each cause, with confidence intervals as lines.
+    """Draw a chart of the first-order and total variance share of each cause, with confidence intervals as lines.
 
     Only the `MOST_ROWS` largest causes are drawn, and the axis label gives the number of omitted causes. Raises
     `QuestionError` if there is no cause.
 
-    shares   first-order share of the variance by cause, and the total share with all interactions if it is known
+    shares   first-order share of the variance of each cause and, if known, its total share with all interactions
     """
     if not shares:
         what, why = "the list of causes is empty", "a chart of shares needs at least one cause"
@@ -282,8 +288,8 @@ def share_figure(shares: Mapping[str, Sequence[IntervalEstimate]], title: str = 
 def probability_figure(steps: Sequence[tuple[float, ProbabilityEstimate]], name: str, missing: str, fix: str) -> Figure:
     """Draw a probability with its 95 % interval as a curve. Raises `QuestionError` if there are no steps.
 
-    steps          ascending abscissas with their estimates
-    missing, fix   reason for missing steps, and remedy
+    steps          ascending abscissas with their probability estimates
+    missing, fix   texts of the error: reason why there are no steps, and remedy
     """
     _require(steps, missing, fix)
     x = np.array([float(each) for each, _ in steps])
@@ -296,11 +302,11 @@ def probability_figure(steps: Sequence[tuple[float, ProbabilityEstimate]], name:
 
 
 def convergence_figure(steps: Sequence[tuple[int, ProbabilityEstimate]]) -> Figure:
-    """Draw the probability of a jam in any pair with its 95 % interval over the number of trials.
+    """Draw the probability that at least one pair jams, with its 95 % interval, over the number of trials.
 
     Raises `QuestionError` if there are no trials.
 
-    steps   ascending numbers of trials with their estimates
+    steps   ascending numbers of trials with their probability estimates
     """
     figure = probability_figure(steps, "any pair", "no trial is completed", "give at least one trial")
     (axes,), counts = figure.axes, [count for count, _ in steps]

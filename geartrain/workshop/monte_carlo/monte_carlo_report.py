@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 def trials_document(found: TrialResults) -> Document:
-    """Return the report on trials, as `geartrain montecarlo` prints it."""
+    """Return the report on trials that `geartrain montecarlo` prints."""
     from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult
 
     return describe_monte_carlo(MonteCarloResult(found))
@@ -58,7 +58,7 @@ def _sections(found: MonteCarloResult) -> Iterator[Section]:
 
 
 def share_text(each: ProbabilityEstimate) -> str:
-    """Return a probability with its confidence interval as a string such as `1.2 % (0.9..1.6)`; "-" if there are no
+    """Return a probability with its confidence interval as text such as `1.2 % (0.9..1.6)`, or "-" if there are no
     trials.
     """
     if not each.of:
@@ -68,19 +68,21 @@ def share_text(each: ProbabilityEstimate) -> str:
 
 
 def _percent(value: float) -> str:
-    """Return a probability in percent as a string, with two significant digits below 10 % and one decimal above."""
+    """Return a probability in percent as text, with two significant digits below 10 % and one decimal at or
+    above 10 %.
+    """
     percent = 100 * value
     return f"{percent:.2g}" if percent < 10 else f"{percent:.1f}".removesuffix(".0")
 
 
 def angle_text(figure: IntervalEstimate, digits: int = 3) -> str:
-    """Return an angle [rad] in degrees, with its confidence interval, as a string such as `2.04 (1.9..2.2)`."""
+    """Return an angle [rad], converted to degrees, with its confidence interval as text such as `2.04 (1.9..2.2)`."""
     value, low, high = (f"{degrees(each):.{digits}g}" for each in (figure.value, figure.low, figure.high))
     return f"{value} ({low}..{high})"
 
 
 def number_text(figure: IntervalEstimate, digits: int = 3) -> str:
-    """Return a number with its confidence interval as a string, such as `12.4 (11.8..13)`."""
+    """Return a number with its confidence interval as text such as `12.4 (11.8..13)`."""
     return f"{figure.value:.{digits}g} ({figure.low:.{digits}g}..{figure.high:.{digits}g})"
 
 
@@ -181,7 +183,9 @@ def _index(figure: IntervalEstimate) -> str:
 
 
 def clearance_table(cases: Iterable[ClearanceCase], events: Sequence[str]) -> Table:
-    """Return a table of the probability of each event by clearance, without the declared clearance."""
+    """Return a table of the probability of each event for each clearance factor, except the declared
+    clearance factor.
+    """
     given = (case for case in cases if case.clearance is not None)
     rows = [(f"{case.clearance:.6g}", *(share_text(case.events[event]) for event in events)) for case in given]
     return Table(("clearance", *events), rows)

@@ -1,4 +1,4 @@
-"""Combined result of all studies on the trials of one train, with its assumptions."""
+"""Combined results of all studies on the trials of one train, with the assumptions of the trials."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ class MonteCarloResult(Tabular, Pictured, Result):
     trials: TrialResults
     """Results of the trials, from `run_trials`."""
     cleared: Sequence[ClearanceCase] = ()
-    """Event probabilities at other clearances, from `jamming_map`."""
+    """Event probabilities at other clearance factors, from `jamming_map`."""
     courses: Sequence[PointerErrorCourse] = ()
     """Pointer errors of each studied output along a revolution, from `run_course`."""
     indices: Sequence[SobolIndices] = ()
@@ -82,12 +82,12 @@ class MonteCarloResult(Tabular, Pictured, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with a row for each trial, as in `TrialResults.columns`."""
+        """Columns of a table with one row for each trial, as in `TrialResults.columns`."""
         return self.trials.columns
 
     @property
     def assumptions(self) -> tuple[str, ...]:
-        """Assumptions of the trials, with one sentence for each."""
+        """Assumptions of the trials; each is one sentence."""
         return tuple(self._assumptions())
 
     def _assumptions(self) -> Iterator[str]:
@@ -138,22 +138,24 @@ class MonteCarloResult(Tabular, Pictured, Result):
 
     @property
     def confidence(self) -> float:
-        """Confidence level of all confidence intervals."""
+        """Confidence level of all confidence intervals in the result."""
         return CONFIDENCE
 
     @property
     def wheel_errors(self) -> ErrorSizes:
-        """Sizes of cutting errors by wheel, kind and distribution, as fractions of pitch, half angle or tooth depth."""
+        """Sizes of the cutting errors, keyed by wheel, kind and distribution, as fractions of pitch, half angle or
+        tooth depth.
+        """
         return _sizes({wheel.name: wheel.errors for wheel in self.trials.plan.wheels})
 
     @property
     def pair_errors(self) -> ErrorSizes:
-        """Sizes of the mounting errors by pair, kind and distribution, as fractions of the tooth depth."""
+        """Sizes of the mounting errors, keyed by pair, kind and distribution, as fractions of the tooth depth."""
         return _sizes({pair.name: pair.fitting for pair in self.trials.plan.pairs})
 
     @property
     def partial(self) -> PartialTrials | None:
-        """Numbers of completed and requested trials if the run was interrupted; None for a complete run."""
+        """Numbers of completed and requested trials if the run was interrupted; None if all trials were completed."""
         return None if self.trials.complete else PartialTrials(self.trials.done, self.trials.wanted)
 
 
@@ -173,7 +175,7 @@ _SCALES = (0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0)  # factors of the declare
 def study_trials(
     trials: TrialResults, means: Execution, clearances: Sequence[float], courses: bool, sobol: bool
 ) -> MonteCarloResult:
-    """Return the trials together with the requested studies of outputs and of other clearances."""
+    """Return the trials together with the requested studies of outputs and of other clearance factors."""
     plan, seed, count = trials.plan, trials.seed, trials.wanted
     few = range(min(_FEW, len(plan.outputs)))
     by: tuple[Literal["wheel", "kind"], ...] = ("wheel", "kind")
@@ -186,6 +188,8 @@ def study_trials(
 
 
 def with_jamming_map(found: MonteCarloResult, means: Execution, clearances: Sequence[float]) -> MonteCarloResult:
-    """Return a result that also contains the trials repeated at several clearances and factors of the errors."""
+    """Return a result that also contains the trials repeated with several clearance factors and scale factors of the
+    errors.
+    """
     of, clearances = found.trials, clearances or _SHARES
     return replace(found, cleared=jamming_map(of.plan, clearances, _SCALES, of.wanted, of.seed, means))

@@ -1,8 +1,8 @@
 """Sobol indices of a pointer error by wheel or by kind of error: Monte Carlo estimates from two independent samples.
 
-All teeth of a wheel are one input variable, and so is the position of the train's input. With the samples A and B, and
-AB(i) equal to A except for input i from B, Saltelli et al. (2010, table 2, rows b and f) estimate the variance shares
-of the pointer error f, whose variance is V:
+All teeth of a wheel are one input variable, and so is the position of the train's input. A and B are independent
+samples, and AB(i) is A with input i taken from B. The pointer error f has the variance V. Saltelli et al. (2010, table
+2, rows b and f) estimate its variance shares as
 
     first order   S_i = mean(f(B) (f(AB(i)) - f(A))) / V        total   T_i = mean((f(A) - f(AB(i)))^2) / 2 V
 
@@ -48,7 +48,7 @@ _RESAMPLES = 200  # bootstrap samples: the standard error they give is exact to 
 
 @dataclass(frozen=True, slots=True)
 class SobolIndex(Result):
-    """First-order and total Sobol index of one input variable, with 95 % bootstrap intervals."""
+    """First-order and total Sobol index of one input variable, with 95 % bootstrap confidence intervals."""
 
     KEYS = (Key("of", "name"), "first", "total")
 
@@ -150,7 +150,8 @@ def find_sobol_indices(
 
 
 def saltelli_indices(values: Floats, seed: int) -> list[tuple[IntervalEstimate, IntervalEstimate]]:
-    """Return first-order and total index of each input with bootstrap intervals; 0 if the values do not vary.
+    """Return the first-order and total index of each input variable with bootstrap intervals; 0 if the values do not
+    vary.
 
     values   f(A), f(AB(1)), ..., f(AB(d)), f(B) in columns, (samples, d + 2)
     seed     seed of the bootstrap resamples
@@ -200,7 +201,9 @@ def error_groups(plan: TrialPlan, output: int, by: By) -> list[tuple[str, Stream
 
 @dataclass(frozen=True)
 class SobolBlock:
-    """Task function: errors of an output in base samples [rad], with one row per sample and the columns A, AB(i), B."""
+    """Task function that computes the errors of an output in base samples [rad]. The result has one row for each sample
+    and the columns A, AB(i) and B.
+    """
 
     plan: TrialPlan
     seed: int
@@ -208,7 +211,7 @@ class SobolBlock:
     by: By
 
     def __call__(self, task: Sequence[int]) -> list[list[float]]:
-        """Return the samples of one task as plain data."""
+        """Return the output errors in the samples of one task as plain data."""
         first, trials = task
         inputs = [theirs for _, theirs in error_groups(self.plan, self.output, self.by)]
         samples: tuple[Streams, ...] = (((), ()), *inputs, (EVERY, EVERY))

@@ -1,8 +1,9 @@
-"""One block of trials: wheels are drawn, pairs evaluated and pointer errors computed, reproducibly in any process.
+"""One block of trials: wheels are drawn, pairs evaluated and pointer errors computed. The results are the same in any
+process.
 
 Random errors come from independent streams, each keyed by seed, block, wheel and kind of error. A trial therefore has
-the same errors in any process, regardless of other computations. Errors scaled by a factor are the same random numbers
-times that factor, and a study of clearances uses the same wheels at every clearance.
+the same errors in any process, regardless of other computations. Scaled errors are the same random numbers times a
+factor, and a study of clearance factors uses the same wheels for every clearance factor.
 """
 
 from __future__ import annotations
@@ -37,7 +38,7 @@ if TYPE_CHECKING:
 
 
 BLOCK = 256
-"""Number of trials that are drawn together. Results depend on it, so it must never change."""
+"""Number of trials that are drawn together. Results depend on this number, so it must never change."""
 
 NUMBER = {
     "pitch_deviation": 0,
@@ -50,8 +51,8 @@ NUMBER = {
 }
 """Number of the random stream of each kind of error. Results depend on these numbers, so they must never change."""
 TOWARDS, POSITION, FRICTION, HAND, PIVOT, RADIUS, STRENGTH = 2, 7, 8, 10, 11, 12, 13
-"""Numbers of the streams of the direction of an eccentricity, the position of the input, the friction of teeth, the
-torque limit at the crank, the friction and the radii of pivots, and the strength of metals.
+"""Numbers of the random streams of the direction of an eccentricity, the position of the input, the friction of teeth,
+the torque limit at the crank, the friction of pivots, the radii of pivots, and the strength of metals.
 """
 Streams = tuple[Container[int], Container[int]]
 EVERY = range(1 << 31)
@@ -60,21 +61,25 @@ EVERY = range(1 << 31)
 
 @dataclass(frozen=True, slots=True)
 class RandomStreams:
-    """Random number generators of one block of trials."""
+    """Generators of random numbers for one block of trials."""
 
     seed: int
     block: int
     other: Streams = ((), ())
-    """Items (wheels or pairs) and kinds of error drawn from the second, independent sample of Sobol indices."""
+    """Items (wheels or pairs) and kinds of error that are drawn from the second of the two samples for Sobol
+    indices.
+    """
 
     def rng(self, item: int, kind: int) -> np.random.Generator:
-        """Return the generator for one kind of error of one wheel or pair, or for the position of the input."""
+        """Return the random number generator for one kind of error of one wheel or pair, or for the position of the
+        input.
+        """
         key = (self.block, item, kind, int(item in self.other[0] and kind in self.other[1]))
         # PCG64 by name: numpy's default generator may change, and results must not
         return np.random.Generator(np.random.PCG64(np.random.SeedSequence(self.seed, spawn_key=key)))
 
     def errors(self, item: int, kind: str, off: ErrorSpecification, shape: tuple[int, ...]) -> Floats:
-        """Return random errors as fractions of pitch, half angle or depth, in an array of shape (trials,) or (trials,
+        """Return random errors as fractions of pitch, half angle or depth, as an array of shape (trials,) or (trials,
         teeth).
         """
         if off.way == "value":
@@ -87,11 +92,11 @@ class RandomStreams:
 def draw_wheel(
     wheel: WheelErrors, item: int, streams: RandomStreams, rows: slice
 ) -> tuple[CutWheel | DisplacedWheel, Bools]:
-    """Return one wheel drawn in some trials of a block, and a mask of the trials in which it can be cut.
+    """Return one wheel drawn for some trials of a block, and a mask of the trials in which it can be cut.
 
     Pitch deviations and drawn arrays have shape (trials, z), and the mask has shape (trials,). Triangular wheels have
-    tip radius 1, or -1 if they are internal. In trials in which a wheel cannot be cut, its teeth are returned without
-    errors (displaced flanks: without pitch deviations), so that later computations always have teeth with tips.
+    tip radius 1, or -1 if they are internal. If a wheel cannot be cut in a trial, its teeth are returned without errors
+    (displaced flanks: without pitch deviations), so that teeth always have tips in later computations.
     """
     # a whole block is drawn and then sliced, so that a trial does not depend on the trials computed with it
     shape, trials = (BLOCK, wheel.z), rows.stop - rows.start
@@ -141,13 +146,13 @@ def _draw_eccentricity(wheel: WheelErrors, item: int, streams: RandomStreams, ro
 JAM, CLASH, DWELL, DISENGAGED, UNCUT = 1, 2, 4, 8, 16
 """Event flags of a pair in one trial, combined as a bit mask."""
 STOPS, LOST = JAM | CLASH, JAM | DISENGAGED | UNCUT
-"""Bit masks of pairs that jam or clash, and of pairs that are excluded from averages."""
+"""Bit masks that select pairs that jam or clash, and pairs that are excluded from averages."""
 
 
 @dataclass(frozen=True)
 class TrialWheels:
-    """Drawn wheels of some trials: `wheels` contains the wheels by number, with tip radius 1, and `good` masks of
-    cuttable wheels.
+    """Drawn wheels of some trials: `wheels` contains the wheels by number, with tip radius 1; `good` contains masks of
+    the trials in which each wheel can be cut.
     """
 
     plan: TrialPlan
@@ -162,9 +167,10 @@ class TrialWheels:
         return int(self.rows.stop - self.rows.start)
 
     def pair(self, at: int, widest: int = 0) -> Any:
-        """Return one pair of drawn wheels.
+        """Return the gear pair with index `at`, with its drawn wheels in all trials.
 
-        widest   1 or -1 for the maximum or minimum distance within the bearing clearance, 0 for the drawn distance
+        widest   1 for the maximum and -1 for the minimum centre distance within the bearing clearance, 0 for the drawn
+                 distance
         """
         pair = self.plan.pairs[at]
         if not pair.stroke:
@@ -174,14 +180,16 @@ class TrialWheels:
 
     @cached_property
     def filing(self) -> dict[int, FilingWork[Any]]:
-        """Filing of each pair that is filed to fit, at the minimum distance that its bearings allow, by index of the
-        pair.
+        """Filing of each pair that is filed to fit, at the minimum centre distance that its bearings allow, keyed by
+        pair index.
         """
         pairs = enumerate(self.plan.pairs)
         return {at: pair.filed(pair.cut(self.wheels, self._shift(pair, at, -1))) for at, pair in pairs if pair.stroke}
 
     def strokes(self) -> Floats:
-        """Return numbers of file strokes and of filed teeth in alternate columns, shape (trials, 2 * pairs)."""
+        """Return the numbers of file strokes and of filed teeth of each pair in alternate columns, shape (trials, 2 *
+        pairs).
+        """
         found = np.zeros((self.trials, 2 * len(self.plan.pairs)))
         for at, work in self.filing.items():
             found[:, 2 * at], found[:, 2 * at + 1] = work.strokes, work.teeth
@@ -200,7 +208,7 @@ class TrialWheels:
 
 
 def draw_trial_wheels(plan: TrialPlan, streams: RandomStreams, trials: int = BLOCK, start: int = 0) -> TrialWheels:
-    """Return the wheels drawn for consecutive trials of a block, beginning with its trial number `start`."""
+    """Return the wheels drawn for consecutive trials of a block, beginning with trial number `start` of the block."""
     rows = slice(start, start + trials)
     found = [draw_wheel(wheel, at, streams, rows) for at, wheel in enumerate(plan.wheels)]
     return TrialWheels(plan, streams, rows, tuple(wheel for wheel, _ in found), tuple(good for _, good in found))
@@ -210,7 +218,9 @@ def draw_trial_wheels(plan: TrialPlan, streams: RandomStreams, trials: int = BLO
 
 
 def judge_trial_pairs(drawn: TrialWheels) -> tuple[Marks, Floats]:
-    """Return event flags and minimum backlash [pitch of the driven wheel] of each pair, shape (trials, pairs)."""
+    """Return the event flags and the minimum backlash [pitch of the driven wheel] of each pair, both of shape (trials,
+    pairs).
+    """
     judged = [_judged(drawn, at) for at in range(len(drawn.plan.pairs))]
     return np.stack([marks for marks, _ in judged], axis=1), np.stack([backlash for _, backlash in judged], axis=1)
 
@@ -237,14 +247,16 @@ def _judged(drawn: TrialWheels, at: int) -> tuple[Marks, Floats]:
 
 
 def input_positions(drawn: TrialWheels) -> Floats:
-    """Return a random input position in each trial [turn], uniform over the span of the plan, shape (trials,)."""
+    """Return a random input position for each trial [turn], uniformly distributed over the span of the plan, shape
+    (trials,).
+    """
     # a whole block is drawn and then sliced, as for all errors
     return drawn.streams.rng(drawn.plan.position, POSITION).uniform(0.0, drawn.plan.span, BLOCK)[drawn.rows]
 
 
 @dataclass(frozen=True)
 class TrialPointers:
-    """Composed motion of the train with drawn wheels (`cut`) and with perfect wheels (`even`), at given input
+    """Composed motion of the train with drawn wheels (`cut`) and with perfect wheels (`even`) at given input
     positions.
     """
 
@@ -253,12 +265,14 @@ class TrialPointers:
     transmissions: dict[str, TrialTransmissionFunction]
 
     def errors(self, turns: Floats) -> Floats:
-        """Return the deviation of each output from its mean position with perfect teeth [rad], shape (outputs, n)."""
+        """Return the error of each output [rad]: its position with the drawn wheels minus the mean position that it
+        would have with perfect teeth, shape (outputs, n).
+        """
         return self.cut.at(turns).error - self.even.at(turns).error
 
     def superposed(self, turns: Floats) -> Floats:
-        """Return the first-order approximation of `errors` [rad]. The error of each pair is evaluated at its driver's
-        mean angle and multiplied by the mean ratios of the pairs and pins that follow.
+        """Return the first-order approximation of `errors` [rad]. The transmission error of each pair is evaluated at
+        the mean angle of its driver and multiplied by the mean ratios of the pairs and pins that follow.
         """
         # the anomaly of the pins cancels in the difference
         return Superposition(self.cut).at(turns) - Superposition(self.even).at(turns)
@@ -267,10 +281,10 @@ class TrialPointers:
 def trial_pointers(
     drawn: TrialWheels, rows: NDArray[np.int64], outputs: tuple[int, ...] | None = None
 ) -> TrialPointers:
-    """Return the motion of the outputs (by default all) with the drawn wheels; `rows` contains the trial at each
-    position.
+    """Return the motion of the given outputs (by default all outputs) with the drawn wheels. `rows` contains the trial
+    of each position.
 
-    The transmission functions of all pairs and pins are composed exactly, for every trial at its own position.
+    The transmission functions of all pairs and pins are composed exactly, for every trial at its own input position.
     """
     plan, whole = drawn.plan, drawn.plan.composition
     at = {pair.name: number for number, pair in enumerate(plan.pairs)}

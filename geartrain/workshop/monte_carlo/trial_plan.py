@@ -1,4 +1,5 @@
-"""Input data of the trials of a train: wheels with errors, pairs with sizes, and the motion composed of its pairs.
+"""Input data of the trials of a train: wheels with their errors, pairs with their sizes, and the composed motion of the
+pairs.
 
 A `TrialPair` is a gear pair that can be drawn, evaluated, filed and set in motion, with any tooth form. A `TrialPlan`
 contains all pairs of a train and the composition of their errors at the outputs.
@@ -58,8 +59,8 @@ _MAXIMUM_SPAN = 10**6  # turns of the input, if the train takes longer to repeat
 class TrialPair(ABC):
     """Gear pair of a plan, with any tooth form.
 
-    `first` and `second` are the indices of driver and driven wheel; `mirrored` marks wheels that turn against the
-    numbering of their teeth.
+    `first` and `second` are the indices of driver and driven wheel; `mirrored` contains flags that are True for wheels
+    that turn against the numbering of their teeth.
     """
 
     name: str
@@ -69,7 +70,7 @@ class TrialPair(ABC):
     even: float
     """Mean transmission error of the pair without cutting errors [rad of the driven wheel]."""
     fitting: Mapping[str, ErrorSpecification] = field(default_factory=dict, kw_only=True)
-    """Errors of the axes by kind, as fractions of the smaller tooth depth of the two wheels."""
+    """Errors of the axes, keyed by kind, as fractions of the smaller tooth depth of the two wheels."""
     stroke: float = field(default=0.0, kw_only=True)
     """Depth of one stroke of the file divided by the smaller tooth depth of the two wheels; 0 if the pair is not filed.
     """
@@ -92,11 +93,13 @@ class TrialPair(ABC):
     @property
     @abstractmethod
     def question(self) -> tuple[float, ...]:
-        """Numbers on which results of the pair depend, as part of the key of a journal."""
+        """Numbers on which the results of the pair depend, as part of the key of a journal."""
 
     @abstractmethod
     def cut(self, wheels: Sequence[Any], shift: Any) -> Any:
-        """Return the pair of drawn wheels, scaled to its sizes, with the centre distance increased by `shift`."""
+        """Return the pair with the drawn wheels, scaled to its sizes, and with the centre distance increased by
+        `shift`.
+        """
 
     @abstractmethod
     def verdicts(self, pair: Any) -> MeshingVerdicts:
@@ -104,22 +107,22 @@ class TrialPair(ABC):
 
     @abstractmethod
     def transmission(self, pair: Any, rows: Ints) -> TrialTransmissionFunction:
-        """Return the transmission functions of a cut pair; `rows` contains the trial of each angle."""
+        """Return the transmission functions of a cut pair. `rows` contains the trial of each driver angle."""
 
     @abstractmethod
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """Return a cut pair filed by strokes of the declared depth, until it turns without a jam or a flank is at its
-        limit.
+        """Return a cut pair filed by strokes of the declared depth, until it turns without a jam or a flank reaches its
+        filing limit.
         """
 
     @abstractmethod
     def cleared(self, clearance: float) -> TrialPair:
-        """Return the pair with the given clearance. A value of 1 or more is a clearance factor; a value below 1 is a
+        """Return the pair at another clearance. A value of 1 or more is a clearance factor; a value below 1 is a
         relative position between the limits of the clearance factor.
         """
 
     def jamming_bound(self, sigma: float) -> float:
-        """Return an upper bound of the jam probability; NaN if unknown.
+        """Return an upper bound of the jam probability; NaN if no bound is known.
 
         The pitch deviations are normally distributed with the standard deviation `sigma` [pitch].
         """
@@ -138,7 +141,7 @@ class TrialPair(ABC):
 
 @dataclass(frozen=True, slots=True)
 class TriangularTrialPair(TrialPair):
-    """Gear pair with triangular teeth, exact for errors of any size."""
+    """Gear pair with triangular teeth. The results are exact for errors of any size."""
 
     sizes: TriangularSizes
 
@@ -159,12 +162,12 @@ class TriangularTrialPair(TrialPair):
 
     @property
     def question(self) -> tuple[float, ...]:
-        """Signed radii, half angles, and excess of the centre distance, which identify the pair in a journal."""
+        """Signed radii, half angles and excess of the centre distance. These numbers identify the pair in a journal."""
         sizes = self.sizes
         return *sizes.signed_radii, sizes.beta1, sizes.beta2, sizes.excess
 
     def cut(self, wheels: Sequence[Any], shift: Any) -> CutGearPair:
-        """Return the pair of drawn wheels of tip radius 1, scaled to the sizes of the pair."""
+        """Return the pair of drawn wheels of tip radius 1, scaled to the sizes of this pair."""
         sizes = self.sizes
         R1, R2 = sizes.signed_radii
         first = fitted(wheels[self.first], R1, sizes.beta1, self.mirrored[0])
@@ -180,20 +183,24 @@ class TriangularTrialPair(TrialPair):
         return CutTrialTransmission(pair, self.even, rows)
 
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """Return a cut pair filed until it turns without a jam, or by at most an eighth of a pitch."""
+        """Return a cut pair filed until it turns without a jam. At most an eighth of a pitch is removed from each
+        flank.
+        """
         limit = _MAXIMUM_FILING * self.sizes.R2 * self.pitches[1]
         return file_to_fit(pair, tight_place, self.stroke * self.depth, limit)
 
     def jamming_bound(self, sigma: float) -> float:
         """Return an upper bound of the jam probability, 2 lcm(z1, z2) Q(j / (2 sigma)).
 
-        Here z1 and z2 are the tooth numbers, j is the nominal backlash, `sigma` the standard deviation of the pitch
-        deviations [pitch], and Q the normal tail probability.
+        Here z1 and z2 are the tooth numbers, j is the nominal backlash, `sigma` is the standard deviation of the pitch
+        deviations [pitch], and Q is the normal tail probability.
         """
         return jamming_bound(self.sizes, sigma)
 
     def cleared(self, clearance: float) -> TriangularTrialPair:
-        """Return the pair with another clearance factor (1 or more), or position between its limits (below 1)."""
+        """Return the pair with another clearance factor (1 or more), or at another relative position between its limits
+        (below 1).
+        """
         if clearance >= 1:  # a clearance factor; smaller numbers are fractions of the window
             return replace(self, sizes=self.sizes.at(clearance - 1))
         from geartrain.teeth.triangular.clearance_window import find_window
@@ -207,9 +214,9 @@ class TriangularTrialPair(TrialPair):
 
 
 def fitted(wheel: CutWheel, radius: float, half_angle: float, mirrored: bool) -> CutWheel:
-    """Return a wheel of tip radius 1 (internal: -1) scaled to the sizes of its pair.
+    """Return a wheel of tip radius 1 (-1 for an internal wheel), scaled to the sizes of its pair.
 
-    It is mirrored if it turns against the numbering of its teeth.
+    If `mirrored` is True, it is the mirror image, which turns against the numbering of its teeth.
     """
     found = CutWheel(radius, half_angle, wheel.place, abs(radius) * wheel.tip, wheel.leading, wheel.trailing)
     return found.mirrored() if mirrored else found
@@ -217,7 +224,9 @@ def fitted(wheel: CutWheel, radius: float, half_angle: float, mirrored: bool) ->
 
 @dataclass(frozen=True, slots=True)
 class DisplacedTrialPair(TrialPair):
-    """Gear pair of any other tooth form: flanks displaced along the path of contact, to first order in the errors."""
+    """Gear pair of any non-triangular tooth form. Its flanks are displaced along the path of contact, to first order in
+    the errors.
+    """
 
     contact: DisplacedContact
 
@@ -239,12 +248,12 @@ class DisplacedTrialPair(TrialPair):
 
     @property
     def question(self) -> tuple[float, ...]:
-        """Numbers that identify the contact of the pair in a journal: its ends, flank factors, backlash and lag."""
+        """Numbers that identify the contact of the pair in a journal: its limits, flank factors, backlash and lag."""
         at = self.contact
         return at.start, at.end, float(at.normal[0]), float(at.normal[-1]), at.backlash, float(at.even[0])
 
     def cut(self, wheels: Sequence[Any], shift: Any) -> DisplacedPair:
-        """Return the pair of drawn wheels, mirrored if they turn against the numbering of their teeth."""
+        """Return the pair of drawn wheels. Wheels that turn against the numbering of their teeth are mirrored."""
         pair = zip((self.first, self.second), self.mirrored, strict=True)
         first, second = (wheels[at].mirrored() if turned else wheels[at] for at, turned in pair)
         return DisplacedPair(self.contact, first, second, shift)
@@ -255,16 +264,20 @@ class DisplacedTrialPair(TrialPair):
         return found
 
     def transmission(self, pair: Any, rows: Ints) -> TrialTransmissionFunction:
-        """Return the transmission functions of a cut pair, from the foremost tooth pair at each angle."""
+        """Return the transmission functions of a cut pair, which follow from the foremost tooth pair at each driver
+        angle.
+        """
         return DisplacedTrialTransmission(pair, self.even, rows)
 
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """Return a cut pair filed until it turns without a jam, or by at most an eighth of a pitch."""
+        """Return a cut pair filed until it turns without a jam. At most an eighth of a pitch is removed from each
+        flank.
+        """
         limit = _MAXIMUM_FILING * self.contact.wheels[0].pitch
         return file_to_fit(pair, DisplacedPair.tight_place, self.stroke * self.depth, limit)
 
     def cleared(self, clearance: float) -> DisplacedTrialPair:
-        """Return the pair at a clearance factor of the centre distance, 1 or more."""
+        """Return the pair with another clearance factor of the centre distance, 1 or more."""
         if clearance < 1 or not self.contact.distance < inf:
             what = f"pair '{self.name}' has no {'clearance window' if clearance < 1 else 'centre distance'}"
             why = "only triangular teeth have a clearance window, and only parallel axes have a centre distance"
@@ -288,11 +301,15 @@ class TrialPlan(Shown):
     name: str
     """Name of the train."""
     wheels: tuple[WheelErrors, ...]
-    """Sizes and cutting errors of the wheels in the pairs of the trials."""
+    """Sizes and cutting errors of the wheels that belong to the pairs of the trials."""
     pairs: tuple[TrialPair, ...]
-    """Gear pairs of the wheels with cutting errors, with the sizes and mounting errors of each pair."""
+    """Gear pairs that contain a wheel with cutting errors. Each entry includes the sizes and the mounting errors of the
+    pair.
+    """
     composition: ErrorComposition
-    """Composed motion of the train with perfect teeth. Each trial replaces the transmission functions of its pairs."""
+    """Composed motion of the train with perfect teeth. In each trial, the transmission functions of the cut pairs
+    replace the perfect ones.
+    """
     outputs: tuple[str, ...]
     """Names of the outputs."""
     speeds: tuple[Fraction, ...]
@@ -300,12 +317,12 @@ class TrialPlan(Shown):
     reach: tuple[tuple[int, ...], ...]
     """Indices of the pairs that affect each output."""
     span: float
-    """Range of the random positions of the input [turn]."""
+    """Range from which the random positions of the input are drawn [turn]."""
     driving_link: str
     """Name of the driving link."""
     shown: Mapping[str, float | None] = field(default_factory=dict)
-    """Mean speed of each plotted output [deg/d], None if it is unknown. The requested outputs are plotted, or by
-    default the outputs with a dial.
+    """Mean speed of each plotted output [deg/d]; None if it is unknown. The plotted outputs are the requested outputs,
+    or by default the outputs with a dial.
     """
 
     def _summary(self) -> str:
@@ -325,7 +342,7 @@ class TrialPlan(Shown):
         return any(pair.stroke for pair in self.pairs)
 
     def scaled(self, factor: float) -> TrialPlan:
-        """Return a copy of the plan with all errors multiplied by a factor; tables of measured errors are not scaled.
+        """Return a copy of the plan with all errors multiplied by a factor, except tables of measured errors.
 
         Parameters
         ----------
@@ -342,7 +359,7 @@ class TrialPlan(Shown):
         return replace(self, wheels=wheels, pairs=pairs)
 
     def cleared(self, clearance: float) -> TrialPlan:
-        """Return a copy of the plan with every pair at another centre distance.
+        """Return a copy of the plan with every pair at another clearance factor.
 
         Parameters
         ----------
@@ -353,8 +370,8 @@ class TrialPlan(Shown):
         return replace(self, pairs=tuple(each.cleared(clearance) for each in self.pairs))
 
     def jamming_bound(self, pair: TrialPair) -> float:
-        """Return an upper bound of the jam probability of a pair; NaN if the pair is filed, if it has errors other than
-        normally distributed pitch deviations, or if no bound is known for its teeth.
+        """Return an upper bound of the jam probability of a pair. It is NaN if the pair is filed, if it has errors
+        other than normally distributed pitch deviations, or if no bound is known for its teeth.
 
         Parameters
         ----------
@@ -478,7 +495,7 @@ def find_trial_plan(
 
 
 def _even_wheels(train: GearTrain, mesh: GearMesh) -> tuple[WheelErrors, WheelErrors]:
-    """Return the driver and the driven wheel of a pair without cutting errors, with the tooth form of this pair."""
+    """Return the driver and the driven wheel of a pair with their tooth form, but without cutting errors."""
     counts = [train.declaration.wheels[name][1].count or 0 for name in (mesh.driver, mesh.driven)]
     contact = mesh.displaced_contact
     if contact is None:
@@ -493,7 +510,7 @@ def _even_wheels(train: GearTrain, mesh: GearMesh) -> tuple[WheelErrors, WheelEr
 
 
 def _span(composition: ErrorComposition, pairs: Sequence[TrialPair]) -> float:
-    """Return the number of turns of the input [turn] after which the same teeth meet in every pair, at most 10^6."""
+    """Return the number of input turns after which the same teeth meet again in every pair [turn], at most 10^6."""
     counts = {pair.name: pair.count for pair in pairs}
     cycles = [source.cycles / counts.get(source.id, 1) for source in composition.used if source.cycles]
     if not cycles:
@@ -522,7 +539,9 @@ class _RotationSenses:
         self.first: dict[str, int] = {}
 
     def mirrored(self, pair: str, wheel: str) -> bool:
-        """Return True if the sense of rotation of a wheel in this pair is opposite to its sense in its first pair."""
+        """Return True if the sense of rotation of a wheel in the given pair is opposite to its sense in its
+        first pair.
+        """
         circuit = self.circuits[pair]
         link = circuit.i if wheel == circuit.wheels[0] else circuit.j
         sense = -1 if self.motion._problem.relative(link, circuit.carrier) < 0 else 1

@@ -1,4 +1,6 @@
-"""Results of Monte Carlo trials: event probabilities of pairs; pointer errors at random positions and along a turn."""
+"""Results of Monte Carlo trials: event probabilities of pairs, and pointer errors at random positions and
+over a turn.
+"""
 
 from __future__ import annotations
 
@@ -32,7 +34,8 @@ if TYPE_CHECKING:
 
 
 FEWEST = 30
-"""Minimum number of trials in which the output turns; with fewer, a pointer's statistics are computed from all trials.
+"""Minimum number of trials in which the output turns. If there are fewer, the pointer statistics are computed from all
+trials.
 """
 
 EVENTS = {"jam": JAM, "clash": CLASH, "stops": STOPS, "dwell": DWELL, "disengaged": DISENGAGED}
@@ -62,13 +65,15 @@ class TrialResults(Tabular):
     wanted: int
     """Number of requested trials. It is larger than `done` if the run was interrupted."""
     marks: Marks
-    """Bit mask of events in each pair, (trials, pairs): 1 jam, 2 clash, 4 dwell, 8 disengaged, 16 not cuttable."""
+    """Bit mask of the events in each pair, shape (trials, pairs): 1 jam, 2 clash, 4 dwell, 8 disengaged, 16 not
+    cuttable.
+    """
     turns: Floats
     """Position of the input in each trial, shape (trials,) [turn]."""
     errors: Floats
     """Pointer error of each output, shape (trials, outputs) [rad]; infinite if no teeth touch."""
     linear: Floats
-    """Pointer errors by first-order superposition [rad] for the first n trials only (n <= 1024), shape (n, outputs)."""
+    """Pointer errors by first-order superposition in the first n trials (n <= 1024) [rad], shape (n, outputs)."""
     lags: Floats
     """Transmission error of each pair, relative to its mean transmission error without cutting errors, shape (trials,
     pairs) [rad of the driven wheel].
@@ -78,8 +83,8 @@ class TrialResults(Tabular):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table with one row for each trial: position of the input [turn], pointer errors [deg] and event flags of each
-        pair.
+        """Columns of a table with one row for each trial: position of the input [turn], pointer errors [deg] and event
+        flags of each pair.
 
         The flags are a bit mask: 1 jam, 2 clash, 4 dwell, 8 disengaged, 16 not cuttable.
         """
@@ -110,7 +115,9 @@ class TrialResults(Tabular):
 
     @cached_property
     def bounds(self) -> Mapping[str, float]:
-        """Upper bound of the jam probability of each pair whose errors are all normal pitch deviations, 0 to 1."""
+        """Upper bound of the jam probability, 0 to 1, of each pair whose only errors are normally distributed pitch
+        deviations.
+        """
         found = {pair.name: self.plan.jamming_bound(pair) for pair in self.plan.pairs}
         return {name: bound for name, bound in found.items() if not isnan(bound)}
 
@@ -131,7 +138,7 @@ class TrialResults(Tabular):
 
     @cached_property
     def filings(self) -> tuple[FilingStatistics, ...]:
-        """Filing statistics of each pair that is filed to fit, and of the train; empty if no pair is filed to fit."""
+        """Filing statistics of each pair that is filed to fit, and of the train; empty if no pair is filed."""
         if not self.plan.files:
             return ()
         found = [
@@ -185,8 +192,8 @@ class TrialResults(Tabular):
         return FirstOrderError(*(sqrt(np.mean(each[good] ** 2)) for each in (off, exact)))
 
     def _shares(self, at: int, runs: Bools) -> dict[str, float]:
-        """Return the variance share of each pair: covariance of its contribution with the total error, divided by the
-        variance.
+        """Return the variance share of each pair: the covariance of its contribution and the total error, divided by
+        the variance of the total error.
 
         runs   mask of the trials that are used, shape (trials,)
         """
@@ -239,9 +246,10 @@ class TrialResults(Tabular):
 
 
 def turning_trials(marks: Marks, pairs: Sequence[int]) -> Bools:
-    """Return a mask, shape (trials,), of the trials in which the given pairs transmit motion.
+    """Return a mask of the trials in which all given pairs transmit motion, shape (trials,).
 
-    A trial is excluded if a given pair jams, disengages or has a wheel that cannot be cut; clashes are allowed.
+    A trial is excluded if a given pair jams, disengages or has a wheel that cannot be cut. Clashes do not exclude a
+    trial.
     """
     runs: Bools = np.all((marks[:, list(pairs)] & LOST) == 0, axis=1)
     return runs
@@ -261,7 +269,7 @@ def _tally(name: str, marks: Marks, backlash: float, bound: float) -> PairEventR
 
 
 class EventRates(TypedDict):
-    """Probability of each event (jam, clash, dwell, loss of contact) during a full meshing cycle."""
+    """Mapping from event (jam, clash, dwell, loss of contact) to its probability during a full meshing cycle."""
 
     jam: ProbabilityEstimate
     clash: ProbabilityEstimate
@@ -279,43 +287,45 @@ class PairEventRates(Result):
     name: str
     """Name of the pair, or "the train"."""
     events: Mapping[str, ProbabilityEstimate]
-    """Probability of jam, clash, stops (jam or clash), dwell and disengaged, in trials with cuttable wheels."""
+    """Probability of each event (jam, clash, stops, dwell, disengaged) in trials with cuttable wheels; stops means jam
+    or clash.
+    """
     uncut: int
     """Number of trials with at least one wheel that cannot be cut."""
     backlash: float = nan
-    """Backlash of the pair if its wheels have no errors [pitch of the driven wheel]; NaN for the train."""
+    """Backlash of the pair with wheels without errors [pitch of the driven wheel]; NaN for the train."""
     bound: float = nan
     """Upper bound of the jam probability due to pitch deviations, 0 to 1; NaN if the pair has other errors."""
 
     @property
     def rates(self) -> EventRates:
-        """Event probabilities by the name of the event."""
+        """Event probabilities, keyed by the name of the event."""
         return cast("EventRates", self.events)
 
 
 @dataclass(frozen=True, slots=True)
 class FilingStatistics(Result):
-    """Amount of filing after which one pair, or the whole train, turns without a jam."""
+    """Amount of filing that one pair, or the whole train, needs to turn without a jam."""
 
     KEYS = (Key("pair", "name"), "filed", "strokes", "teeth", "most", Key("jams_after", "jams"))
 
     name: str
     """Name of the pair, or "the train"."""
     filed: ProbabilityEstimate
-    """Probability of a jam before filing."""
+    """Probability that filing is needed, that is, of a jam before filing."""
     strokes: IntervalEstimate
     """Mean number of file strokes per trial."""
     teeth: IntervalEstimate
     """Mean number of filed teeth per trial."""
     most: int
-    """Maximum number of strokes in one trial."""
+    """Maximum number of file strokes in one trial."""
     jams: ProbabilityEstimate
-    """Probability of a jam after filing. A pair still jams if a flank was filed to its limit."""
+    """Probability of a jam after filing. A pair may still jam if a flank was filed to its limit."""
 
 
 @dataclass(frozen=True)
 class ConvergenceStep:
-    """Probability estimated from the first trials of a run, to show the convergence."""
+    """Probability estimated from the first trials of a run, used to show its convergence."""
 
     KEYS = ("trials", Key("", "share"))
 
@@ -329,8 +339,8 @@ class ConvergenceStep:
 
 
 class FirstOrderError(NamedTuple):
-    """Root mean squares of the error of first-order superposition, and of the exact pointer error, for comparison
-    [rad].
+    """Root mean square of the error of first-order superposition, and root mean square of the exact pointer error for
+    comparison [rad].
     """
 
     off: float
@@ -363,17 +373,21 @@ class PointerErrorStatistics(Result):
     name: str
     """Name of the output."""
     errors: Floats
-    """Pointer errors [rad] in the trials in which no pair that moves the output jams or disengages, in trial order."""
+    """Pointer errors in the trials in which no pair that moves the output jams or disengages [rad], in the order of the
+    trials.
+    """
     all: Floats
-    """Pointer errors of all trials in which teeth touch [rad]. If a pair jams, the value is the error with the drive
-    flanks of that pair in contact.
+    """Pointer errors of all trials in which teeth touch [rad]. If a pair jams, the error is computed with its drive
+    flanks in contact.
     """
     stopped: int
     """Number of trials excluded from `errors`."""
     first: FirstOrderError
-    """Root mean square of the error from first-order superposition, and root mean square of the pointer error [rad]."""
+    """Root mean square of the error of first-order superposition, and root mean square of the pointer error [rad]."""
     shares: Mapping[str, float]
-    """Share of each pair in the variance, by first-order superposition; the sum is 1. Empty if the variance is 0."""
+    """Share of each pair in the variance of the pointer error, by first-order superposition. The shares sum to 1; empty
+    if the variance is 0.
+    """
 
     @property
     def runs(self) -> int:
@@ -382,12 +396,14 @@ class PointerErrorStatistics(Result):
 
     @property
     def kept(self) -> Floats:
-        """Errors used for the statistics [rad]: `errors`, or `all` if the output can turn in fewer than 30 trials."""
+        """Pointer errors used for the statistics [rad]: `errors`, or `all` if the output can turn in fewer than 30
+        trials.
+        """
         return self.all if self.of_all else self.errors  # few trials give no useful statistics
 
     @property
     def of_all(self) -> bool:
-        """True if the output can turn in fewer than 30 trials. The statistics are then computed from `all`."""
+        """True if the output can turn in fewer than 30 trials, so that the statistics are computed from `all`."""
         return len(self.errors) < FEWEST
 
     @property
@@ -402,12 +418,14 @@ class PointerErrorStatistics(Result):
 
     @property
     def deviation_of_all(self) -> IntervalEstimate:
-        """Standard deviation of the pointer error in all trials with touching teeth [rad], with confidence interval."""
+        """Standard deviation of the pointer error over all trials in which teeth touch [rad], with its confidence
+        interval.
+        """
         return deviation_of(self.all)
 
     @property
     def percentiles(self) -> dict[float, IntervalEstimate]:
-        """Mapping from percentage to the percentile of the pointer error [rad]."""
+        """Mapping from percentage to the percentile of the pointer error with its confidence interval [rad]."""
         return percentiles_of(self.kept)
 
     @property
@@ -461,7 +479,7 @@ class PointerErrorCourse(Result):
 
     @property
     def percentiles(self) -> dict[float, IntervalEstimate]:
-        """Mapping from percentage to the percentile, over the trials, of the maximum absolute pointer error [rad]."""
+        """Mapping from percentage to the percentile of the maximum absolute pointer error over the trials [rad]."""
         return percentiles_of(self.maximum)
 
     @property

@@ -1,4 +1,4 @@
-"""Execution of trials as tasks in one or several processes, with a journal; their results, and a table file."""
+"""Execution of trials as tasks in one or several processes with a journal, their results, and a table file."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 
 VERSION = 3
-"""Version of the random drawing and evaluation of trials. A journal of another version is rejected."""
+"""Version of the algorithm that draws and evaluates trials. A journal of another version is rejected."""
 _CHECKED = 1024  # trials in which superposition is compared with exact composition
 _TASKS = 16  # minimum number of tasks if there are enough trials: 8 processes then finish at nearly the same time
 _FEWEST = 32  # minimum trials of a task: its fixed cost is then smaller than the cost of its trials
@@ -46,7 +46,9 @@ _MOST = 10**9  # trials: more would not fit into memory
 
 @dataclass(frozen=True, slots=True)
 class TrialRecord:
-    """Results of the trials of one task, as in `TrialResults`; `first` is the number of its first trial."""
+    """Results of the trials of one task, with fields as in `TrialResults`; `first` is the number of the first trial in
+    the task.
+    """
 
     first: int
     turns: Floats
@@ -60,20 +62,20 @@ class TrialRecord:
 
 
 def journal_key(plan: TrialPlan, seed: int, trials: int, **more: Any) -> dict[str, Any]:
-    """Return the data that identify a run in a journal: all data on which its results depend."""
+    """Return the data that identify a run in a journal, which are all data on which its results depend."""
     made = {"geartrain": version("geartrain"), "numpy": version("numpy"), "errors": VERSION}
     return {**made, "seed": seed, "trials": trials, "block": BLOCK, **plan.question(), **more}
 
 
 def check_trials(trials: int) -> None:
-    """Raise `QuestionError` if the number of trials is not from 1 to 10^9."""
+    """Raise `QuestionError` if the number of trials is below 1 or above 10^9."""
     if not 1 <= trials <= _MOST:
         what = f"{trials if trials < 1 else f'{trials:.3g}'} is not a valid number of trials"
         raise QuestionError(Problem(what, f"a run has from 1 to {_MOST:,} trials", "for example, give --trials 1000"))
 
 
 def trial_tasks(trials: int, cases: int = 1) -> list[list[int]]:
-    """Split the trials into tasks; each task is given by its first trial and its number of trials.
+    """Return the tasks into which the trials are divided, each given by its first trial and its number of trials.
 
     A task is one block, or a half or a quarter of a block if there are few blocks. Sums are rounded task by task.
     Therefore the tasks depend only on the number of trials and of `cases` (repetitions with other sizes), not on the
@@ -95,7 +97,8 @@ def run_trials(
     means: Execution | None = None,
     take: Callable[[TrialRecord], None] | None = None,
 ) -> TrialResults:
-    """Run Monte Carlo trials of a train: each samples errors of all wheels and turns each pair through a full cycle.
+    """Run Monte Carlo trials of a train. Each trial draws errors of all wheels and turns each pair through a full
+    meshing cycle.
 
     The result is the same for any number of workers, and for a run that was interrupted and resumed. After an interrupt
     (Ctrl-C), the results of the completed trials are returned.
@@ -111,12 +114,12 @@ def run_trials(
     means : Execution, optional
         Executor, journal and progress function; by default this process without journal and progress function.
     take : callable, optional
-        Function that is called with each finished task, a `TrialRecord`.
+        Function that is called with the `TrialRecord` of each finished task.
 
     Returns
     -------
     TrialResults
-        Event rates of the pairs and errors of the pointers.
+        Event probabilities of the pairs and errors of the pointers.
 
     Raises
     ------
@@ -160,7 +163,7 @@ def run_trials(
 
 
 def _check_cut(drawn: TrialWheels) -> None:
-    """Raise `RangeError` if wheels cannot be cut in more than half of the trials."""
+    """Raise `RangeError` if at least one wheel cannot be cut in more than half of the trials."""
     plan = drawn.plan
     uncut = np.stack([~(drawn.good[pair.first] & drawn.good[pair.second]) for pair in plan.pairs], axis=1)
     share = uncut.any(axis=1).mean()
@@ -177,7 +180,7 @@ def _check_cut(drawn: TrialWheels) -> None:
 
 
 def work_block(plan: TrialPlan, seed: int, task: Sequence[int]) -> dict[str, Any]:
-    """Return the results of the trials of one task as plain data."""
+    """Return the results of all trials in one task as plain data."""
     number, trials = task
     drawn = draw_trial_wheels(plan, RandomStreams(seed, number // BLOCK), trials, number % BLOCK)
     marks, backlash = judge_trial_pairs(drawn)
@@ -208,8 +211,8 @@ def _pack(array: NDArray[Any]) -> str:
 
 
 def unpack(first: int, packed: Mapping[str, str]) -> TrialRecord:
-    """Return the results of the trials of one task, beginning with number `first`, from the data of a worker or a
-    journal.
+    """Return the results of the trials of one task, whose first trial has the number `first`, from the packed data of a
+    worker or a journal.
     """
     return TrialRecord(first, **{name: np.load(BytesIO(b64decode(each))) for name, each in packed.items()})
 
@@ -218,7 +221,7 @@ def unpack(first: int, packed: Mapping[str, str]) -> TrialRecord:
 
 
 def gathered(plan: TrialPlan, seed: int, wanted: int, found: Sequence[TrialRecord]) -> TrialResults:
-    """Return the records of all tasks, combined in one result."""
+    """Return one result that combines the records of all tasks."""
     names = ("marks", "turns", "errors", "linear", "lags", "filing")
     arrays = {name: np.concatenate([getattr(rows, name) for rows in found]) for name in names}
     return TrialResults(plan, seed, wanted, **arrays)
@@ -280,10 +283,11 @@ _EVENTS = "bit mask: 1 jam, 2 clash, 4 dwell, 8 disengaged, 16 wheels cannot be 
 def trial_table(
     plan: TrialPlan, path: Path, force: bool = False, replay: bool = False
 ) -> Iterator[Callable[[TrialRecord], None]]:
-    """Yield a function that appends one record to a table file (.parquet or .csv) with one row for each trial.
+    """Yield a function that appends one record to a table file (.parquet or .csv). The table has one row for each
+    trial.
 
     force    True if an existing file may be overwritten
-    replay   True if an interrupted run is resumed; its file is then written again from the journal
+    replay   True if an interrupted run is resumed, and the file is written again from the journal
     """
     if path.suffix.lower() == ".parquet":
         with ColumnTable(path, {"train": plan.name, "events": _EVENTS}, force, replay=replay) as columns:
@@ -306,7 +310,7 @@ def _names(plan: TrialPlan) -> list[str]:
 
 
 def _columns(plan: TrialPlan, rows: TrialRecord) -> list[Floats]:
-    """Return the columns of one record, in the order of their `_names`."""
+    """Return the table columns of one record in the order of the column names (`_names`)."""
     values = [rows.first + np.arange(len(rows.turns)), rows.turns, *np.degrees(rows.errors.T)]
     for at in range(len(plan.pairs)):
         values += [rows.backlash[:, at], rows.marks[:, at]]

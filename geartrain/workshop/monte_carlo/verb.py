@@ -1,4 +1,4 @@
-"""Command `geartrain montecarlo`: Monte Carlo trials of a train with cutting errors."""
+"""Command `geartrain montecarlo`: run Monte Carlo trials of a train with cutting errors."""
 
 from __future__ import annotations
 
@@ -135,7 +135,7 @@ def run(
 
 
 class _StoppedError(Exception):
-    """Interruption of the trials by the user, raised so that the table remains marked as partial."""
+    """Interruption of the trials by the user. It is raised so that the table remains marked as partial."""
 
 
 def _trials(
@@ -145,7 +145,7 @@ def _trials(
     given: Execution,
     table: AbstractContextManager[Callable[[TrialRecord], None] | None],
 ) -> TrialResults:
-    """Run the trials with the journal, and write each trial to the table."""
+    """Return the results of the trials. They are run with a journal, and each trial is written to the table."""
     from geartrain.workshop.monte_carlo.trial_run import run_trials
 
     with suppress(_StoppedError), table as take:

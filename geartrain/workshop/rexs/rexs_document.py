@@ -1,4 +1,5 @@
-"""REXS files in JSON (.rexsj) and in XML (.rexs): writers of both from one structure, and a reader of both.
+"""REXS files in JSON (.rexsj) and in XML (.rexs): writers of both formats from one structure, and a reader of both
+formats.
 
 The structure follows the JSON file: components with attributes, relations of components, and load cases. See the
 specification of REXS 1.4, "Interface structure" and "JSON as an alternative file format" (www.rexs.info).
@@ -20,9 +21,9 @@ from geartrain.errors import GearTrainError, Problem
 
 _UNREADABLE = (LookupError, TypeError, AttributeError, ArithmeticError, ValueError, RecursionError)
 Model = dict[str, Any]
-"""Model as in a JSON file: metadata, `relations`, `components`, and optionally `load_spectrum`."""
+"""REXS model with the structure of a JSON file: metadata, `relations`, `components`, and optionally `load_spectrum`."""
 Attributes = Mapping[str, Any]
-"""Values of attributes by name."""
+"""Values of attributes, keyed by attribute name."""
 
 _NAMES = {
     ("floating_point_array", "mm"): "u_axis_vector support_vector w_axis_vector",
@@ -41,14 +42,14 @@ _NAMES = {
 _ATTRIBUTES = {name: kind for kind, names in _NAMES.items() for name in names.split()}
 """Type and unit of the attributes that are written or read."""
 _OTHER_UNITS = {"deg": ("°", "rad"), "1 / min": ("rad / s",)}
-"""Further units that are read, from older files and from files of other programs."""
+"""Alternative spellings of units that are accepted from older files and from files of other programs."""
 _ROLES: Mapping[str, Sequence[str]] = {
     **{"assembly": ("assembly", "part"), "side": ("assembly", "inner_part", "outer_part")},
     **{"stage": ("stage", "gear_1", "gear_2"), "flank": ("gear", "left")},
     **dict.fromkeys(("central_shaft", "planet_shaft"), ("planetary_stage", "shaft")),
     **dict.fromkeys(("planet_pin", "planet_carrier_shaft"), ("planetary_stage", "shaft")),
 }
-"""Roles of the relations that are read."""
+"""Roles of the components in each type of relation that is read."""
 _EXPORT = "export the gear unit again as REXS 1.0 to 1.4, in JSON (.rexsj) or XML (.rexs)"
 
 
@@ -64,28 +65,28 @@ class RexsComponent:
 
 @dataclass(frozen=True, slots=True)
 class RexsDocument:
-    """Gear unit as read from a file."""
+    """Gear unit as read from a REXS file."""
 
     place: str
     """Name of the file."""
     origin: str
-    """Program that wrote the file, and the version of REXS."""
+    """Name of the program that wrote the file, and REXS version of the file."""
     components: Mapping[int, RexsComponent]
-    """Components by id, in the order of the file."""
+    """Components keyed by id, in the order of the file."""
     relations: Mapping[str, Sequence[tuple[int, ...]]]
-    """Ids of the components of each relation in the order of `_ROLES`, by type of relation."""
+    """Component ids of each relation in the order of `_ROLES`, keyed by the type of the relation."""
     cases: Sequence[Mapping[int, Attributes]]
-    """Attributes of components in each load case, by id of the component."""
+    """Attributes of components in each load case, keyed by component id."""
     units: Mapping[str, str]
-    """Unit of each attribute as written in the file; empty for numbers and flags."""
+    """Unit of each attribute as written in the file; empty for pure numbers and flags."""
 
     def parts(self, assembly: int, kind: str) -> list[int]:
-        """Return the components of one type that are assembled into a component."""
+        """Return the ids of all components of one type that are parts of the component `assembly`."""
         found = (part for whole, part in self.relations["assembly"] if whole == assembly)
         return [part for part in found if self.components[part].type == kind]
 
     def of_type(self, *kinds: str) -> list[int]:
-        """Return the components of the given types."""
+        """Return the ids of all components of the given types."""
         return [each.id for each in self.components.values() if each.type in kinds]
 
 
@@ -93,7 +94,9 @@ class RexsDocument:
 
 
 def written(attributes: Attributes) -> list[Model]:
-    """Return attributes with their types and units as in a JSON file; attributes that are None are omitted."""
+    """Return attributes with types and units in the structure of a JSON file. Attributes with the value None are
+    omitted.
+    """
     found = []
     for name, value in attributes.items():
         kind, unit = _ATTRIBUTES[name]
@@ -103,20 +106,22 @@ def written(attributes: Attributes) -> list[Model]:
 
 
 def to_json(model: Model) -> str:
-    """Return a model as the content of a JSON file."""
+    """Return the content of a JSON file that contains the given model."""
     # JSON has no NaN, so an undefined size must raise an error here and not in the reading program
     return json.dumps({"model": model}, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 
 def to_xml(model: Model) -> str:
-    """Return a model as the content of an XML file, with the byte order mark that REXS 1.4 requires."""
+    """Return the content of an XML file that contains the given model, with the byte order mark that REXS 1.4
+    requires.
+    """
     root = _element("model", model)
     ElementTree.indent(root)
     return f'\ufeff<?xml version="1.0" encoding="UTF-8"?>\n{ElementTree.tostring(root, encoding="unicode")}\n'
 
 
 def _element(tag: str, content: Any) -> ElementTree.Element:
-    """Return a part of a JSON file as an XML element."""
+    """Return a part of a JSON structure as an XML element with the given tag."""
     node = ElementTree.Element(tag)
     if not isinstance(content, dict):
         node.text = _scalar(content)
@@ -165,7 +170,7 @@ def read_document(path: Path) -> RexsDocument:
 
 
 def _unpacked(data: bytes) -> bytes:
-    """Return the model in a ZIP archive (.rexsz), or the data themselves if they are not an archive."""
+    """Return the model file in a ZIP archive (.rexsz), or the given data if they are not an archive."""
     if data[:2] != b"PK":
         return data
     with ZipFile(BytesIO(data)) as archive:
@@ -178,7 +183,7 @@ def _unpacked(data: bytes) -> bytes:
 
 
 def _from_xml(text: str) -> Model:
-    """Return the model of an XML file in the structure of a JSON file."""
+    """Return the model in the text of an XML file, converted to the structure of a JSON file."""
     # entities could expand to an endless text, and REXS has none
     if "<!DOCTYPE" in text or "<!ENTITY" in text:
         raise ValueError("a document type declaration is not allowed")
@@ -189,7 +194,7 @@ def _from_xml(text: str) -> Model:
 
 
 def _object(node: ElementTree.Element) -> Model:
-    """Return an XML element as an object of a JSON file; the value of an attribute has the key `value`."""
+    """Return an XML element as an object of the JSON structure. The value of an attribute has the key `value`."""
     found: Model = dict(node.attrib)
     if node.tag == "attribute":
         values = node.find("array")
@@ -232,7 +237,9 @@ def _document(model: Model, place: str) -> RexsDocument:
 
 
 def _values(part: Model, units: dict[str, str]) -> Iterator[tuple[str, Any]]:
-    """Yield the supported attributes that a component has, with their values; add their units to `units`."""
+    """Yield name and value of each supported attribute of a component, and add the units of these attributes to
+    `units`.
+    """
     for given in part.get("attributes", ()):
         name, unit = str(given["id"]), str(given.get("unit") or "none").replace("none", "")
         value = next((value for key, value in given.items() if key not in ("id", "unit")), None)

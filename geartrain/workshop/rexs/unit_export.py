@@ -1,7 +1,7 @@
 """Gear unit as a REXS model (FVA's Reusable Engineering Exchange Standard, version 1.4).
 
 Component types, attributes, units and relations are taken from the REXS 1.4 database; see www.rexs.info. A carrier with
-spur wheels on its axes is a planetary stage. A state of the train is a gear of the unit and a load case.
+spur wheels on its axes becomes a planetary stage. Each state of the train becomes a gear of the unit and a load case.
 """
 
 from __future__ import annotations
@@ -40,12 +40,12 @@ _FLANKS = {"bevel_gear": "bevel_gear_flank", "worm_gear": "worm_gear_flank", "wo
 
 
 def to_rexs(work: SolidModel, xml: bool = False) -> str:
-    """Return the gear unit of a train as a REXS file in JSON, or in XML."""
+    """Return the gear unit of a train as a REXS file, in XML if `xml` is True and in JSON if it is False."""
     return (to_xml if xml else to_json)(_Unit(work).model())
 
 
 def omitted_parts(work: SolidModel) -> Iterator[Problem]:
-    """Yield the parts of a train that REXS cannot represent."""
+    """Yield a problem for each part of a train that REXS cannot represent."""
     unit = _Unit(work)
     declared = unit.declared
     pairs = [gear.name for gear in declared.gears if unit.stage_of(gear) is None]
@@ -106,7 +106,7 @@ class _Unit:
         }
 
     def add(self, kind: str, name: str = "", *wholes: int, **attributes: Any) -> int:
-        """Add a component, and relate it to the components of which it is a part."""
+        """Add a component, relate it to the components `wholes` of which it is a part, and return its id."""
         number = len(self.components) + 1
         named = {"name": name} if name else {}
         self.components.append({"id": number, "type": kind, **named, "attributes": written(attributes)})
@@ -115,14 +115,14 @@ class _Unit:
         return number
 
     def relate(self, kind: str, **roles: int) -> None:
-        """Add a relation; each member has its role, and its component type as a hint."""
+        """Add a relation. Each member has its role, and its component type as a hint."""
         refs = [
             {"id": number, "role": role, "hint": self.components[number - 1]["type"]} for role, number in roles.items()
         ]
         self.relations.append({"id": len(self.relations) + 1, "type": kind, "refs": refs})
 
     def join(self, kind: str, name: str, inner: int, outer: int, **attributes: Any) -> int:
-        """Add a bearing or coupling between two components."""
+        """Add a bearing or coupling between two components, and return its id."""
         number = self.add(kind, name, **attributes)
         self.relate("side", assembly=number, inner_part=inner, outer_part=outer)
         return number
@@ -130,7 +130,7 @@ class _Unit:
     # ------------------------------------------------------------------------------------------------ shafts and gears
 
     def shaft(self, link: str) -> None:
-        """Add a shaft for a link that turns or has wheels; u is the coordinate along its axis."""
+        """Add a shaft for a link that turns or has wheels. The coordinate along its axis is u."""
         wheels = self.declared.links[link].wheels
         if link == self.declared.frame and not wheels:
             return
@@ -167,7 +167,7 @@ class _Unit:
         self.relate("flank", gear=number, **flanks)
 
     def kind(self, name: str) -> str:
-        """Return the type of a gear; a wheel in mesh with a worm is a worm wheel."""
+        """Return the component type of a gear. A wheel in mesh with a worm is a worm wheel."""
         wheel, place = self.declared.wheels[name][1], self.work.layout.wheels[name]
         if wheel.kind == "worm":
             return "worm_gear"
@@ -178,9 +178,10 @@ class _Unit:
         return "ring_gear" if wheel.internal else "worm_wheel" if worm else "cylindrical_gear"
 
     def teeth(self, name: str) -> tuple[float | None, float | None]:
-        """Return pressure angle [deg] and profile shift of a wheel from its first pair with involute teeth.
+        """Return pressure angle [deg] and profile shift of a wheel, from its first pair with involute teeth.
 
-        Without a declared form, the angle is 20 deg and the shift None; both are None if all forms are of other kinds.
+        If no tooth form is declared, the angle is 20 deg and the profile shift is None. If all declared forms are
+        non-involute, both are None.
         """
         pairs = [gear for gear in self.declared.gears if name in gear.pair]
         forms = [(gear.pair.index(name), self.declared.form_of(gear)) for gear in pairs]
@@ -192,14 +193,16 @@ class _Unit:
     # ------------------------------------------------------------------------------------------------ stages, carriers
 
     def stage_of(self, gear: GearPair) -> tuple[str, str, str] | None:
-        """Return the type of the stage of a pair with its first and second gear; None if REXS has no such stage."""
+        """Return the stage type of a pair and the names of its first and second gear, or None if REXS has no such
+        stage.
+        """
         first, second = sorted(gear.pair, key=self.kind)
         kind = _STAGES.get((self.kind(first), self.kind(second)))
         skew = kind == "cylindrical_stage" and self.work.layout.axis_distance(first, second) is None
         return None if kind is None or skew else (kind, first, second)
 
     def stage(self, gear: GearPair) -> None:
-        """Add a gear pair as a stage; an internal wheel is its second gear."""
+        """Add a gear pair as a stage. An internal wheel becomes its second gear."""
         found = self.stage_of(gear)
         if found is None:
             return
@@ -254,12 +257,14 @@ class _Unit:
 
     @cached_property
     def first(self) -> int:
-        """Index of the state in which the unit is written."""
+        """Index of the selected state; 0 if no states are declared."""
         return [case.state for case in self.cases].index(self.work.scene.state) if self.work.train.states else 0
 
     @cached_property
     def engagement(self) -> Mapping[tuple[str, ...], list[bool]]:
-        """Flags of each brake (one link) and lock (two links): True in each state in which it is engaged."""
+        """Engagement flags of each brake (key with one link) and each lock (key with two links). A flag is True in a
+        state in which the brake or lock is engaged.
+        """
         found: dict[tuple[str, ...], list[bool]] = {}
         for at, case in enumerate(self.cases):
             for links in (*((link,) for link in case.fixed), *case.locks):
@@ -268,12 +273,14 @@ class _Unit:
         return found
 
     def clutch_name(self, links: tuple[str, ...]) -> str:
-        """Return the declared name of a brake or clutch, or a name made of the links that it holds."""
+        """Return the declared name of a brake or clutch, or a name composed of the links that it connects."""
         declared = {links: name for case in self.cases for links, name in case.clutches.items()}
         return declared.get(links, f"{' - '.join(links)} held")
 
     def clutch(self, links: tuple[str, ...], engaged: list[bool]) -> None:
-        """Add a brake on one link or a lock of two links; it is switchable unless it is always engaged."""
+        """Add a brake on one link, or a lock between two links. It is switchable unless it is engaged in
+        every state.
+        """
         ends = [self.numbers["link", link] for link in links if ("link", link) in self.numbers]
         name, fixed = self.clutch_name(links), all(engaged) and not any(links in case.clutches for case in self.cases)
         if ends:
@@ -283,7 +290,9 @@ class _Unit:
 
     @cached_property
     def torques(self) -> Mapping[int, Torques]:
-        """Torques of each state by index; states without loads in N m or with undetermined torques are omitted."""
+        """Torques of each state, keyed by state index. States without loads in N m, or with undetermined torques, are
+        omitted.
+        """
         found = {}
         for at, case in enumerate(self.cases):
             if case.loads and all(load.unit or not load.value for load in case.loads.values()):
@@ -292,7 +301,9 @@ class _Unit:
         return {at: torques for at, torques in found.items() if torques.verdict}
 
     def loads(self, at: int) -> Mapping[str, float]:
-        """Return the external torques of a state [N m] by link, without the torques of brakes and forces on slides."""
+        """Return the external torques on each link in a state [N m], without the torques of brakes and the forces on
+        sliding links.
+        """
         apart = {link for links in self.engagement for link in links} | self.declared.sliding
         computed = self.torques[at].external if at in self.torques else {}
         given = self.cases[at].loads.items()
@@ -300,7 +311,7 @@ class _Unit:
         return {link: float(torque) for link, torque in computed.items() if link not in apart} | declared
 
     def running(self, at: int) -> list[Model]:
-        """Return the data of one load case: the engaged gear, speeds [1/min], and torques [N m]."""
+        """Return the data of one load case: engaged gear of the unit, speeds [1/min] and torques [N m]."""
         case, found = self.cases[at], []
         answer = self.work.train.solve(case.state, method="exact")
         # speeds that are not per time are taken as turns per minute
@@ -320,7 +331,7 @@ class _Unit:
         return [*gear, *found] if found else []
 
     def data(self, kind: str, name: str, **attributes: Any) -> Model:
-        """Return the data of a component in a load case."""
+        """Return the data of one component in a load case."""
         part = self.components[self.numbers[kind, name] - 1]
         return {"id": part["id"], "type": part["type"], "name": part["name"], "attributes": written(attributes)}
 
@@ -335,7 +346,9 @@ def _sizes(kind: str, place: WheelPlace, wheel: Wheel) -> Attributes:
 
 
 def _pose(axis: AxisPlace | None = None, point: Vector | None = None) -> Attributes:
-    """Return the attributes of the position of a component: u along its axis, w perpendicular to it."""
+    """Return the attributes that describe the pose of a component: u is directed along its axis, and w perpendicular to
+    it.
+    """
     along, origin = (axis.direction, axis.point) if axis else ((0.0, 0.0, 1.0), (0.0, 0.0, 0.0))
     vectors = {"u_axis_vector": along, "support_vector": point or origin, "w_axis_vector": basis(along)[0]}
     return {name: [*map(float, each)] for name, each in vectors.items()} | {"reference_component_for_position": 1}

@@ -1,7 +1,8 @@
 """Declaration of a train read from a REXS file: spur and helical stages on parallel axes, and planetary stages.
 
-Shafts are links. Shafts of a planet carrier, with its pins and side plates, are one link. Couplings are brakes and
-locks; switchable couplings are clutches, and the gears of the unit are states. Equal planets are one link with copies.
+Shafts become links. The shafts, pins and side plates of a planet carrier become one link. Couplings become brakes and
+locks, switchable couplings become clutches, and the gears of the unit become states. Equal planets become one link with
+copies.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from geartrain.train.declaration_files import read_declaration, write_declaratio
 from geartrain.workshop.rexs.rexs_document import Attributes, RexsComponent, RexsDocument, read_document
 
 _UNITS = {"°": "deg", "1 / min": "rpm", "rad / s": "rad/s"}
-"""Unit in declarations for each unit in REXS that is written differently."""
+"""Unit in a declaration for each REXS unit that is written differently."""
 _RIGID = {
     *("coupling", "cylindrical_interference_fit", "tapered_interference_fit"),
     *("feather_key_connection", "involute_spline_connection"),
@@ -43,9 +44,9 @@ _FRAME = 0  # id of the casing among links; components of a file have other ids
 
 
 def declaration_of(path: Path) -> tuple[str, list[str]]:
-    """Return the text of a declaration of the gear unit in a REXS file, and notes on what was not read.
+    """Return the text of a declaration of the gear unit in a REXS file, and notes on the parts that were not imported.
 
-    Raises `GearTrainError` with all parts on which speeds depend and which cannot be read.
+    Raises `GearTrainError` that lists all parts that cannot be read although speeds depend on them.
     """
     from geartrain.train.declaration_style import with_short_forms
 
@@ -67,14 +68,16 @@ class _Pose(NamedTuple):
     u: Vector
 
     def is_coaxial(self, other: _Pose) -> bool:
-        """Return True if the u-axes of both components lie on one line."""
+        """Return True if the u-axes of the two components are collinear, False otherwise."""
         distance = size(cross(self.u, minus(other.origin, self.origin)))
         scale = 1.0 + size(self.origin) + size(other.origin)
         return size(cross(self.u, other.u)) < _NEAR and distance < _NEAR * scale
 
 
 class _GearUnit:
-    """Links, axes, wheels and states of a gear unit. A link is the id of one of its shafts, or `_FRAME`."""
+    """Links, axes, wheels and states of a gear unit. A link is identified by the id of one of its shafts, or by
+    `_FRAME`.
+    """
 
     def __init__(self, document: RexsDocument) -> None:
         self.document, self.parts, self.relations = document, document.components, document.relations
@@ -92,7 +95,7 @@ class _GearUnit:
         return self.parts[found[0]] if found else RexsComponent(_FRAME, kind, name, {})
 
     def declaration(self) -> dict[str, Any]:
-        """Return the declaration as data, and collect problems and notes."""
+        """Return the declaration as plain data, and collect problems and notes."""
         self._check_types()
         unread = Counter(each.type for each in self.parts.values() if each.type not in _READ)
         if unread:
@@ -141,7 +144,7 @@ class _GearUnit:
         self.problems.append(Problem(f"{part.name or part.type}: {what}", why, fix, place))
 
     def name(self, number: int) -> str:
-        """Return the name of a link, wheel or clutch, made unique among the names of the same kind."""
+        """Return the name of a link, wheel or clutch. Names are unique among components of the same kind."""
         if number not in self._names:
             part = self.casing if number == _FRAME else self.parts[number]
             kind = part.type.rpartition("_")[2]
@@ -153,7 +156,9 @@ class _GearUnit:
     # -------------------------------------------------------------------------------------------------- links and axes
 
     def _carrier(self, stage: int) -> list[int]:
-        """Return the shafts, pins and side plates of the carrier of a stage; empty if it has no shaft."""
+        """Return the ids of the shafts, pins and side plates that belong to the carrier of a stage; empty if the
+        carrier has no shaft.
+        """
         shafts, pins = (self._of_stage(stage, relation) for relation in ("planet_carrier_shaft", "planet_pin"))
         plates = []
         for carrier in self.document.parts(stage, "planet_carrier"):
@@ -167,7 +172,9 @@ class _GearUnit:
 
     @cached_property
     def bodies(self) -> DisjointSets[int]:
-        """Shafts, side plates and casings that are one rigid body by construction; `_FRAME` is the casing."""
+        """Disjoint sets of shafts, side plates and casings that form one rigid body each. `_FRAME` represents the
+        casing.
+        """
         bodies: DisjointSets[int] = DisjointSets()
         for casing in self.document.of_type("gear_casing"):
             bodies.join(_FRAME, casing)
@@ -182,27 +189,29 @@ class _GearUnit:
         return bodies
 
     def link_of(self, part: int) -> int:
-        """Return the link to which a shaft, gear, side plate or casing belongs; the part itself if there is none."""
+        """Return the id of the link to which a shaft, gear, side plate or casing belongs, or the id of the part if
+        there is no link.
+        """
         return self.bodies.find(self.mount.get(part, part))
 
     @cached_property
     def links(self) -> list[int]:
-        """Links other than the frame, in the order of the file."""
+        """Ids of all links except the frame, in the order of the file."""
         return [link for link in dict.fromkeys(map(self.bodies.find, self.shafts)) if link != _FRAME]
 
     @cached_property
     def tops(self) -> dict[int, int]:
-        """Carrier of each planet."""
+        """Mapping from each planet link to its carrier link."""
         pairs = ((shaft, self.carriers.get(stage, ())[:1]) for stage, shaft in self.relations["planet_shaft"])
         return {self.link_of(shaft): self.link_of(carrier) for shaft, first in pairs for carrier in first}
 
     def top(self, link: int) -> int:
-        """Return the link that carries the axis of a link."""
+        """Return the id of the link that carries the axis of the given link."""
         return self.tops.get(link, _FRAME)
 
     @cached_property
     def axes(self) -> DisjointSets[int]:
-        """Links on the same axis of the same carrier."""
+        """Disjoint sets of links that are on the same axis of the same carrier."""
         axes: DisjointSets[int] = DisjointSets()
         for pair in self._coaxial():
             first, second = map(self.link_of, pair)
@@ -212,7 +221,7 @@ class _GearUnit:
         return axes
 
     def _coaxial(self) -> Iterator[tuple[int, int]]:
-        """Yield pairs of coaxial shafts: by stage, by coupling, and by position."""
+        """Yield pairs of shafts that are coaxial according to a stage, a coupling or their positions."""
         for stage, shaft in self.relations["central_shaft"]:
             yield from ((carrier, shaft) for carrier in self.carriers.get(stage, ())[:1])
         for coupling, inner, outer in self.relations["side"]:
@@ -224,7 +233,7 @@ class _GearUnit:
 
     @cached_property
     def poses(self) -> dict[int, _Pose]:
-        """Position of each link, from the first of its shafts and their gears that has a position."""
+        """Pose of each link, taken from the first of its shafts and their gears that has a pose."""
         found: dict[int, _Pose] = {}
         for part in (*self.links, *self.shafts, *self.mount):
             given = self.parts[part].attributes
@@ -237,15 +246,17 @@ class _GearUnit:
 
     @cached_property
     def direction(self) -> Vector:
-        """Direction of the first axis; all axes are parallel to it."""
+        """Unit vector of the first axis, to which all other axes are parallel."""
         return next((self.poses[link].u for link in self.links if link in self.poses), (0.0, 0.0, 1.0))
 
     def sense(self, link: int) -> int:
-        """Return -1 if the u-axis of a link points against the direction of the axes, else 1."""
+        """Return the sense of the u-axis of a link: -1 if it is opposite to the direction of the axes, otherwise 1."""
         return -1 if link in self.poses and dot(self.poses[link].u, self.direction) < 0 else 1
 
     def _place(self, link: int) -> dict[str, Any]:
-        """Return direction and position of the axis of a link; empty if the file does not give them."""
+        """Return direction and position of the axis of a link as data of a declaration; empty if the file does not give
+        them.
+        """
         pose = self.poses.get(link)
         if pose is None:
             return {}
@@ -259,7 +270,7 @@ class _GearUnit:
 
     @cached_property
     def mount(self) -> dict[int, int]:
-        """Shaft of each gear."""
+        """Mapping from each gear to the shaft on which it is mounted."""
         gears = self.document.of_type("cylindrical_gear", "ring_gear")
         shaft_of = {part: whole for whole, part in self.relations["assembly"] if self.parts[whole].type == "shaft"}
         for gear in gears:
@@ -270,7 +281,7 @@ class _GearUnit:
 
     @cached_property
     def meshes(self) -> list[tuple[int, int]]:
-        """Pairs of gears in mesh, in the order of the file."""
+        """Pairs of meshing gears (component ids), in the order of the file."""
         return [(one, two) for _, one, two in self.relations["stage"] if self.mount.keys() >= {one, two}]
 
     def _wheel(self, gear: int) -> dict[str, Any]:
@@ -289,12 +300,14 @@ class _GearUnit:
         return {"teeth": max(int(count), 1), **_if_any(internal=ring, hand=hand, **sizes)}
 
     def _quantity(self, name: str, value: float | None) -> str:
-        """Return the value of an attribute with its unit as written in declarations; empty for None."""
+        """Return the value of an attribute with its unit as text of a declaration; empty for None."""
         unit = self.document.units.get(name, "")
         return "" if value is None else f"{_text(value)} {_UNITS.get(unit, unit)}".strip()
 
     def _gear(self, mesh: tuple[int, int]) -> dict[str, Any]:
-        """Return the declaration of a pair, with involute teeth if its flanks give pressure angle and profile shift."""
+        """Return the declaration of a gear pair. It has involute teeth if the file gives pressure angle and profile
+        shift of the flanks.
+        """
         pair = {"pair": [self.name(gear) for gear in mesh]}
         left = {roles[0]: roles[1] for roles in self.relations["flank"]}
         flanks = [self.parts[left[gear]].attributes if gear in left else {} for gear in mesh]
@@ -319,13 +332,13 @@ class _GearUnit:
 
     @cached_property
     def dropped(self) -> set[int]:
-        """Planets that are copies of another planet."""
+        """Ids of planets that are omitted, because they are copies of another planet."""
         return {copy for _, *others in self.copies.values() for copy in others}
 
     @cached_property
     def copies(self) -> dict[int, list[int]]:
-        """Groups of equal planets, by the first planet of each group: evenly spaced, with equal wheels that mesh with
-        the same central wheels.
+        """Groups of equal planets, keyed by the first planet of each group. They are evenly spaced and have equal
+        wheels that mesh with the same central wheels.
         """
         meshes: dict[int, list[tuple[Any, ...]]] = defaultdict(list)
         for mesh in self.meshes:
@@ -346,7 +359,9 @@ class _GearUnit:
         return found
 
     def _is_even(self, group: list[int]) -> bool:
-        """Return True if planets are evenly spaced about the axis of their carrier, or their positions are unknown."""
+        """Return True if planets are evenly spaced about the axis of their carrier, or if their positions are
+        unknown.
+        """
         centre, poses = self.poses.get(self.top(group[0])), [self.poses.get(link) for link in group]
         if centre is None or None in poses:
             return True
@@ -358,7 +373,7 @@ class _GearUnit:
     # --------------------------------------------------------------------------------------------------------- running
 
     def _running(self, links: list[int]) -> dict[str, Any]:
-        """Return inputs, outputs, loads, brakes, locks, clutches and states."""
+        """Return the inputs, outputs, loads, brakes, locks, clutches and states as data of a declaration."""
         gears = int(min(max(1, self.unit.attributes.get("number_of_gears", 1)), _MOST_GEARS))
         cases = self.document.cases or [{self.unit.id: {"gear_shift_index": 1 + at}} for at in range(gears)]
         in_gear = [int(self._given(self.unit.id, case).get("gear_shift_index", 1)) for case in cases]
@@ -384,11 +399,13 @@ class _GearUnit:
         return {**found, "states": {str(1 + at): state for at, state in enumerate(states)}}
 
     def _given(self, part: int, case: Mapping[int, Attributes]) -> Attributes:
-        """Return the attributes of a component in a load case."""
+        """Return the attributes of a component, including its attributes in a load case."""
         return {**(self.parts[part].attributes if part in self.parts else {}), **case.get(part, {})}
 
     def _connections(self, gears: int) -> Iterator[tuple[int, list[str], list[bool]]]:
-        """Yield each coupling of two links once: component, links without the frame, and state in each gear."""
+        """Yield each coupling of two links once: component id, names of its links except the frame, and engagement in
+        each gear of the unit.
+        """
         seen = set()
         for coupling, *sides in self.relations["side"]:
             ends, part = [self.link_of(side) for side in sides], self.parts[coupling]
@@ -405,7 +422,7 @@ class _GearUnit:
                 yield coupling, names, states
 
     def _state(self, case: Mapping[int, Attributes], links: list[int]) -> dict[str, Any]:
-        """Return the inputs and loads of one load case."""
+        """Return the inputs and loads of one load case as data of a declaration."""
         inputs: dict[str, str] = {}
         loads: dict[str, float] = defaultdict(float)
         for shaft in self.shafts:
@@ -422,7 +439,9 @@ class _GearUnit:
         return _if_any(inputs=inputs, loads={link: f"{_text(torque)} N m" for link, torque in loads.items()})
 
     def _torque(self, given: Attributes, speed: float | None) -> float | None:
-        """Return the torque of a load [N m], as given, or from its power [kW] and the speed of the shaft [1/min]."""
+        """Return the torque of a load [N m]: the given value, or the value that follows from its power [kW] and the
+        speed of the shaft [1/min].
+        """
         if not given.get("defines_torque", True):
             return None
         if "torque_around_u_axis" not in given and "power" in given and speed:
@@ -432,15 +451,17 @@ class _GearUnit:
 
 
 def _if_any(**parts: Any) -> dict[str, Any]:
-    """Return the parts that are not empty."""
+    """Return a dictionary of the given parts that are not empty."""
     return {key: part for key, part in parts.items() if part}
 
 
 def _clean(name: str) -> str:
-    """Return a name without the id in brackets that programs append, and without characters that join wheels."""
+    """Return a name without the bracketed id that some programs append, and without the characters that separate wheel
+    names.
+    """
     return re.sub(r"\s*\[\d+\].*$", "", name).replace("~", "-").strip()
 
 
 def _text(value: float) -> str:
-    """Return the shortest decimal text of a number that gives the same number again."""
+    """Return the shortest decimal text of a number that converts back to the same number."""
     return repr(value + 0.0).removesuffix(".0")

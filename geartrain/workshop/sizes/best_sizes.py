@@ -1,6 +1,6 @@
-"""Best sizes of a pair with triangular teeth, compared with rule-based radii and verified by its drawn outlines.
+"""Best sizes of a pair with triangular teeth, compared with designs by simple rules and verified by its drawn outlines.
 
-The outlines are drawn from the sizes only, so they verify the transmission function independently.
+The outlines are drawn from the sizes only, so they are an independent check of the transmission function.
 """
 
 from __future__ import annotations
@@ -56,20 +56,25 @@ class BestToothSizes(Tabular, Pictured, Result):
     aims: tuple[str, ...]
     """Objectives: one of `loss`, `error`, `impact` and `jam`, or two of them for a Pareto front."""
     free: Mapping[str, Range]
-    """Bounds of the free parameters, by name of the parameter; angles are in rad."""
+    """Bounds of the free parameters, keyed by parameter name. Angles are in rad."""
     limits: tuple[SizeLimit, ...]
     """Limits that the designs must satisfy."""
     best: ToothSizes
     """Best design for the first objective."""
     outlines: OutlineAgreement
-    """Comparison of the results of the best design with the results computed from its drawn outlines."""
+    """Comparison of the properties of the best design with the properties computed from its drawn outlines."""
     equal_depth: ToothSizes | None
-    """Design with equally deep teeth, and the relative clearance and half angles of `start`; None if it cannot turn."""
+    """Design with equally deep teeth, and with the relative clearance and half angles of the initial design; None if it
+    cannot turn.
+    """
     pitch_true: ToothSizes | None
-    """Design with tip radii in the ratio of the tooth numbers, and other values as in `start`; None if it cannot turn.
+    """Design with tip radii proportional to the tooth numbers, and with the other values of the initial design; None if
+    it cannot turn.
     """
     front: tuple[ToothSizes, ...]
-    """Pareto front from the best design for the first objective to the best for the second; empty for one objective."""
+    """Pareto front, from the best design for the first objective to the best design for the second objective; empty if
+    there is one objective.
+    """
     evaluations: int
     """Number of designs that the search evaluated."""
     stops: float | None
@@ -85,7 +90,9 @@ class BestToothSizes(Tabular, Pictured, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table of the best design, the rule-based designs that can turn, and the Pareto front; angles are in rad."""
+        """Columns of a table with the best design, the rule-based designs that can turn, and the Pareto front. Angles
+        are in rad.
+        """
         rule = {"best": self.best, "equal depth": self.equal_depth, "pitch-true": self.pitch_true}
         rows = [(name, sizes) for name, sizes in rule.items() if sizes is not None]
         rows += [(f"front {at}", sizes) for at, sizes in enumerate(self.front, start=1)]
@@ -123,7 +130,7 @@ def find_tooth_sizes(
         Initial design; parameters that are not free keep its values.
     aims : sequence of str
         One or two of the objectives `loss`, `error` (transmission error), `impact` and `jam` (margin before a jam); two
-        give a Pareto front.
+        objectives give a Pareto front.
     free : mapping of str to (float, float), optional
         Bounds of the free parameters `radii` (tip radius ratio divided by tooth ratio), `window` (position of the
         clearance factor between its limits, 0 to 1) and `half_angle` [rad]; None for the bounds in `USUAL_RANGES`. By
@@ -131,7 +138,8 @@ def find_tooth_sizes(
     limits : sequence of SizeLimit
         Limits that the design must satisfy.
     probability : ProbabilityLimit, optional
-        Limit on the probability that the pair with cutting errors jams or clashes; only with one objective.
+        Limit on the probability that the pair with cutting errors jams or clashes. It is allowed only if there is one
+        objective.
     on_design : callable
         Progress function, called after each evaluated design.
 
@@ -185,7 +193,7 @@ def find_tooth_sizes(
 
 
 def _checked(start: ToothSizes, aims: tuple[str, ...], free: Mapping[str, Range | None]) -> dict[str, Range]:
-    """Return the bounds of the free parameters; raise `QuestionError` if objectives or bounds are invalid."""
+    """Return the bounds of the free parameters. Raises `QuestionError` if objectives or bounds are invalid."""
     if not 1 <= len(set(aims)) == len(aims) <= 2 or not {*aims} <= {*AIMS}:
         what = f"'{', '.join(aims)}' does not name one objective or two different objectives"
         why = "one objective gives a best design, two give a Pareto front"
@@ -201,39 +209,43 @@ def _checked(start: ToothSizes, aims: tuple[str, ...], free: Mapping[str, Range 
 
 @dataclass(frozen=True)
 class OutlineAgreement(Result):
-    """Comparison of the properties of a design computed from its transmission function with the properties computed
-    from the contact of its drawn outlines.
+    """Comparison of properties of a design computed from its transmission function and from the contact of its drawn
+    outlines.
     """
 
     KEYS = ("turns", "loss", "error", "impact", "backlash", "difference")
 
     loss: tuple[float, float]
-    """Loss computed from the transmission function and from the outlines [1]."""
+    """Two values of the loss [1]: computed from the transmission function, and computed from the outlines."""
     error: tuple[float, float]
-    """Peak-to-peak transmission error computed from the transmission function and from the outlines [rad of the driven
-    wheel].
+    """Two values of the peak-to-peak transmission error [rad of the driven wheel]: computed from the transmission
+    function, and computed from the outlines.
     """
     impact: tuple[float, float]
-    """Impact loss computed from the transmission function and from the outlines [1], as in `ToothSizes`."""
+    """Two values of the impact loss, as defined in `ToothSizes` [1]: computed from the transmission function, and
+    computed from the outlines.
+    """
     backlash: tuple[float, float]
-    """Backlash computed from the transmission function and from the outlines [rad of the driven wheel]."""
+    """Two values of the backlash [rad of the driven wheel]: computed from the transmission function, and computed from
+    the outlines.
+    """
     turns: bool
     """True if the drawn outlines turn without a jam and without a loss of contact."""
 
     @property
     def difference(self) -> float:
-        """Maximum relative difference between the two values of any property [1]."""
+        """Maximum over all properties of the relative difference between the two values [1]."""
         return max(self.differences.values())
 
     @property
     def differences(self) -> Mapping[str, float]:
-        """Relative difference between the two values of each property, by property [1]."""
+        """Relative difference between the two values of each property [1], keyed by property."""
         pairs = {"loss": self.loss, "error": self.error, "impact": self.impact, "backlash": self.backlash}
         return {name: abs(a - b) / max(abs(a), abs(b), _NOTHING) for name, (a, b) in pairs.items()}
 
 
 def outline_transmission(sizes: TriangularSizes, friction: float) -> OutlineTransmission:
-    """Return the transmission function of the drawn outlines of a pair; the first wheel drives."""
+    """Return the transmission function of the drawn outlines of a pair. The first wheel drives."""
     first = _outline(sizes.z1, sizes.R1, sizes.beta1, sizes.flanks[0], sizes.ring == 1)
     second = _outline(sizes.z2, sizes.R2, sizes.beta2, sizes.flanks[1], sizes.ring == 2)
     # teeth are drawn about their centre lines, so neither the angle nor the backlash has an offset
@@ -241,7 +253,9 @@ def outline_transmission(sizes: TriangularSizes, friction: float) -> OutlineTran
 
 
 def confirm_by_outlines(design: ToothSizes) -> OutlineAgreement:
-    """Compare the properties of a design with the properties from the contact of its outlines; the design must turn."""
+    """Compare the properties of a design with the properties computed from the contact of its drawn outlines. The
+    design must be able to turn.
+    """
     transmission = outline_transmission(design.sizes, design.friction)
     low, high = transmission.error_range()
     return OutlineAgreement(
@@ -254,7 +268,9 @@ def confirm_by_outlines(design: ToothSizes) -> OutlineAgreement:
 
 
 def _mean_efficiency(transmission: OutlineTransmission) -> float:
-    """Return the mean efficiency over the angle of the driver, by Gauss quadrature in cells of smooth intervals."""
+    """Return the mean efficiency over the driver angle, computed by Gauss quadrature in cells in which the function is
+    smooth.
+    """
     import numpy as np
 
     nodes, weights = np.polynomial.legendre.leggauss(_NODES)

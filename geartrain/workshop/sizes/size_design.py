@@ -19,15 +19,15 @@ if TYPE_CHECKING:
     from geartrain.teeth.transmission import TransmissionFunction
 
 PARAMETERS = ("radii", "window", "half_angle")
-"""Names of the parameters of a design that can be free; `half_angle` applies to both wheels."""
+"""Names of the design parameters that can be free. `half_angle` applies to both wheels."""
 AIMS = ("loss", "error", "impact", "jam")
-"""Objectives of the search. The margin `jam` is maximised; all others are minimised."""
+"""Objectives of the search. The margin `jam` is maximised, and the other objectives are minimised."""
 DIGITS = 6
 """Number of decimals of radii and windows in a declaration. Reported values are computed from the rounded sizes."""
 
 
 def equal_depth_radii(z1: int, z2: int, half_angles: tuple[float, float]) -> float:
-    """Return the tip radius ratio R2/R1 for teeth of equal depth, divided by z2/z1 [1], from equation (3) of Sorge."""
+    """Return the tip radius ratio R2/R1, divided by z2/z1, of teeth of equal depth [1], from equation (3) of Sorge."""
     R1, R2 = equal_depth(z1, z2, *half_angles)
     return R2 / R1 * z1 / z2
 
@@ -36,7 +36,7 @@ def impact_of(transmission: TransmissionFunction) -> float:
     """Return the sum of (tau+ - tau-)^2 over the impacts in a pitch, divided by the square of the mean of tau [1].
 
     The speed ratio tau jumps from tau- to tau+ at an impact. The result is the energy that inelastic impacts dissipate
-    in a pitch, docs/motion.md (7), divided by the kinetic energy of the driven side.
+    in a pitch, equation (7) of docs/motion.md, divided by the kinetic energy of the driven side.
     """
     # energies are proportional to the square of a speed, and the mass cancels
     return float(sum(leap.size**2 for leap in transmission.speed_leaps() or ())) / float(transmission.ratio) ** 2
@@ -66,10 +66,12 @@ class ToothSizes(Result):
     teeth: tuple[int, int]
     """Numbers of teeth of the first and the second wheel."""
     radii: float
-    """Ratio of the tip radii R2/R1, divided by the ratio of the tooth numbers z2/z1 [1]; 1 for pitch-true radii."""
+    """Ratio of the tip radii R2/R1 divided by the ratio of the tooth numbers z2/z1 [1]; 1 if the tip radii are
+    proportional to the tooth numbers.
+    """
     window: float
-    """Relative position of the clearance factor between its limits [1]: 0 where the pair jams, 1 where it loses
-    contact.
+    """Relative position of the clearance factor between its limits [1]: 0 at the limit where the pair jams, 1 at the
+    limit where it loses contact.
     """
     half_angles: tuple[float, float]
     """Half aperture angles of the teeth of both wheels [rad]."""
@@ -95,7 +97,7 @@ class ToothSizes(Result):
         Parameters
         ----------
         parameters : mapping of str to float
-            Values by name; angles in rad.
+            Values keyed by parameter name; angles are in rad.
         """
         angle = parameters.get("half_angle")
         return replace(
@@ -139,7 +141,7 @@ class ToothSizes(Result):
 
     @property
     def runs(self) -> bool:
-        """True if the pair turns and friction does not lock it."""
+        """True if the pair can turn and friction does not lock it."""
         return (
             self.transmission is not None
             and bool(self.transmission.verdict)
@@ -148,7 +150,7 @@ class ToothSizes(Result):
 
     @property
     def sizes(self) -> TriangularSizes:
-        """Radii and centre distance of a pair that can turn, with the driver first."""
+        """Radii and centre distance of the pair, with the driver first. The pair must be able to turn."""
         assert self.transmission is not None
         return self.transmission.sizes
 
@@ -184,7 +186,7 @@ class ToothSizes(Result):
 
     @cached_property
     def jam(self) -> float:
-        """Margin to a jam or a loss of contact: maximum permissible change of the centre distance [module]."""
+        """Maximum permissible change of the centre distance before the pair jams or loses contact [module]."""
         assert self.limits is not None
         # distance to the nearer end of the window: a jam on one side, loss of contact on the other
         sizes, nearest = self.sizes, min(self.window, 1 - self.window)
@@ -205,7 +207,7 @@ class ToothSizes(Result):
 
     @property
     def phases(self) -> str:
-        """Phases of the path of contact, in order."""
+        """Name of the sequence of phases along the path of contact."""
         assert self.transmission is not None
         return phases_of(self.transmission)
 
@@ -229,7 +231,9 @@ _FIGURES = ("loss", "loss_at_constant_load", "error", "impact", "jam", "backlash
 
 
 def size_columns(designs: Sequence[ToothSizes]) -> dict[str, Sequence[Any]]:
-    """Return table columns with a row for each design that can turn: sizes and properties by name; angles in rad."""
+    """Return table columns by name, with one row for each design that can turn: sizes and properties. Angles are in
+    rad.
+    """
     names = ("radii", "window", "clearance_factor", *_FIGURES)
     angles = {f"half_angle_{at + 1}": [each.half_angles[at] for each in designs] for at in (0, 1)}
     return angles | {name: [getattr(each, name) for each in designs] for name in names}
@@ -245,7 +249,7 @@ class SizeLimit(Result):
     """
 
     figure: str
-    """Name of the limited property of `ToothSizes`."""
+    """Name of the property of `ToothSizes` that is limited."""
     bound: float
     """Value of the limit, in the unit of the property."""
 
@@ -273,7 +277,7 @@ def keeps(design: ToothSizes, limits: Iterable[SizeLimit]) -> bool:
 
 
 def form_data(sizes: ToothSizes, exact: bool = False) -> dict[str, Any]:
-    """Return the sizes as the data of a declaration; `exact` writes all digits of each float."""
+    """Return the sizes as data of a declaration. If `exact` is True, all digits of each float are written."""
     angles, lengths = ("", "") if exact else (".10g", f".{DIGITS}f")
     first, second = (f"{degrees(angle):{angles}} deg" for angle in sizes.half_angles)
     return {
@@ -285,5 +289,5 @@ def form_data(sizes: ToothSizes, exact: bool = False) -> dict[str, Any]:
 
 
 def rounded(sizes: ToothSizes) -> ToothSizes:
-    """Return the design with its radii and window rounded to the digits of a declaration."""
+    """Return the design with radii and window rounded to the number of digits in a declaration."""
     return sizes.at({"radii": round(sizes.radii, DIGITS), "window": round(sizes.window, DIGITS)})

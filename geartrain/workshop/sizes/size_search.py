@@ -2,8 +2,8 @@
 
 The objectives are continuous functions of the sizes, but they have kinks where the phases of the path of contact
 change, and several local minima. DIRECT finds the lowest minimum (`minimise`). The Pareto front of two objectives is
-found by the epsilon-constraint method: the first objective is minimised under bounds on the second, and all designs
-computed on the way are included.
+found by the epsilon-constraint method: the first objective is minimised under bounds on the second. All designs that
+were computed in the search are candidates for the front.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ USUAL_RANGES: Mapping[str, Range] = {
     "window": (0.1, 0.9),
     "half_angle": (pi / 12, pi / 4),
 }
-"""Default bounds of the free parameters; angles in rad."""
+"""Default bounds of the free parameters. Angles are in rad."""
 
 _BEYOND = 1e3  # value above every figure, for designs that turn but violate a limit
 _NOTHING = 1e6  # value of designs that cannot turn
@@ -57,14 +57,14 @@ class SizeSearch:
         self.designs: dict[Point, ToothSizes] = {}
 
     def design(self, at: Point) -> ToothSizes:
-        """Return the design at one point of the free parameters."""
+        """Return the design at one point in the space of the free parameters."""
         if at not in self.designs:
             self.designs[at] = self.start.at(dict(zip(self.free, at, strict=True)))
             self._on_design()
         return self.designs[at]
 
     def place(self, design: ToothSizes) -> Point:
-        """Return the coordinates of a design in the space of the free parameters, which may be outside the bounds."""
+        """Return the coordinates of a design in the space of the free parameters. They may be outside the bounds."""
         return tuple(map(design.parameter, self.free))
 
     @property
@@ -73,11 +73,13 @@ class SizeSearch:
         return tuple(self.free.values())
 
     def keeps(self, design: ToothSizes, more: Sequence[SizeLimit] = ()) -> bool:
-        """Return True if a design turns and satisfies all limits of the search and the limits `more`."""
+        """Return True if a design turns and satisfies all limits of the search and the additional limits `more`."""
         return keeps(design, (*self.limits, *more))
 
     def value(self, aim: str, more: Sequence[SizeLimit] = ()) -> Callable[[Point], float]:
-        """Return the objective as a function of a point; infeasible designs have larger values than feasible ones."""
+        """Return the objective as a function of a point. Infeasible designs have larger values than feasible
+        designs.
+        """
 
         def figure(at: Point) -> float:
             design = self.design(at)
@@ -90,7 +92,9 @@ class SizeSearch:
         return figure
 
     def minimum(self, aim: str, starts: Sequence[ToothSizes] = ()) -> ToothSizes:
-        """Return the best design for one objective; raise `QuestionError` if no design turns within the limits."""
+        """Return the best design for one objective. Raises `QuestionError` if no design turns and satisfies
+        the limits.
+        """
         sampled = minimise(self.value(aim), self.bounds, [self.place(each) for each in starts])
         best = self.design(sampled.best)
         if self.keeps(best):
@@ -104,7 +108,9 @@ class SizeSearch:
         raise QuestionError(Problem(what, why, fix))
 
     def front(self, first: str, second: str) -> tuple[ToothSizes, ...]:
-        """Return the Pareto front of two objectives, from the best design in the first to the best in the second."""
+        """Return the Pareto front of two objectives, from the best design for `first` to the best design for
+        `second`.
+        """
         ends = self.minimum(first), self.minimum(second)
         low, high = (each.merit(second) for each in ends[::-1])
         for step in range(1, _FRONT + 1):
@@ -119,7 +125,9 @@ class SizeSearch:
 
 
 def undominated(designs: Sequence[ToothSizes], first: str, second: str) -> tuple[ToothSizes, ...]:
-    """Return the Pareto front of given designs, from the best in the first objective to the best in the second."""
+    """Return the Pareto front of given designs, from the best design for the objective `first` to the best for
+    `second`.
+    """
     found: list[ToothSizes] = []
     # in this order a design is dominated unless it improves the second objective
     for each in sorted(designs, key=lambda design: (design.merit(first), design.merit(second))):
@@ -129,7 +137,9 @@ def undominated(designs: Sequence[ToothSizes], first: str, second: str) -> tuple
 
 
 def _spread(front: Sequence[ToothSizes], aim: str) -> tuple[ToothSizes, ...]:
-    """Return a front without designs that differ negligibly from the previous design; both ends remain."""
+    """Return a front without the designs that differ negligibly from their predecessor. Both ends of the front are
+    kept.
+    """
     worth = _WORTH * (front[0].merit(aim) - front[-1].merit(aim))
     found = [front[0]]
     for each in front[1:-1]:
@@ -139,7 +149,7 @@ def _spread(front: Sequence[ToothSizes], aim: str) -> tuple[ToothSizes, ...]:
 
 
 def checked_ranges(free: Mapping[str, Range | None]) -> dict[str, Range]:
-    """Return the bounds of the free parameters; `USUAL_RANGES` replaces None.
+    """Return the bounds of the free parameters. Bounds that are None are replaced by the bounds in `USUAL_RANGES`.
 
     Raises `QuestionError` if a parameter or its bounds are invalid, or if no parameter is free.
     """
@@ -170,7 +180,8 @@ def checked_ranges(free: Mapping[str, Range | None]) -> dict[str, Range]:
 
 @dataclass(frozen=True)
 class ProbabilityLimit:
-    """Limit on the probability that a pair with cutting errors jams or clashes, evaluated only for the best designs.
+    """Limit on the probability that a pair with cutting errors jams or clashes. It is evaluated only for the best
+    designs.
 
     See Also
     --------
@@ -180,7 +191,7 @@ class ProbabilityLimit:
     bound: float
     """Maximum probability that the pair jams or clashes, 0 to 1."""
     probability: Callable[[ToothSizes], float]
-    """Function that returns the probability that a design jams or clashes, such as `PairTrials.stops`."""
+    """Function that returns the probability that a given design jams or clashes, such as `PairTrials.stops`."""
 
 
 @dataclass(frozen=True)
@@ -234,9 +245,9 @@ class PairTrials:
 
 
 def best_within(search: SizeSearch, aim: str, limit: ProbabilityLimit) -> tuple[ToothSizes, float]:
-    """Return the best design within a probability limit, and its probability.
+    """Return the best design that satisfies a probability limit, and its probability of a jam or clash.
 
-    Designs are evaluated in the order of their objective; designs near a rejected design are omitted.
+    Designs are evaluated in the order of their objective values. Designs near a rejected design are skipped.
     """
     known = sorted((at for at, each in search.designs.items() if search.keeps(each)), key=search.value(aim))
     refused: list[Point] = []
@@ -258,7 +269,9 @@ def best_within(search: SizeSearch, aim: str, limit: ProbabilityLimit) -> tuple[
 def _bisect_to_limit(
     search: SizeSearch, aim: str, limit: ProbabilityLimit, at: Point, probability: float, refused: Sequence[Point]
 ) -> tuple[ToothSizes, float]:
-    """Bisect between an accepted design and the nearest rejected one, to approach the limit on the probability."""
+    """Return an accepted design near the probability limit, and its probability. It is found by bisection between an
+    accepted design and the nearest rejected design.
+    """
     if not refused:
         return search.design(at), probability
     value = search.value(aim)
@@ -287,7 +300,7 @@ _STEP = 0.05  # size of the first simplex, as a fraction of each range
 
 @dataclass
 class SampledFunction:
-    """Function of points in a box, evaluated once at each point; `seen` contains all computed values."""
+    """Function of points in a box, which is evaluated once at each point. `seen` contains all computed values."""
 
     value: Function
     bounds: Sequence[tuple[float, float]]
@@ -300,25 +313,27 @@ class SampledFunction:
         return self.seen[at]
 
     def inside(self, x: Sequence[float] | Floats) -> Point:
-        """Return the point clipped to the box."""
+        """Return the point whose coordinates are clipped to the box."""
         return tuple(min(max(float(each), low), high) for each, (low, high) in zip(x, self.bounds, strict=True))
 
     @property
     def best(self) -> Point:
-        """Sampled point with the minimum value."""
+        """Sampled point at which the function has its minimum sampled value."""
         return min(self.seen, key=lambda at: self.seen[at])
 
 
 def distance(one: Point, other: Point, bounds: Sequence[tuple[float, float]]) -> float:
-    """Return the maximum difference of the coordinates of two points in a box, as a fraction of each range [1]."""
+    """Return the maximum over all coordinates of the difference of two points in a box, as a fraction of the range of
+    the coordinate [1].
+    """
     return max(abs(a - b) / (high - low) for a, b, (low, high) in zip(one, other, bounds, strict=True))
 
 
 def minimise(value: Function, bounds: Sequence[tuple[float, float]], starts: Sequence[Point] = ()) -> SampledFunction:
-    """Minimise `value` in a box and return all samples; the best sample is the minimum.
+    """Return all samples of a minimisation of `value` in a box. The best sample is the minimum.
 
     bounds   bounds of each variable, low < high
-    starts   further points to evaluate; the result is never worse than the best start
+    starts   additional points at which `value` is evaluated; the result is never worse than the best of these points
     """
     sampled = SampledFunction(value, bounds)
     for start in starts:
@@ -341,7 +356,7 @@ def minimise(value: Function, bounds: Sequence[tuple[float, float]], starts: Seq
 
 
 def polish(sampled: SampledFunction, start: Point, rounds: int = _ROUNDS) -> None:
-    """Minimise the function locally from one point; all evaluated points are added to the samples."""
+    """Minimise the function locally, beginning at one point. All evaluated points are added to the samples."""
     if len(start) == 1:
         ((low, high),) = sampled.bounds
         _search_between(sampled, start[0] - _STEP * (high - low), start[0] + _STEP * (high - low))
@@ -364,7 +379,7 @@ def polish(sampled: SampledFunction, start: Point, rounds: int = _ROUNDS) -> Non
 
 
 def _separate_basins(sampled: SampledFunction) -> list[Point]:
-    """Return the lowest samples such that no two are close to each other."""
+    """Return the samples with the lowest values such that no two of these samples are close to each other."""
     found: list[Point] = []
     for at in sorted(sampled.seen, key=lambda at: sampled.seen[at]):
         if all(distance(at, other, sampled.bounds) > _CLOSE for other in found):
@@ -375,7 +390,7 @@ def _separate_basins(sampled: SampledFunction) -> list[Point]:
 
 
 def _brackets(sampled: SampledFunction) -> list[tuple[float, float]]:
-    """Return the sampled neighbours on both sides of the lowest local minima, for one variable."""
+    """Return the sampled neighbours on both sides of each of the lowest local minima of a function of one variable."""
     places = sorted(at[0] for at in sampled.seen)
     values = [sampled.seen[at,] for at in places]
     around = [inf, *values, inf]
@@ -385,7 +400,7 @@ def _brackets(sampled: SampledFunction) -> list[tuple[float, float]]:
 
 
 def _search_between(sampled: SampledFunction, low: float, high: float) -> None:
-    """Minimise the objective in an interval by Brent's bounded method."""
+    """Minimise the function in an interval by Brent's bounded method. All evaluated points are added to the samples."""
     first, last = sampled.bounds[0]
     low, high = max(low, first), min(high, last)
     if high > low:
@@ -394,7 +409,9 @@ def _search_between(sampled: SampledFunction, low: float, high: float) -> None:
 
 
 def _moved_point(sampled: SampledFunction, at: Point, which: int, step: float) -> Point:
-    """Return a point moved along one variable by a fraction of its range, in a direction that stays in the box."""
+    """Return the point that is moved along one variable by a fraction of its range, in a direction that stays in the
+    box.
+    """
     low, high = sampled.bounds[which]
     by = step * (high - low)
     place = at[which] + by if low <= at[which] + by <= high else at[which] - by

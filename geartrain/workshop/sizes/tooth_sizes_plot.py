@@ -1,4 +1,4 @@
-"""Plots of the best sizes of triangular teeth: all designs of a pair, and the gain of each pair of a train."""
+"""Plots of the best sizes of triangular teeth: all designs of a pair, and the improvement of each pair of a train."""
 
 from __future__ import annotations
 
@@ -73,7 +73,9 @@ def _aim_figure(found: BestToothSizes) -> Figure:
 
 
 def train_sizes_figure(found: BestTrainSizes) -> Figure:
-    """Draw the improvement of each pair of a train by the best tooth sizes, with the worst declared pair at the top."""
+    """Draw the improvement of each pair of a train by the best tooth sizes. The pair with the worst declared sizes is
+    at the top.
+    """
     sign = -1.0 if found.aim == "jam" else 1.0
     pairs = sorted(found.pairs, key=lambda pair: -sign * _shown(pair.declared or pair.together, found.aim))
     rows = []
@@ -92,7 +94,9 @@ def train_sizes_figure(found: BestTrainSizes) -> Figure:
 
 
 def _gain(found: BestTrainSizes) -> str:
-    """Return the objective of the train before and after as text: `a to b: loss (%) 46.9 as declared, ...`."""
+    """Return a text with the objective of the train as declared and optimised, such as `a to b: loss (%) 46.9 as
+    declared, ...`.
+    """
     before, after = (
         "none" if each is None else f"{_in_units(each, found.aim):.3g}" for each in (found.before, found.together)
     )
@@ -100,7 +104,7 @@ def _gain(found: BestTrainSizes) -> str:
 
 
 def _front_figure(found: BestToothSizes) -> Figure:
-    """Draw the Pareto front in one panel, and the front among all designs in the other."""
+    """Draw the Pareto front in one panel, and the front together with all designs in another panel."""
     first, second = found.aims
     figure = Figure(figsize=(WIDTH, 0.5 * WIDTH), layout="constrained")
     near, far = figure.subplots(1, 2)
@@ -119,13 +123,13 @@ def _front_figure(found: BestToothSizes) -> Figure:
 
 
 def _key(figure: Figure, axes: Axes) -> None:
-    """Add the legend of the marks below all panels, because designs cover every panel."""
+    """Add a legend of the markers below all panels, because designs cover every panel."""
     handles, _ = axes.get_legend_handles_labels()
     legend_below(figure, len(handles), handles)
 
 
 def _panel(axes: Axes, found: BestToothSizes, across: str, up: str) -> None:
-    """Draw the designs as points, with marks for the best and the rule-based designs."""
+    """Draw the designs as points, with markers for the best design and the rule-based designs."""
     plain(axes)
     order = sorted(found.tried, key=lambda each: _shown(each, across))
     x, y = ([_shown(each, name) for each in order] for name in (across, up))
@@ -145,7 +149,8 @@ def _panel(axes: Axes, found: BestToothSizes, across: str, up: str) -> None:
 def _span(found: BestToothSizes, name: str) -> tuple[float, float]:
     """Return the axis limits of an objective.
 
-    They extend from its minimum to its largest relevant value, and include the rule-based designs.
+    The limits extend from the minimum of the objective to its largest relevant value, and include the rule-based
+    designs.
     """
     values = sorted(_shown(each, name) for each in found.tried)
     marked = [_shown(each, name) for each in (found.equal_depth, found.pitch_true, *found.front) if each is not None]
@@ -156,7 +161,7 @@ def _span(found: BestToothSizes, name: str) -> tuple[float, float]:
 
 
 def _shown(design: ToothSizes, name: str) -> float:
-    """Return a size or an objective in the unit of its axis."""
+    """Return a size or an objective of a design in the unit of its plot axis."""
     value = design.parameter(name) if name in ("radii", "window", "half_angle") else float(getattr(design, name))
     return _in_units(value, name)
 

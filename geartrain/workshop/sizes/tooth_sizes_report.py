@@ -29,7 +29,9 @@ _WORDS = (
 
 
 def describe_tooth_sizes(found: BestToothSizes) -> Document:
-    """Return the report on the best and rule-based sizes of a pair, with their outlines and a Pareto front."""
+    """Return the report on the best and the rule-based sizes of a pair, with the check of the outlines and the Pareto
+    front.
+    """
     aims = " and ".join(AIM_WORDS[aim] for aim in found.aims)
     z1, z2 = found.teeth
     summary = [
@@ -45,7 +47,9 @@ def describe_tooth_sizes(found: BestToothSizes) -> Document:
 
 
 def describe_train_sizes(found: BestTrainSizes) -> Document:
-    """Return the report on the best sizes of a train: its improvement, and each pair before and after."""
+    """Return the report on the best sizes of a train: the improvement of the train, and each pair before and after the
+    optimisation.
+    """
     aim = found.aim
     rows = [
         (name, "does not run" if each is None else figure_text(aim, each), *_efficiency(aim, each))
@@ -91,9 +95,9 @@ def _efficiency(aim: str, loss: float | None) -> tuple[str, ...]:
 
 
 def _pairs_section(found: BestTrainSizes) -> Section:
-    """Return the section with each pair before and after the optimisation.
+    """Return the report section that lists each pair before and after the optimisation.
 
-    It contains relative clearances (windows) and half angles only if they are free.
+    The section contains relative clearances (windows) and half angles only if they are free parameters.
     """
     sizes = [("radii", "radii"), *((name, name.replace("_", " ")) for name in found.free if name != "radii")]
     header = ["pair", "drives", "teeth"]
@@ -123,7 +127,7 @@ def _size(name: str, value: float) -> str:
 
 
 def figure_text(figure: str, value: float) -> str:
-    """Return a property of a design with its unit, as a string."""
+    """Return a property of a design with its unit, as text."""
     if figure == "loss":
         return f"{100 * value:.4f} %"
     if figure in ("error", "backlash", "half_angle"):
@@ -132,7 +136,7 @@ def figure_text(figure: str, value: float) -> str:
 
 
 def sizes_text(sizes: ToothSizes) -> str:
-    """Return a sentence that gives the sizes as a tooth form to declare."""
+    """Return a sentence that gives the sizes as data for a tooth form in a declaration."""
     angles = ", ".join(f"{degrees(angle):.6g} deg" for angle in dict.fromkeys(sizes.half_angles))
     angle = angles if "," not in angles else f"[{angles}]"
     return (
@@ -141,7 +145,7 @@ def sizes_text(sizes: ToothSizes) -> str:
 
 
 def free_text(free: Mapping[str, tuple[float, float]]) -> str:
-    """Return the free parameters with their bounds, as a string."""
+    """Return a list of the free parameters with their bounds, as text."""
     parts = []
     for name, (low, high) in free.items():
         unit = (degrees(low), degrees(high), " deg") if name == "half_angle" else (low, high, "")
@@ -192,7 +196,7 @@ def _agreement(found: OutlineAgreement) -> Section:
 
 
 def _front(found: BestToothSizes) -> Section:
-    """Return the section with up to twelve designs distributed over the Pareto front."""
+    """Return the report section with at most twelve designs, distributed over the Pareto front."""
     most, front = 12, found.front
     chosen = front if len(front) <= most else [front[round(k * (len(front) - 1) / (most - 1))] for k in range(most)]
     rows = [_row(str(at + 1), each) for at, each in enumerate(chosen)]

@@ -1,10 +1,11 @@
-"""Optimisation of the triangular teeth of a whole train: pair by pair, then together if the pairs interact.
+"""Optimisation of the triangular teeth of a whole train: each pair separately, then all pairs together if they
+interact.
 
-Only some pairs transmit power to an output, and only some influence its error. These pairs first get the sizes that
-are best for each pair separately. The objective is a property of the train: its loss from input to output, or the error
-of a pointer. Coordinate descent starts from the better of the declared sizes and the separate optima. It changes one
-size of one pair after the other until the improvement is negligible, so the result is never worse than the separate
-optima.
+Only some pairs transmit power to an output, and only some pairs influence its transmission error. These pairs first get
+the sizes that are best for each pair separately. The objective is a property of the train: its loss from input to
+output, or the error of a pointer. Coordinate descent starts from the better of the declared sizes and the separate
+optima. It changes one size of one pair at a time until the improvement is negligible, so the result is never worse than
+the separate optima.
 """
 
 from __future__ import annotations
@@ -32,7 +33,9 @@ from geartrain.workshop.sizes.size_search import Range, SizeSearch, checked_rang
 
 OnStep = Callable[[], None]
 _TURNS, _SAMPLES = 20.0, 2_000
-"""Turns of the input and number of positions for the error of a pointer. Its extremes are refined between positions."""
+"""Number of turns of the input, and number of positions, for the error of a pointer. Its extremes are refined between
+these positions.
+"""
 
 # few and short steps, because an evaluation of the train is slow and each pair is near its separate optimum
 _REACH = 0.03  # half width of one step of the descent, as a fraction of the range
@@ -128,8 +131,8 @@ class TrainSizeSearch:
 
     @property
     def _is_joint(self) -> bool:
-        """True if the objective depends on all pairs jointly, because power losses and errors propagate through the
-        train.
+        """True if the objective depends on all pairs jointly, because power losses and transmission errors propagate
+        through the train.
         """
         return self.aim in ("loss", "error")
 
@@ -137,7 +140,7 @@ class TrainSizeSearch:
 
     @cached_property
     def _drivers(self) -> Mapping[str, str]:
-        """Driving wheel of each pair that acts on the output, by the name of the pair."""
+        """Driving wheel of each pair that acts on the output, keyed by pair."""
         meshes = {mesh.name: mesh for mesh in self._all_meshes}
         if self.aim == "loss":
             # ideal teeth are used, because declared teeth that do not turn would give no power flow
@@ -148,7 +151,7 @@ class TrainSizeSearch:
 
     @cached_property
     def _ideal(self) -> GearTrain:
-        """Train in which the clearance factor of every pair is midway between its limits, if the factor has limits."""
+        """Train in which the clearance factor of every pair is midway between its limits, where limits exist."""
         return self._resized({name: each for name, each in self._starts.items() if each.runs})
 
     @cached_property
@@ -157,7 +160,7 @@ class TrainSizeSearch:
 
     @cached_property
     def _meshes(self) -> Mapping[str, TriangularMesh]:
-        """Pairs with triangular teeth whose sizes are declared as ratios instead of lengths, by name."""
+        """Pairs with triangular teeth whose sizes are declared as ratios instead of lengths, keyed by pair."""
         found = (mesh for mesh in self._all_meshes if isinstance(mesh, TriangularMesh))
         return {mesh.name: mesh for mesh in found if not mesh.tooth_form.has_lengths}
 
@@ -198,7 +201,9 @@ class TrainSizeSearch:
         return tuple(tuple(each) for each in joined_groups(pairs, of_wheels) if {*each} <= {*self._requested})
 
     def _free_of(self, name: str) -> dict[str, Range]:
-        """Return the bounds of a pair's free parameters; the half angle is not free if another pair shares a wheel."""
+        """Return the bounds of the free parameters of one pair. The half angle is not free if another pair shares a
+        wheel with it.
+        """
         return {
             size: each
             for size, each in self.free.items()
@@ -208,14 +213,14 @@ class TrainSizeSearch:
     # ----------------------------------------------------------------------------------------------------- comparison
 
     def _resized(self, sizes: Mapping[str, ToothSizes]) -> GearTrain:
-        """Return the train with new sizes of some pairs."""
+        """Return the train in which the pairs in `sizes` have the given sizes."""
         declared = self.train.declaration
         forms = {name: {"tooth_form": Triangular.declared(form_data(each))} for name, each in sizes.items()}
         gears = tuple(gear.model_copy(update=forms.get(gear.name, {})) for gear in declared.gears)
         return GearTrain(declared.model_copy(update={"gears": gears}))
 
     def figure(self, sizes: Mapping[str, ToothSizes]) -> float:
-        """Return the objective of the train, which is minimised; infinite if the train does not run."""
+        """Return the objective of the train, to be minimised; infinite if the train cannot run with these sizes."""
         self._on_step()
         if not self._is_joint:
             each = [sizes[name].merit(self.aim) for name in self._requested]
@@ -240,7 +245,7 @@ class TrainSizeSearch:
     # ---------------------------------------------------------------------------------------------------------- search
 
     def found(self) -> BestTrainSizes:
-        """Optimise the sizes of the pairs, first separately and then together."""
+        """Return the best sizes of the train. The pairs are optimised separately and then together."""
         before = {name: self._starts[name] for name in self._requested}
         runs = {name: self._meshes[name].verdict.kind == "runs" for name in self._requested}
         # the train itself, because the sizes in `before` would be rounded to the digits of a declaration
@@ -277,7 +282,9 @@ class TrainSizeSearch:
         )
 
     def _separate_optima(self) -> dict[str, ToothSizes]:
-        """Return the best sizes of each pair separately; pairs with common wheels have one common half angle."""
+        """Return the sizes that are best for each pair separately. Pairs with common wheels have one common
+        half angle.
+        """
         found = {name: self._separate_optimum(name) for name in self._requested}
         for group in self._common_angle_groups:
             if len(group) > 1:
@@ -286,7 +293,7 @@ class TrainSizeSearch:
         return found
 
     def _separate_optimum(self, name: str, half_angle: float | None = None) -> ToothSizes:
-        """Return the best sizes of one pair separately, rounded to the digits of a declaration."""
+        """Return the sizes that are best for one pair separately, rounded to the digits of a declaration."""
         start, free = self._starts[name], self._free_of(name)
         driver = 1 + self._meshes[name].gear.pair.index(self._drivers[name])
         start = replace(start if half_angle is None else start.at({"half_angle": half_angle}), driver=driver)
@@ -298,7 +305,7 @@ class TrainSizeSearch:
         return self._done[key]
 
     def _descend(self, best: float, sizes: dict[str, ToothSizes]) -> tuple[float, dict[str, ToothSizes]]:
-        """Minimise the objective of the train by coordinate descent."""
+        """Return the minimum objective of the train and its sizes, found by coordinate descent."""
         alike = [group for group in self._common_angle_groups if len(group) > 1]
         steps: list[tuple[tuple[str, ...], str]] = [
             ((name,), size) for name in self._requested for size in self._free_of(name)
@@ -318,7 +325,9 @@ class TrainSizeSearch:
     def _step(
         self, best: float, sizes: Mapping[str, ToothSizes], names: Sequence[str], size: str, reach: float
     ) -> tuple[float, dict[str, ToothSizes]]:
-        """Optimise one size near its value by Brent's bounded method, for one pair or pairs with a common size."""
+        """Return the objective and the sizes after one size is optimised near its value by Brent's bounded method, for
+        one pair or for several pairs with a common size.
+        """
         lowest, highest = self.free[size]
         here, width = sizes[names[0]].parameter(size), reach * (highest - lowest)
         found: tuple[float, dict[str, ToothSizes]] = best, {}
@@ -360,7 +369,9 @@ class TrainSizeSearch:
 
 @dataclass(frozen=True)
 class PairSizes(Result):
-    """Sizes of one pair of a train: declared sizes, best sizes of the pair, and best sizes for the train."""
+    """Sizes of one pair of a train: declared sizes, sizes that are best for the pair, and sizes that are best for the
+    train.
+    """
 
     KEYS = ("name", "driver", "teeth", Key("before", "declared"), "apart", "together", "outlines")
 
@@ -371,13 +382,15 @@ class PairSizes(Result):
     before: ToothSizes
     """Declared sizes of the pair."""
     apart: ToothSizes
-    """Tooth sizes that optimise the objective for the pair by itself."""
+    """Tooth sizes that optimise the objective for this pair separately."""
     together: ToothSizes
     """Tooth sizes of the pair that optimise the objective for the whole train."""
     runs: bool
     """True if the pair turns with its declared sizes."""
     outlines: OutlineAgreement
-    """Comparison of the results of the sizes `together` with the results computed from their drawn outlines."""
+    """Comparison of properties of the sizes `together`, computed from the transmission function and from the drawn
+    outlines.
+    """
 
     @property
     def teeth(self) -> tuple[int, int]:
@@ -420,13 +433,14 @@ class BestTrainSizes(Tabular, Pictured, Result):
     source: str
     """Name of the link at which power enters."""
     free: Mapping[str, Range]
-    """Bounds of the free parameters, by name of the parameter; angles are in rad."""
+    """Bounds of the free parameters, keyed by parameter name. Angles are in rad."""
     limits: tuple[SizeLimit, ...]
     """Limits that the sizes of each pair must satisfy."""
     before: float | None
     """Value of the objective with the declared sizes; None if the train does not run.
 
-    The objective is the loss [1], the peak-to-peak error [rad], the sum of impacts [1], or the minimum margin [module].
+    The objective is the loss [1], the peak-to-peak transmission error [rad], the sum of impacts [1], or the minimum
+    margin [module].
     """
     apart: float
     """Value of the objective with each pair optimised separately, in the unit of `before`."""
@@ -435,7 +449,7 @@ class BestTrainSizes(Tabular, Pictured, Result):
     pairs: tuple[PairSizes, ...]
     """Sizes of the pairs on which the output depends."""
     untouched: Mapping[str, str]
-    """Mapping from pair to the reason why its sizes are unchanged, for pairs with a tooth form."""
+    """Mapping from each pair with a tooth form whose sizes are unchanged to the reason."""
     declaration: Mapping[str, Any]
     """Declaration with the best sizes, which extends the given train."""
 
@@ -445,8 +459,8 @@ class BestTrainSizes(Tabular, Pictured, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Table of the sizes of each pair: as declared (if the pair turns), optimised separately, and optimised for the
-        train.
+        """Columns of a table of the sizes of each pair: as declared (if the pair turns), optimised separately, and
+        optimised for the train.
         """
         rows = [
             (pair.name, name, sizes)
@@ -459,7 +473,7 @@ class BestTrainSizes(Tabular, Pictured, Result):
 
 
 def declared_sizes(mesh: TriangularMesh) -> ToothSizes:
-    """Return the sizes of a pair as declared, with the first wheel of the pair first.
+    """Return the declared sizes of a pair, with the first wheel of the pair first.
 
     If the pair does not turn, its clearance factor is midway between the limits.
     """
@@ -487,12 +501,13 @@ def best_shared_angle(
     aim: str,
     limits: Sequence[SizeLimit],
 ) -> dict[str, ToothSizes]:
-    """Return the designs of several pairs at the common half angle that minimises their joint objective.
+    """Return the designs of several pairs at the common half angle that minimises their total objective.
 
-    The result is never worse than the start.
+    The result is never worse than the designs `start`.
 
     start    designs of the pairs with their present half angles
-    sized    function that returns the best sizes of a pair at a half angle [rad]; raises `QuestionError` if none turns
+    sized    function that returns the best sizes of a pair at a half angle [rad]; raises `QuestionError` if no sizes
+             turn
     limits   limits on each pair
     """
 

@@ -1,4 +1,4 @@
-"""Commands `geartrain optimise` and `geartrain mesh --objective`: optimal sizes of triangular teeth."""
+"""Commands `geartrain optimise` and `geartrain mesh --objective`: find optimal sizes of triangular teeth."""
 
 from __future__ import annotations
 
@@ -40,10 +40,14 @@ if TYPE_CHECKING:
 
 _YAML = (".yaml", ".yml")
 _DESIGNS = {1: 60, 2: 500, 3: 900}
-"""Approximate number of designs evaluated for each objective, by number of free parameters; for the progress bar."""
+"""Approximate number of designs evaluated for each objective, keyed by number of free parameters. It is used for the
+progress bar.
+"""
 
 _DIMENSIONS = {"loss": "fraction", "error": "angle", "backlash": "angle"}
-"""Physical quantity of each limit, a fraction or an angle, by name; limits that are not listed are plain numbers."""
+"""Physical quantity of each limit (a fraction or an angle), keyed by name of the limit. Limits that are not listed are
+plain numbers.
+"""
 
 
 def run(
@@ -106,7 +110,9 @@ def run(
 
 
 def _declare(declaration: Mapping[str, Any], file: str, to: Sink) -> None:
-    """Write a declaration that extends the given train, by its name if geartrain contains it, else by its path."""
+    """Write a declaration that extends the given train. It refers to the train by name if geartrain contains it, and by
+    path if not.
+    """
     from geartrain.train.yaml_nodes import as_yaml
 
     parent = file
@@ -128,7 +134,9 @@ class SizeQuestion:
     errors: tuple[str, ...]
 
     def check(self, others: Mapping[str, object]) -> None:
-        """Reject options that apply only with `--objective` if it is missing, and options that it excludes."""
+        """Raise an error if options that require `--objective` are given without it, or if options that it excludes are
+        given with it.
+        """
         if self.best is None:
             for option, given in (("--free", self.free), ("--within", self.within), ("--cutting", self.errors)):
                 if given:
@@ -143,7 +151,7 @@ class SizeQuestion:
                 )
 
     def answer(self, pair: PairRequest, to: Sink, picture: Sink, json: bool) -> NoReturn:
-        """Write the best sizes as a report, as data and as a plot, and exit."""
+        """Write the best sizes as a report, as data and as a plot, and end the command."""
         from geartrain.workshop.sizes.best_sizes import find_tooth_sizes
         from geartrain.workshop.sizes.tooth_sizes_report import describe_tooth_sizes
 
@@ -161,7 +169,9 @@ class SizeQuestion:
         raise typer.Exit(GOOD if found.outlines.turns else VERDICT)
 
     def _probability(self) -> ProbabilityLimit | None:
-        """Return the limit on the probability that a pair with cutting errors stops, if it is given."""
+        """Return the limit on the probability that a pair with cutting errors jams or clashes, or None if it is not
+        given.
+        """
         from geartrain.workshop.sizes.size_search import ProbabilityLimit
 
         given = [text.partition("=")[2] for text in self.within if _is_probability(text)]
@@ -182,12 +192,12 @@ class SizeQuestion:
 
 
 def _is_probability(text: str) -> bool:
-    """Return True if a limit applies to the probability of stops, which requires trials."""
+    """Return True if a limit applies to the probability of a jam or clash, which requires trials."""
     return text.partition("=")[0].strip() == "stops"
 
 
 def _start(pair: PairRequest) -> ToothSizes:
-    """Return the pair described by options; by default its clearance factor is midway between the limits."""
+    """Return the design described by options. By default, its clearance factor is midway between its limits."""
     from geartrain.workshop.sizes.size_design import ToothSizes
 
     friction = read_pair_friction(pair.friction).number("--objective")
@@ -214,7 +224,9 @@ def _start(pair: PairRequest) -> ToothSizes:
 
 
 def read_free(given: Sequence[str]) -> Mapping[str, tuple[float, float] | None]:
-    """Parse strings NAME or NAME=LOW:HIGH to a mapping from name to bounds; without strings, the radii are free."""
+    """Return a mapping from parameter name to bounds, parsed from texts NAME or NAME=LOW:HIGH. If there are no texts,
+    the radii are free.
+    """
     found: dict[str, tuple[float, float] | None] = {}
     for text in given or ("radii",):
         name, equals, rest = text.partition("=")
@@ -233,7 +245,7 @@ def _bound(name: str, text: str) -> float:
 
 
 def read_limits(given: Sequence[str]) -> list[SizeLimit]:
-    """Parse strings NAME=LIMIT; each limit is a maximum or a minimum, depending on the quantity."""
+    """Return limits parsed from texts NAME=LIMIT. Each limit is a maximum or a minimum, depending on the quantity."""
     from geartrain.workshop.sizes.size_design import SizeLimit
 
     found = []

@@ -1,4 +1,5 @@
-"""Proof that a train is ready to cut: the written outlines are turned against each other, and the solids are compared.
+"""Proof that a train is ready to cut: the written outlines are rotated against each other, and the solids are checked
+for overlap.
 
 Input: the train with its sizes, and the drawings written from it. Output: a `TrainProof` with the overlap, backlash,
 clearance and tip widths of every mesh, the freedom of every link, and all findings. The outlines are read back from the
@@ -6,8 +7,8 @@ written drawings, independently of the equations of the tooth forms.
 
 train_proof    proof of a train, of its solids and of wheels bent by a wave generator
 mesh_proof     proof of one mesh
-turned_pair    two written outlines turned against each other
-link_freedom   range of angles of each link that its teeth allow
+turned_pair    two written outlines rotated against each other
+link_freedom   range of angles of each link that the teeth allow
 """
 
 from __future__ import annotations

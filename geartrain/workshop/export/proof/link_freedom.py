@@ -1,9 +1,10 @@
-"""Freedom of each link: the range of angles that the teeth allow, as cut and assembled, computed without speeds.
+"""Freedom of each link: the range of angles that the teeth allow in the parts as cut and assembled, computed without
+speeds.
 
 For every mesh at a pose, the outlines give the limits of the lag of its second wheel. A lag is a linear combination of
 angles of links. Linear programmes over all meshes therefore give the range of each link while the input is held, and
-whether the input can be turned at all. They use tooth numbers and axis positions, but no speeds. A link whose speed
-`solve` determines must be held, and in every pose it must be within its backlash.
+whether the input can be turned at all. These programmes use tooth numbers and axis positions, but no speeds. If `solve`
+determines the speed of a link, the teeth must limit its angle, and in every pose the link must be within its backlash.
 """
 
 from __future__ import annotations
@@ -42,7 +43,9 @@ class LinkFreedom(Result):
     link: str
     """Name of the link."""
     backlash: float | None
-    """Range of the angle [rad], due to the backlash of all meshes up to the link; None if teeth do not limit it."""
+    """Range of the angle due to the backlash of all meshes between the input and the link [rad]; None if teeth do not
+    limit it.
+    """
 
 
 FreedomProof = tuple[tuple[LinkFreedom, ...], tuple[BuildFinding, ...]]
@@ -51,9 +54,10 @@ FreedomProof = tuple[tuple[LinkFreedom, ...], tuple[BuildFinding, ...]]
 def prove_freedom(
     work: SolidModel, pairs: Mapping[str, TurnedPair], names: Mapping[str, tuple[str, str]]
 ) -> FreedomProof:
-    """Return the freedom of links other than frame and inputs, and findings where it contradicts the result of `solve`.
+    """Return the freedom of all links except frame and inputs, and findings for links whose freedom contradicts the
+    result of `solve`.
 
-    pairs   meshes that were individually proved to turn; `names` are wheels 1 and 2 of each mesh
+    pairs   meshes that were individually proved to turn, by pair; `names` are the names of wheels 1 and 2 of each mesh
     """
     try:
         return _Motion(work, pairs, names).prove()
@@ -63,7 +67,9 @@ def prove_freedom(
 
 @dataclass(frozen=True, slots=True)
 class _Constraint:
-    """Constraint of a mesh on the angles of the links: low <= weights . deviations <= high [rad]."""
+    """Constraint of a mesh on the angles of the links: low <= weights . deviations <= high [rad], where deviations are
+    changes of the angles.
+    """
 
     pair: str
     weights: Floats
@@ -79,7 +85,7 @@ class _Motion:
         self.case = work.sized.declaration.case(work.sized.declaration.state_or_first(work.state))
 
     def prove(self) -> FreedomProof:
-        """Return the freedom of all links, checked at several poses; each contradiction is reported once."""
+        """Return the freedom of all links, checked in several poses. Each contradiction is reported once."""
         findings: dict[str, BuildFinding] = {}
         links: tuple[LinkFreedom, ...] = ()
         speeds = {body.id: body.speed for body in self.scene.bodies}
@@ -98,8 +104,8 @@ class _Motion:
     # ------------------------------------------------------------------------------------------------------------ rows
 
     def _constraints(self, pose: Fraction) -> tuple[list[_Constraint], dict[str, float]]:
-        """Return the constraints of all meshes at a pose, and the excess of the second wheel over the backlash by pair
-        [mm].
+        """Return the constraints of all meshes in a pose, and a mapping from pair to the arc by which its second wheel
+        exceeds the backlash [mm].
         """
         angles = scene_pose(self.scene, pose).angles
         rows, off = [], {}
@@ -116,7 +122,9 @@ class _Motion:
         return rows, off
 
     def _ratio_constraint(self, circuit: Circuit) -> Floats:
-        """Return the constraint from the ratio of a circuit that has no turned outlines, such as a bevel pair."""
+        """Return the coefficients of the constraint that follows from the ratio of a circuit without rotated outlines,
+        such as a bevel pair.
+        """
         weights = np.zeros(len(self.scene.bodies))
         for link, count in ((circuit.i, circuit.a), (circuit.j, circuit.b), (circuit.carrier, -circuit.a - circuit.b)):
             at = self.bodies[link]
@@ -125,8 +133,8 @@ class _Motion:
         return weights / max(float(np.abs(weights).max()), 1.0)
 
     def _axis_senses(self, circuit: Circuit) -> tuple[int, int, int] | None:
-        """Return the senses (1 or -1) of both wheels and their carrier about the first axis; None if axes are not
-        parallel.
+        """Return the senses (1 or -1) of both wheels and of their carrier about the first axis; None if the axes are
+        not parallel.
         """
         one, other = (self.wheels[name] for name in self.names[circuit.id])
         n = np.array(one.direction)
@@ -142,7 +150,7 @@ class _Motion:
         return senses[0], senses[1], senses[2]
 
     def _mesh_constraint(self, circuit: Circuit, turned: TurnedPair, angles: Floats) -> tuple[_Constraint, float]:
-        """Return the constraint of a mesh at a pose, and the angle by which the second wheel exceeds the backlash
+        """Return the constraint of a mesh in a pose, and the angle by which the second wheel exceeds the backlash
         [rad].
         """
         one, other = (self.wheels[name] for name in self.names[circuit.id])
@@ -168,8 +176,8 @@ class _Motion:
         return _Constraint(circuit.id, weights, low, high), max(low, -high, 0.0) if low == low else inf
 
     def _tooth_angle(self, wheel: SceneWheel, one: SceneWheel, other: SceneWheel, turned: TurnedPair) -> float:
-        """Return the angle of a wheel's first tooth in the zero pose [rad], about the first axis, from the direction of
-        the mesh.
+        """Return the angle about the first axis from the direction of the mesh to a wheel's first tooth in the zero
+        pose [rad].
         """
         n = np.array(one.direction)
         between = np.subtract(other.centre, one.centre) * (-1 if turned.ring else 1)
@@ -183,7 +191,9 @@ class _Motion:
 
     @cached_property
     def _fixed_equations(self) -> Floats:
-        """Matrix of the equations of fixed links (except inputs) and of links locked together, one equation per row."""
+        """Matrix of the equations of fixed links (except inputs) and of links locked together, with one equation in
+        each row.
+        """
         count = len(self.scene.bodies)
         rows = []
         frame = self.work.sized.declaration.frame
@@ -208,8 +218,8 @@ class _Motion:
             yield LinkFreedom(body.id, ends[1] - ends[0] if np.isfinite(ends).all() else None)
 
     def _maximum_angle(self, rows: Sequence[_Constraint], fixed: Floats, at: int, way: int) -> float:
-        """Return the maximum angle of a link in one direction, by linear programming [rad]; infinite if it is not
-        limited.
+        """Return the maximum angle of a link in one direction, found by linear programming [rad]; infinite if the angle
+        is not limited.
         """
         from scipy.optimize import linprog
 
@@ -240,7 +250,7 @@ class _Motion:
     def _contradictions(
         self, links: Sequence[LinkFreedom], rows: Sequence[_Constraint], turns: bool
     ) -> Iterator[BuildFinding]:
-        """Yield findings where the teeth contradict the result of `solve`."""
+        """Yield findings on links for which the teeth contradict the result of `solve`."""
         speeds = {body.id: body.speed for body in self.scene.bodies}
         for link in links:
             if link.backlash is None and speeds[link.link] is not None:

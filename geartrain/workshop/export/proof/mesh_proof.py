@@ -1,4 +1,4 @@
-"""Proof of every mesh of a train on its written outlines: rules on overlap, backlash, clearance and tips."""
+"""Proof of every mesh of a train, based on its written outlines: rules on overlap, backlash, clearance and tips."""
 
 from __future__ import annotations
 
@@ -33,7 +33,9 @@ if TYPE_CHECKING:
     from geartrain.scene.solids.wheel_blanks import Blank
 
 ALLOWED = 1e-3
-"""Amount by which the measured backlash may be below the declared backlash [mm]: the accuracy of the outlines."""
+"""Amount by which the measured backlash may be smaller than the declared backlash [mm]: the accuracy of the
+outlines.
+"""
 _CLEARANCE, _TIP = 0.1, 0.2  # modules: minimum clearance under a tip, and minimum tip width
 _AROUND = 32  # chords per quarter circle of the middle line of a cut around a corner
 _BUFFER = 0.01  # of a kerf: error of lines that shapely offsets
@@ -45,24 +47,28 @@ _LAND = 0.05  # tooth heights below the tip circle at which the tip width is mea
 
 @dataclass(frozen=True, slots=True)
 class MeshProof(Result):
-    """Measured values of a mesh as cut, turned through a pitch, or through all combinations of unequal teeth."""
+    """Measured values of a mesh as cut. The mesh is turned through a pitch, or through all combinations of unequal
+    teeth.
+    """
 
     KEYS = ("pair", "declared", "minimum", "most", "overlap", "contact_ratio", "clearance", "tip_width", "module")
 
     pair: str
     """Name of the pair."""
     declared: float
-    """Declared backlash as an arc on the pitch circles [mm]."""
+    """Declared backlash, measured as an arc of the pitch circles [mm]."""
     minimum: float
     """Minimum measured backlash [mm]."""
     most: float
     """Maximum measured backlash [mm]."""
     overlap: float
-    """Maximum common area of both wheels in any position [mm2]."""
+    """Maximum area of the overlap of the two wheels over all positions [mm2]."""
     contact_ratio: float | None
     """Contact ratio of conjugate teeth at the design distance; None for other tooth forms."""
     clearance: float
-    """Minimum bottom clearance on the line of centres, from a tip to the root of the other wheel [mm]."""
+    """Minimum distance on the line of centres from the tip of one wheel to the root of the other wheel (bottom
+    clearance) [mm].
+    """
     tip_width: float
     """Smaller tip width of the two wheels [mm]."""
     module: float
@@ -80,7 +86,9 @@ class CutTrain:
 
 
 def read_wheels(work: SolidModel) -> CutTrain:
-    """Return the material of each cut wheel, read from its written drawing, with half the kerf removed all around."""
+    """Return the material of each cut wheel as read from its written drawing, with half the kerf removed along every
+    edge.
+    """
     kerf = work.process.kerf
     materials: dict[str, Any] = {}
     findings = []
@@ -101,7 +109,7 @@ def read_wheels(work: SolidModel) -> CutTrain:
 
 
 def _with_pins(ring: Any, blank: Blank) -> Any:
-    """Return the material of an internal wheel united with its separate pins; any other wheel unchanged."""
+    """Return the material of an internal wheel united with its separate pins. Any other wheel is returned unchanged."""
     if blank.pins is None:
         return ring
     shapely = plane_geometry()
@@ -114,7 +122,9 @@ def _with_pins(ring: Any, blank: Blank) -> Any:
 
 
 def paired_wheels(work: SolidModel, cut: CutTrain) -> dict[str, tuple[PairBacklash, tuple[Blank, Blank], TurnedPair]]:
-    """Return backlash, blanks and outlines of each pair of cut wheels; the internal or driven wheel is second."""
+    """Return backlash, blanks and outlines of each pair of cut wheels, keyed by pair. The internal or driven wheel is
+    the second.
+    """
     # the backlash of teeth that are not conjugate is stated for a driver that is held
     found, drivers = {}, {mesh.name: mesh.driver for mesh in work.sized.meshes}
     for backlash in work.blanks.backlashes:
@@ -134,7 +144,7 @@ def paired_wheels(work: SolidModel, cut: CutTrain) -> dict[str, tuple[PairBackla
 
 
 def axis_distance(layout: Layout, wheels: tuple[str, str]) -> float:
-    """Return the distance between the axes of two wheels, perpendicular to the first axis [mm]."""
+    """Return the distance between the axes of two wheels, measured perpendicular to the first axis [mm]."""
     first, second = (layout.wheels[name] for name in wheels)
     between = np.subtract(second.centre, first.centre)
     along = np.array(layout.axes[first.axis].direction)
@@ -142,7 +152,7 @@ def axis_distance(layout: Layout, wheels: tuple[str, str]) -> float:
 
 
 def prove_mesh(backlash: PairBacklash, wheels: tuple[Blank, Blank], turned: TurnedPair) -> MeshProof:
-    """Return the measured values of a mesh whose outlines are turned through each other, with findings on violated
+    """Return the measured values of a mesh whose outlines are rotated against each other, with findings on violated
     rules.
     """
     found = turned.turn()
@@ -172,7 +182,9 @@ def prove_mesh(backlash: PairBacklash, wheels: tuple[Blank, Blank], turned: Turn
 
 
 def clearance(turned: TurnedPair) -> float:
-    """Return the minimum bottom clearance on the line of centres, from a tip to the root of the other wheel [mm]."""
+    """Return the minimum distance on the line of centres from the tip of one wheel to the root of the other
+    wheel [mm].
+    """
     (tip, root), (other_tip, other_root) = turned.reaches
     a = turned.distance
     if turned.ring:
@@ -181,7 +193,9 @@ def clearance(turned: TurnedPair) -> float:
 
 
 def tip_width(material: Any, reach: tuple[float, float], teeth: int) -> float:
-    """Return the mean width of the tips slightly below the tip circle [mm]; for a lantern the diameter of its pins."""
+    """Return the mean width of the tips of a wheel slightly below its tip circle [mm]; the pin diameter for a
+    lantern.
+    """
     shapely = plane_geometry()
     tip, root = reach
     if material.geom_type != "Polygon":

@@ -1,6 +1,6 @@
-"""Proof that a train is ready to cut: the written parts can turn, or a list of errors.
+"""Proof that a train is ready to cut: either the written parts can turn, or the errors are listed.
 
-Meshing wheels are proved in the plane on their written outlines (`mesh_proof`). Flexible wheels are proved at several
+Meshing wheels are checked in the plane by their written outlines (`mesh_proof`). Flexible wheels are checked at several
 positions of their wave generator. Solids of different links are compared in several poses of the train: if bounding
 boxes overlap, the common volume of the solids is computed.
 """
@@ -36,7 +36,9 @@ if TYPE_CHECKING:
 
 
 SLIVER = 1e-3
-"""Common volume that is ignored [mm3]: the chords of two round surfaces in contact overlap by about this volume."""
+"""Maximum common volume of two parts that is ignored [mm3]. It is about the volume by which the chords of two round
+surfaces in contact overlap.
+"""
 
 _POSITIONS = 7  # of the wave generator in a pitch of the internal wheel
 _PARTS = 4  # subdivision of each chord of the wheel, because bending curves it
@@ -53,9 +55,9 @@ class TrainProof(Result):
     meshes: tuple[MeshProof, ...]
     """Measured values of every pair of wheels whose teeth are cut."""
     links: tuple[LinkFreedom, ...]
-    """Freedom of every link except the frame and the inputs, while the inputs are held."""
+    """Freedom of every link, except the frame and the inputs, while the inputs are held fixed."""
     findings: tuple[BuildFinding, ...]
-    """Findings of the check: errors, then notes on parts that are risky or could not be checked."""
+    """Findings of the check: errors come first, then notes on parts that are risky or could not be checked."""
 
     @property
     def is_ready(self) -> bool:
@@ -64,7 +66,7 @@ class TrainProof(Result):
 
     @property
     def verdict(self) -> str:
-        """Verdict in one sentence: "ready to cut", or the first error and the number of further errors."""
+        """Verdict as one sentence: "ready to cut", or the first error and the number of further errors."""
         errors = build_errors(self.findings)
         if not errors:
             return "ready to cut"
@@ -73,7 +75,7 @@ class TrainProof(Result):
 
 
 def prove_train(work: SolidModel, watch: Callable[[], None] = lambda: None) -> TrainProof:
-    """Check whether the exported parts of a train can turn, mesh by mesh and as a whole.
+    """Check whether the exported parts of a train can turn, first for each mesh and then for the whole train.
 
     work    solid model of the train
     watch   progress function, called after each of `proof_steps` steps
@@ -116,12 +118,12 @@ def are_installed(*libraries: str) -> bool:
 
 
 def proof_steps(work: SolidModel) -> int:
-    """Return the number of times that `prove_train` calls `watch`."""
+    """Return the number of steps of `prove_train`, which is the number of calls of its progress function."""
     return len(work.blanks.backlashes) + 1 + len(_poses(work))
 
 
 def _uncut(work: SolidModel) -> Iterator[BuildFinding]:
-    """Yield findings on wheels without a drawing: errors for flat wheels, notes for others."""
+    """Yield findings on wheels that have no drawing: errors for flat wheels, notes for other wheels."""
     blanks = work.blanks
     for name, problems in blanks.uncut.items():
         flat = name in blanks.flat
@@ -130,7 +132,7 @@ def _uncut(work: SolidModel) -> Iterator[BuildFinding]:
 
 
 def _frame(work: SolidModel) -> Iterator[BuildFinding]:
-    """Yield findings on axes that the plates cannot bear, on obstacles of arbors, and on cups of flexible wheels."""
+    """Yield findings on axes that the plates cannot support, on obstacles to arbors, and on cups of flexible wheels."""
     if work.frame is None:
         return
     for cup in work.frame.plan.stack.cups:
@@ -147,7 +149,7 @@ def _frame(work: SolidModel) -> Iterator[BuildFinding]:
 def prove_solids(work: SolidModel, watch: Callable[[], None] = lambda: None) -> tuple[BuildFinding, ...]:
     """Return findings on parts that overlap in some pose, in descending order of their common volume.
 
-    watch   callback after each pose. Raises `MissingExtraError` if manifold3d is not installed.
+    watch   progress function, called after each pose. Raises `MissingExtraError` if manifold3d is not installed.
     """
     solids = _Solids(work)
     found: dict[tuple[int, int], float] = {}
@@ -180,7 +182,9 @@ class _Solids:
         self.made: dict[int, Any] = {}
 
     def near(self, pose: ScenePose) -> Iterator[tuple[int, int]]:
-        """Yield the indices of two parts of different bodies whose bounding boxes overlap, except meshing wheels."""
+        """Yield the indices of each two parts of different bodies whose bounding boxes overlap, except
+        meshing wheels.
+        """
         points = [pose.point(part.body, place) for part, place in zip(self.parts, self.placed, strict=True)]
         low = np.array([each.min(axis=0) for each in points])
         high = np.array([each.max(axis=0) for each in points])
@@ -193,7 +197,7 @@ class _Solids:
                 yield one, other
 
     def common(self, one: int, other: int, pose: ScenePose) -> float:
-        """Return the common volume of two parts in a pose [mm3]; 0 if it is below `SLIVER`."""
+        """Return the volume that two parts have in common in a pose [mm3]; 0 if it is below `SLIVER`."""
         bodies = [(at, self.parts[at].body) for at in (one, other)]
         moves = (np.column_stack([pose.turned[body], pose.moved[body]]) for _, body in bodies)
         solids = [self._made(at).transform(move) for (at, _), move in zip(bodies, moves, strict=True)]
@@ -202,7 +206,7 @@ class _Solids:
         return volume if volume > minimum else 0.0
 
     def _made(self, at: int) -> Any:
-        """Return a part in the zero pose as a manifold."""
+        """Return the part with index `at` in the zero pose, as a manifold."""
         if at not in self.made:
             faces = np.ascontiguousarray(self.parts[at].solid.faces, dtype=np.uint64)
             mesh = self.library.Mesh64(np.ascontiguousarray(self.placed[at], dtype=float), faces)
@@ -228,7 +232,7 @@ def _finding(one: SolidPart, other: SolidPart, volume: float) -> BuildFinding:
 
 
 def prove_waves(work: SolidModel, cut: CutTrain) -> Iterator[BuildFinding]:
-    """Yield findings on flexible wheels, bent by a wave generator, that overlap their internal wheel."""
+    """Yield findings on flexible wheels that overlap their internal wheel when a wave generator bends them."""
     waves = () if work.frame is None else (each for each in work.frame.plan.stack.eccentrics if each.wave is not None)
     for each in waves:
         for gear in work.train.declaration.gears:
@@ -247,7 +251,9 @@ def prove_waves(work: SolidModel, cut: CutTrain) -> Iterator[BuildFinding]:
 
 
 def overlaps(work: SolidModel, wave: Eccentric, thin: Any, ring: tuple[str, Any]) -> Iterator[float]:
-    """Yield the common area of a bent flexible wheel and its internal wheel [mm2] for each wave generator position."""
+    """Yield the area of overlap of a bent flexible wheel and its internal wheel [mm2] for each position of the wave
+    generator.
+    """
     assert wave.wave is not None
     shapely = plane_geometry()
     name, material = ring
@@ -266,7 +272,7 @@ def overlaps(work: SolidModel, wave: Eccentric, thin: Any, ring: tuple[str, Any]
 
 
 def _divided(line: Floats) -> Floats:
-    """Return a line with equidistant points inserted between its corners."""
+    """Return a polyline with equidistant points inserted between its corners."""
     steps = np.arange(_PARTS)[None, :, None] / _PARTS
     after = np.roll(line, -1, axis=0)
     found: Floats = (line[:, None, :] + (after - line)[:, None, :] * steps).reshape(-1, 2)

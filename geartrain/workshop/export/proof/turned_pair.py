@@ -1,10 +1,12 @@
-"""Two written outlines turned against each other: their overlap, and the angles at which the second one is free.
+"""Two written outlines rotated against each other: their overlap, and the angles at which the second wheel is free.
 
-Wheel 1 is at the origin. Wheel 2 is at the distance between the axes on the positive x axis, or on the negative one if
-it is internal, so that they meet on the positive x axis. While wheel 1 turns by t, wheel 2 turns by -t z1/z2 (internal:
-+t z1/z2) plus a `lag`. The limits of the lag between which it is free are found by bisection on the area of overlap.
+Wheel 1 is at the origin. The axis of wheel 2 is on the positive x axis, or on the negative x axis if wheel 2 is
+internal, so that the wheels meet on the positive x axis. While wheel 1 turns by t, wheel 2 turns by -t z1/z2 (internal:
++t z1/z2) plus a `lag`. The limits of the lag between which wheel 2 is free are found by bisection on the area of
+overlap.
 
-Outlines are read back from the SVG that a laser follows (`read_material`), independently of the code that writes it.
+Outlines are read back from the SVG that a laser cutter follows (`read_material`), independently of the code that writes
+it.
 """
 
 from __future__ import annotations
@@ -28,7 +30,7 @@ if TYPE_CHECKING:
 
 
 TOLERANCE = 2e-4
-"""Maximum deviation of the chords in a proof from the arcs of a drawing [mm]."""
+"""Maximum deviation of the chords in a proof from the arcs of the drawing [mm]."""
 
 NOTHING = 1e-9  # mm2: a smaller overlap is a rounding error
 SAME = 5e-6  # mm: larger than the rounding of coordinates in a drawing
@@ -47,21 +49,23 @@ _COUNTS = {"M": 2, "L": 2, "A": 7, "Z": 0}
 
 @dataclass(frozen=True, slots=True)
 class FreeTurn:
-    """Range of angles in which wheel 2 is free while wheel 1 turns; arrays with one item for each position."""
+    """Range of angles in which wheel 2 is free while wheel 1 turns. Arrays have one item for each position of
+    wheel 1.
+    """
 
     low: Floats
     """Minimum lag at which wheel 2 is free [rad]; NaN at positions where no lag is free."""
     high: Floats
     """Maximum lag at which wheel 2 is free [rad]; NaN at positions where no lag is free."""
     overlap: Floats
-    """Minimum common area over all lags [mm2]; 0 if wheel 2 is free."""
+    """Minimum over all lags of the area of overlap [mm2]; 0 at positions where wheel 2 is free."""
     place: tuple[float, float] | None
-    """Position of the largest overlap [mm], relative to the axis of wheel 1; None if there is no overlap."""
+    """Coordinates of the largest overlap relative to the axis of wheel 1 [mm]; None if there is no overlap."""
 
 
 @dataclass(frozen=True)
 class TurnedPair:
-    """Two wheels as plane shapes about their own axes, each with a tooth on its x axis."""
+    """Two wheels as plane shapes about their own axes. Each wheel has a tooth on its x axis."""
 
     materials: tuple[Any, Any]
     counts: tuple[int, int]
@@ -70,9 +74,9 @@ class TurnedPair:
     """Centre distance [mm]. The field `ring` is True if wheel 2 is internal."""
     ring: bool = False
     same: float = SAME
-    """Maximum difference between teeth that are treated as equal [mm]."""
+    """Maximum distance between the outlines of two teeth that are treated as equal [mm]."""
     _cropped: dict[tuple[int, int], Any] = field(default_factory=dict, repr=False, compare=False)
-    """Regions of contact that were already cropped, by wheel and kind of tooth."""
+    """Regions of contact that were already cropped, keyed by wheel and kind of tooth."""
 
     @cached_property
     def pitches(self) -> tuple[float, float]:
@@ -81,14 +85,14 @@ class TurnedPair:
 
     @cached_property
     def reaches(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Tip and root radii of both wheels, as cut [mm]."""
+        """Tip and root radii of each wheel, as cut [mm]."""
         outer, inner = self.materials
         first = _teeth(outer, False)
         return first, _teeth(inner, self.ring)
 
     def turn(self) -> FreeTurn:
-        """Return the free range of wheel 2 while wheel 1 turns through a pitch, for each different tooth pair that
-        meets.
+        """Return the free range of wheel 2 while wheel 1 turns through a pitch, for each combination of different teeth
+        that meet.
         """
         found = [self._measure(tooth_pair) for tooth_pair in self.tooth_pairs]
         worst = max(found, key=lambda each: float(each.overlap.max()))
@@ -96,7 +100,9 @@ class TurnedPair:
 
     @cached_property
     def tooth_pairs(self) -> list[tuple[int, int]]:
-        """Indices of the tooth of wheel 1 and the space of wheel 2 that meet, for each different combination."""
+        """Indices of the tooth of wheel 1 and the space of wheel 2 that meet, for each combination of
+        different teeth.
+        """
         z1, z2 = self.counts
         way = 1 if self.ring else -1
         found: dict[tuple[int, int], tuple[int, int]] = {}
@@ -109,7 +115,9 @@ class TurnedPair:
         return list(found.values())
 
     def free(self, turned: Floats, lags: Floats, tooth_pair: tuple[int, int] = (0, 0)) -> FreeTurn:
-        """Return the free range of wheel 2 near given lags [rad], at angles of wheel 1 within a pitch about 0 [rad]."""
+        """Return the free range of wheel 2 near given lags [rad] at angles `turned` of wheel 1, which are within a
+        pitch about 0 [rad].
+        """
         t, lag = np.asarray(turned, dtype=float), np.asarray(lags, dtype=float).copy()
         first = _moved(self._contact_region(0, tooth_pair[0]), t, 0.0)
         areas = self._areas(first, t, lag, tooth_pair)
@@ -127,7 +135,9 @@ class TurnedPair:
         return FreeTurn(low, high, np.where(blocked, areas, 0.0), place)
 
     def _measure(self, tooth_pair: tuple[int, int]) -> FreeTurn:
-        """Return the free range of a tooth pair through a pitch, and at further positions that are not free."""
+        """Return the free range of a tooth pair through a pitch. It also contains intermediate positions at which wheel
+        2 is not free.
+        """
         t = self._positions(_STEPS)
         found = self.free(t, np.zeros(_STEPS), tooth_pair)
         held = np.isfinite(found.low) & np.isfinite(found.high)
@@ -148,7 +158,9 @@ class TurnedPair:
     def _nearest_free_lag(
         self, first: Any, t: float, tooth_pair: tuple[int, int], here: tuple[float, float]
     ) -> tuple[float, float]:
-        """Return the nearest free lag of wheel 2 within half a pitch, or else the lag of minimum overlap."""
+        """Return the free lag of wheel 2 within half a pitch that is nearest to a lag [rad], and its area of overlap
+        [mm2]. If no lag is free, the lag of minimum overlap is returned.
+        """
         tries = here[0] + self.pitches[1] * (np.arange(1, _TRIES + 1) - (_TRIES + 1) / 2) / _TRIES
         areas = self._areas(np.full(_TRIES, first), np.full(_TRIES, t), tries, tooth_pair)
         open_ = np.flatnonzero(areas <= NOTHING)
@@ -161,7 +173,9 @@ class TurnedPair:
         return float(tries[at]), float(areas[at])
 
     def _last_free_lag(self, first: Any, t: Floats, lag: Floats, way: int, tooth_pair: tuple[int, int]) -> Floats:
-        """Return the last free lag in one direction, by bisection [rad]; infinite if not limited within a pitch."""
+        """Return the last free lag in one direction, found by bisection [rad]; infinite if it is not limited within a
+        pitch.
+        """
         free, met = lag.copy(), lag + way * self.pitches[1] / 2
         loose = self._areas(first, t, met, tooth_pair) <= NOTHING
         if loose.any():  # free at half a pitch: the tooth that stops it is nearer or farther than that
@@ -187,7 +201,7 @@ class TurnedPair:
     def _overlap_centre(
         self, first: Any, t: Floats, lag: Floats, tooth_pair: tuple[int, int], at: int
     ) -> tuple[float, float]:
-        """Return the centroid of the largest part of the overlap [mm]."""
+        """Return the coordinates of the centroid of the largest part of the overlap [mm]."""
         shapely = plane_geometry()
         common = shapely.intersection(first[at], self._second(t[at : at + 1], lag[at : at + 1], tooth_pair)[0])
         sliver = max(shapely.get_parts(common).tolist(), key=lambda part: float(part.area))
@@ -197,7 +211,7 @@ class TurnedPair:
 
     @cached_property
     def _extents(self) -> tuple[float, float]:
-        """Half angles, seen from both axes, of the region in which the tip circles overlap [rad]."""
+        """Half angles of the region in which the tip circles overlap, as seen from each of the two axes [rad]."""
         (tip, _), (other, _) = self.reaches
         a = self.distance
         if not a:
@@ -208,7 +222,9 @@ class TurnedPair:
         return acos(min(max(one, -1.0), 1.0)), acos(min(max(two, -1.0), 1.0))
 
     def _contact_region(self, which: int, tooth: int) -> Any:
-        """Return the part of a wheel that can touch while a tooth (wheel 2: a space) passes the line of centres."""
+        """Return the part of a wheel that can be in contact while one tooth (or one space of wheel 2) passes the line
+        of centres.
+        """
         kind = which, self._alike[which][tooth]
         if kind in self._cropped:
             return self._cropped[kind]
@@ -225,14 +241,18 @@ class TurnedPair:
 
     @cached_property
     def _alike(self) -> tuple[tuple[int, ...], tuple[int, ...]]:
-        """Index of the first tooth that is equal, including its neighbours, for each tooth of both wheels."""
+        """Index of the first tooth that is equal to each tooth, for both wheels. All neighbours of equal teeth are also
+        equal.
+        """
         first, second = self.materials
         return _alike(first, self.counts[0], False, self.same), _alike(second, self.counts[1], self.ring, self.same)
 
     # --------------------------------------------------------------------------------------------------- descriptions
 
     def words(self, place: tuple[float, float], names: tuple[str, str]) -> str:
-        """Return a phrase on the position of an overlap: tip, flank or root of both wheels, with the radii [mm]."""
+        """Return a phrase that describes the position of an overlap by tip, flank or root of both wheels, with the
+        radii [mm].
+        """
         away = -self.distance if self.ring else self.distance
         radii = hypot(*place), hypot(place[0] - away, place[1])
         parts = [_part(radius, *reach) for radius, reach in zip(radii, self.reaches, strict=True)]
@@ -254,7 +274,9 @@ def _part(radius: float, tip: float, root: float) -> str:
 
 
 def _tooth_lines(material: Any, ring: bool) -> Any:
-    """Return the outer line of a wheel; for an internal wheel its hole, for a lantern the lines of its pins."""
+    """Return the outline of an external wheel, the hole of an internal wheel, or the outlines of the pins of
+    a lantern.
+    """
     shapely = plane_geometry()
     if ring:
         return max(material.interiors, key=lambda line: float(shapely.Polygon(line).area))
@@ -262,7 +284,7 @@ def _tooth_lines(material: Any, ring: bool) -> Any:
 
 
 def _teeth(material: Any, ring: bool) -> tuple[float, float]:
-    """Return tip and root radius of a wheel [mm]; for a lantern the maximum and minimum radius of its pins."""
+    """Return the tip and root radii of a wheel [mm]; for a lantern, the maximum and minimum radii of its pins."""
     shapely = plane_geometry()
     radii = np.hypot(*shapely.get_coordinates(_tooth_lines(material, ring)).T)
     ends = float(radii.max()), float(radii.min())
@@ -270,7 +292,9 @@ def _teeth(material: Any, ring: bool) -> tuple[float, float]:
 
 
 def _alike(material: Any, count: int, ring: bool, same: float) -> tuple[int, ...]:
-    """Return the kind of each tooth: all 0 if the wheel coincides with itself after a pitch, else its own index."""
+    """Return the kind of each tooth: 0 for every tooth if the wheel coincides with itself after a rotation by one
+    pitch, otherwise the index of the tooth.
+    """
     shapely = plane_geometry()
     lines = _tooth_lines(material, ring)
     shapely.prepare(lines)
@@ -281,7 +305,9 @@ def _alike(material: Any, count: int, ring: bool, same: float) -> tuple[int, ...
 
 
 def _wedge(facing: float, half: float, reach: tuple[float, float]) -> Any:
-    """Return the sector of half angle `half` [rad] about a direction [rad], with margins above and below the teeth."""
+    """Return a sector with half angle `half` [rad] about the direction `facing` [rad], with margins above and below the
+    teeth.
+    """
     shapely = plane_geometry()
     height = abs(reach[0] - reach[1])
     steps = np.linspace(-half, half, 9)
@@ -306,7 +332,7 @@ def _moved(material: Any, turns: Floats, away: float) -> Any:
 
 
 def plane_geometry() -> Any:
-    """Return the module shapely. Raises `MissingExtraError` if it is not installed."""
+    """Return the module `shapely`. Raises `MissingExtraError` if the package is not installed."""
     try:
         import shapely
     except ImportError:
@@ -315,10 +341,11 @@ def plane_geometry() -> Any:
 
 
 def read_material(svg: str, pins: bool = False) -> Geometry:
-    """Return the material that remains when the CUT path of a drawing is cut [mm], y upwards; for a lantern its pins.
+    """Return the material that remains when the CUT path of a drawing is cut [mm], with y upwards. For a lantern,
+    return its pins.
 
-    The largest line is the rim, all other lines are holes. Raises `GearTrainError` for a drawing that cannot be cut: a
-    line that crosses itself, or a hole that leaves the part.
+    The largest closed line is the rim, and all other lines are holes. Raises `GearTrainError` for a drawing that cannot
+    be cut: a line that crosses itself, or a hole that leaves the part.
     """
     shapely = plane_geometry()
     rings = [shapely.Polygon(line) for line in cut_lines(svg)]
@@ -337,7 +364,7 @@ def read_material(svg: str, pins: bool = False) -> Geometry:
 
 
 def cut_lines(svg: str, tolerance: float = TOLERANCE) -> list[list[Point]]:
-    """Return the closed lines of the CUT path as points [mm], with y upwards and arcs as chords."""
+    """Return the closed lines of the CUT path as lists of points [mm], with y upwards. Arcs are replaced by chords."""
     path = next(each for each in ElementTree.fromstring(svg).iter() if each.get("id") == _CUT)
     lines: list[list[Point]] = []
     for word, numbers in _commands(path.get("d", "")):
@@ -353,7 +380,7 @@ def cut_lines(svg: str, tolerance: float = TOLERANCE) -> list[list[Point]]:
 
 
 def _commands(data: str) -> Iterator[tuple[str, Sequence[float]]]:
-    """Yield each command of an SVG path with its numbers."""
+    """Yield the letter of each command of an SVG path, with its numbers."""
     words = _WORDS.findall(data)
     at = 0
     while at < len(words):
@@ -364,9 +391,9 @@ def _commands(data: str) -> Iterator[tuple[str, Sequence[float]]]:
 
 
 def _arc(start: Point, end: Point, radius: float, flags: tuple[bool, bool], tolerance: float) -> list[Point]:
-    """Return the points of a circular arc after its start; the flags select a large arc and a left turn.
+    """Return the points of a circular arc after its start. The flags select the larger arc and a left turn.
 
-    The centre is computed as in appendix B.2.4 of SVG 2, for circles.
+    The centre is computed by the formulas for circles that follow from appendix B.2.4 of SVG 2.
     """
     large, left = flags
     (x, y), (u, v) = start, end

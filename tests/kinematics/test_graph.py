@@ -15,9 +15,7 @@ from reference_solver import find_carrier, turning_graph
 from strategies import Data, trains
 
 from geartrain import GearTrain, load
-from geartrain.kinematics.graph import adjacency_labels, adjacency_matrix, to_json
-from geartrain.scene import ManufacturingSizes, SolidModel
-from geartrain.workshop import train_file
+from geartrain.kinematics.graph import adjacency_labels, adjacency_matrix, to_dot, to_graphml, to_json
 
 PLANETARY = """
 frame: "0"
@@ -77,11 +75,6 @@ def test_a_pin_and_its_slot_are_told_apart_in_every_order() -> None:
         assert (edge["pin"], edge["slot"]) == (pin, slot)
 
 
-def written(train: GearTrain, kind: str) -> bytes:
-    """Return the graph of a train as a file."""
-    return train_file(SolidModel(train, ManufacturingSizes()), kind)
-
-
 def edges_of(train: GearTrain) -> list[tuple[str, ...]]:
     """What must be in every export: the two links, the kind and the label of every edge, from the declaration."""
     declared = train.declaration
@@ -114,14 +107,14 @@ def read_dot(text: str) -> tuple[set[str], list[tuple[str, ...]]]:
 def test_the_graph_and_every_export_of_it_have_every_link_joint_pair_and_coupling(data: Data) -> None:
     train = GearTrain.declare(data)
     links, edges = list(data["links"]), edges_of(train)
-    graphml = nx.read_graphml(BytesIO(written(train, "graphml")))
+    graphml = nx.read_graphml(BytesIO(to_graphml(train.graph).encode()))
     assert (list(train.graph), sorted_edges(train.graph)) == (links, edges)
     assert (list(graphml), sorted_edges(graphml)) == (links, edges)
     raw = json.loads(to_json(train.graph))
     assert [node["id"] for node in raw["nodes"]] == links
     assert [node["id"] for node in raw["nodes"] if node["frame"]] == ["frame"]
     assert sorted((*sorted((e["source"], e["target"])), e["kind"], e["label"]) for e in raw["edges"]) == edges
-    assert read_dot(written(train, "dot").decode()) == (set(links), sorted((a, b, label) for a, b, _, label in edges))
+    assert read_dot(to_dot(train.graph)) == (set(links), sorted((a, b, label) for a, b, _, label in edges))
 
 
 def test_names_with_quotes_and_signs_survive_every_export() -> None:
@@ -129,8 +122,8 @@ def test_names_with_quotes_and_signs_survive_every_export() -> None:
     train = GearTrain.declare(
         {"links": {"frame": {}, odd: {}}, "revolutes": [{"pair": ["frame", odd], "axis": 'x"y'}], "inputs": {odd: 1}}
     )
-    assert read_dot(written(train, "dot").decode()) == ({"frame", odd}, [(odd, "frame", 'x"y')])
-    assert set(nx.read_graphml(BytesIO(written(train, "graphml")))) == {"frame", odd}
+    assert read_dot(to_dot(train.graph)) == ({"frame", odd}, [(odd, "frame", 'x"y')])
+    assert set(nx.read_graphml(BytesIO(to_graphml(train.graph).encode()))) == {"frame", odd}
     assert [node["id"] for node in json.loads(to_json(train.graph))["nodes"]] == ["frame", odd]
 
 

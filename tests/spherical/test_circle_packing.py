@@ -364,7 +364,7 @@ def test_kuratowski_of_five() -> None:
 def test_teeth_of_all_gears_must_be_given_and_aims_are_two() -> None:
     with pytest.raises(GearTrainError, match="no tooth number is given for"):
         from_graph(nx.cubical_graph(), teeth={0: 12})
-    with pytest.raises(GearTrainError, match="is unknown"):
+    with pytest.raises(GearTrainError, match="unknown aim"):
         from_graph(nx.cubical_graph(), aim="both")  # type: ignore[arg-type]
 
 

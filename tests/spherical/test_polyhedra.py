@@ -299,7 +299,7 @@ def test_without_its_meshes_of_hexagons_a_buckyball_is_an_icosidodecahedron() ->
         ({"gears": "face"}, "did you mean 'faces'"),
         ({"drop": ["4"]}, "unknown gear or kind '4'"),
         ({"drop": ["5-13"]}, "unknown gear or kind '5-13'"),
-        ({"drop": ["5~5"]}, "no mesh '5~5'"),
+        ({"drop": ["5~5"]}, "unknown mesh '5~5'"),
         ({"drop": [""]}, "unknown gear or kind ''"),
         ({"teeth": {"4": 12}}, "unknown kind of gear '4'"),
         ({"teeth": {"5": 0}}, "0 is not a valid tooth count"),

@@ -41,6 +41,7 @@ _MOST = 300  # maximum number of nodes
 _HEAD, _FOOT = 0.6, 0.45  # inches: margins above and below
 _MOVE, _LINE, _CURVE, _CLOSE = map(int, (Path.MOVETO, Path.LINETO, Path.CURVE4, Path.CLOSEPOLY))
 _ROUND = 0.5523  # control point of a cubic Bezier curve that approximates a quarter circle, divided by its radius
+_OPACITY = {SKY: 0.6, PURPLE: 0.6, RED: 0.8}  # in grey, losses, shafts and recirculating power differ
 
 
 def power_figure(flow: PowerFlow | Torques, title: str, watts: float | None = None) -> Figure:
@@ -139,9 +140,8 @@ def _ribbon(
 
 
 def _fill(axes: Axes, points: list[tuple[float, float]], codes: list[int], color: str, zorder: float = 2.0) -> None:
-    alpha = 0.8 if color == RED else 0.6  # losses differ from circulating power in grey, too
     look: dict[str, Any] = {"facecolor": color, "edgecolor": color, "linewidth": _FINEST}
-    axes.add_patch(PathPatch(Path(points, codes), alpha=alpha, zorder=zorder, **look))
+    axes.add_patch(PathPatch(Path(points, codes), alpha=_OPACITY[color], zorder=zorder, **look))
 
 
 def _draw_return_band(axes: Axes, placed: SankeyLayout, turn: ReturnBand) -> None:
@@ -240,8 +240,8 @@ def _write_circulating(axes: Axes, placed: SankeyLayout, flow: PowerFlow) -> Non
 def _legend(placed: SankeyLayout) -> Iterator[Patch | Line2D]:
     yield Patch(facecolor=BLACK, label="shaft")
     yield Patch(facecolor="white", edgecolor=BLACK, label="pair")
-    yield Patch(facecolor=SKY, alpha=0.6, label="power")
+    yield Patch(facecolor=SKY, alpha=_OPACITY[SKY], label="power")
     if placed.turns:
-        yield Patch(facecolor=PURPLE, alpha=0.6, label="recirculating power")
+        yield Patch(facecolor=PURPLE, alpha=_OPACITY[PURPLE], label="recirculating power")
     if placed.sheds:
-        yield Patch(facecolor=RED, alpha=0.8, label="lost in teeth or bearings")
+        yield Patch(facecolor=RED, alpha=_OPACITY[RED], label="lost in teeth or bearings")

@@ -112,3 +112,16 @@ def test_two_kinks_in_one_cell_and_one_on_its_edge() -> None:
     S = np.array([-0.5, -1e-9, 0.0, 0.29999, 0.3, 0.30005, 0.3001, 0.49999, 0.5, 0.7])
     for cells in (2, 8, 32):
         assert np.allclose(CellTable(stairs, period, places, cells)(S), stairs(S), atol=1e-13)
+
+
+@pytest.mark.parametrize("count", [2, 32, 33, 300])
+def test_few_and_many_kinks_are_followed(count: int) -> None:
+    """A polygon is interpolated between its corners, whether each corner is compared or the corners are searched."""
+    rng = np.random.default_rng(count)
+    corners, heights = np.sort(rng.uniform(0, 1, count)), rng.uniform(-1, 1, count)
+
+    def polygon(S: Any) -> Any:
+        return np.interp(S, corners, heights, period=1.0)
+
+    S = rng.uniform(-3, 3, 5000)
+    assert fit(polygon, 1.0, corners, 1e-9)(S) == pytest.approx(polygon(S), abs=1e-8)

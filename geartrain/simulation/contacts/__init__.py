@@ -8,7 +8,7 @@ time_case           inertia, drag, restitution and drive of a train in one state
 train_model         train as coordinates and contacts, with ideal pairs eliminated exactly
 compliant_train     train model with stiffness and damping of teeth
 contact_model       coordinates, contacts, bearings, stops and springs, and their arrays for the kernels
-loaded_bearings     forces of pairs on bearings whose friction grows with their load, as arrays
+bearing_forces      forces of pairs on bearings whose friction grows with their load, as arrays
 pair_tables         transmission functions as tables of polynomials between kinks
 rubbing_arms        friction of teeth and pins as an addition to the lever arm of the driver
 """

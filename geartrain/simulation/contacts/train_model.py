@@ -38,8 +38,8 @@ if TYPE_CHECKING:
     from geartrain.dynamics.motion.motion_problem import MotionProblem
     from geartrain.kinematics.circuits import Circuit, Tree
     from geartrain.numerics.arrays import Floats
+    from geartrain.simulation.contacts.bearing_forces import BearingForces
     from geartrain.simulation.contacts.contact_model import ToothCompliance
-    from geartrain.simulation.contacts.loaded_bearings import BearingForces
     from geartrain.teeth.couplings.pin_transmission import PinToSlotTransmission
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.teeth.transmission import TransmissionFunction
@@ -89,7 +89,7 @@ class TrainModel:
     case: TimeCase
     tree: Tree
     state: str | None = None
-    pressing: BearingForces | None = None
+    bearing_forces: BearingForces | None = None
     """Forces on the bearings whose friction depends on their load; None if there are no such bearings."""
 
     def typical(self, link: str) -> float:
@@ -117,7 +117,7 @@ class TrainModel:
         left = [mesh.name for mesh in self.problem.teeth if mesh.has_friction and not mesh.computes_losses]
         if left:
             found.append(f"friction of {', '.join(left)}: it depends on a sliding speed that is not known")
-        found += [] if self.pressing is None else self.pressing.notes
+        found += [] if self.bearing_forces is None else self.bearing_forces.notes
         found += unmodelled_properties(self.train.couplings)
         return tuple(found)
 
@@ -152,7 +152,7 @@ class TrainModel:
 
     def _is_contact(self, circuit: Circuit) -> bool:
         # elimination loses the forces of ideal pairs, on which friction of bearings depends
-        if circuit.id in self._couplings or (self.pressing and circuit.id in self.pressing.names):
+        if circuit.id in self._couplings or (self.bearing_forces and circuit.id in self.bearing_forces.names):
             return True
         mesh = self._meshes.get(circuit.id)
         if mesh is not None:
@@ -359,8 +359,8 @@ class TrainModel:
         """Yield the dry friction of bearings. Bearings of links with proportional speeds are combined."""
         joined: dict[tuple[tuple[int, float], ...], list[tuple[str, float, float, float]]] = {}
         for link, (sliding, sticking) in self.case.bearing.items():
-            radius = 0.0 if self.pressing is None else self.train.links[link].friction_radius
-            thrust = 0.0 if self.pressing is None else self.pressing.thrust.get(link, 0.0)
+            radius = 0.0 if self.bearing_forces is None else self.train.links[link].friction_radius
+            thrust = 0.0 if self.bearing_forces is None else self.bearing_forces.thrust.get(link, 0.0)
             sliding, sticking = sliding + thrust, sticking + thrust
             form = self._form(link, self.tree.borne_by(link))
             scale = float(np.max(np.abs(form), initial=0.0))
@@ -412,8 +412,8 @@ class TrainModel:
         torque = self.torque_of(self.case.load, self.case.drive.torque)
         typical = np.array([self.typical(link) for link in self.coordinates])
         given = dict(enumerate(self.prescribed.values()))
-        bearings, pressing = tuple(self._bearings()), self.pressing
-        senses = {circuit.id: self._senses(circuit) for circuit in self.contacts} if pressing else {}
+        bearings, forces = tuple(self._bearings()), self.bearing_forces
+        senses = {circuit.id: self._senses(circuit) for circuit in self.contacts} if forces else {}
         return ContactModel(
             self.mass,
             self._viscous(),
@@ -424,7 +424,7 @@ class TrainModel:
             bearings,
             tuple(self._stops()),
             tuple(self._springs()),
-            None if pressing is None else pressing.arrays(bearings, senses, self.speeds),
+            None if forces is None else forces.arrays(bearings, senses, self.speeds),
         )
 
 

@@ -160,7 +160,7 @@ class StepEquations(NamedTuple):
     load [N m], shape (bearings, 2). Both have two values: those used in the last solution, and those that follow from
     this solution.
     """
-    pressing: Floats
+    load_friction: Floats
 
 
 class StepRules(NamedTuple):
@@ -214,7 +214,7 @@ def assemble(system: ContactSystem, state: ContactState, here: StepEquations, st
                 b[system.bearing_of[x]] -= step * system.sliding[m] * turning * system.bearing_c[x]
             else:
                 # a stuck bearing is viscous up to its sticking torque at the creep speed
-                stiff = step * (system.sticking[m] + here.pressing[m, 1]) / creep * system.bearing_c[x]
+                stiff = step * (system.sticking[m] + here.load_friction[m, 1]) / creep * system.bearing_c[x]
                 for y in range(system.bearing_at[m], system.bearing_at[m + 1]):
                     A[system.bearing_of[x], system.bearing_of[y]] += stiff * system.bearing_c[y]
     for m in range(len(system.compliance)):
@@ -233,7 +233,7 @@ def assemble(system: ContactSystem, state: ContactState, here: StepEquations, st
             A[n + m, o] = sign * (system.pair_driven[x] - here.ratio[m, side] * system.pair_driver[x])
             A[o, n + m] = -sign * (system.pair_driven[x] - here.arm[m, side] * system.pair_driver[x])
     for support in range(len(system.loaded.bearing)):
-        press(system, state, here, step, support)
+        add_load_friction(system, state, here, step, support)
     for d in range(n):
         if system.given[d] != 0:
             # the speed is known, and the impulse of the drive is the unknown instead
@@ -244,7 +244,9 @@ def assemble(system: ContactSystem, state: ContactState, here: StepEquations, st
 
 
 @kernel
-def press(system: ContactSystem, state: ContactState, here: StepEquations, step: float, support: int) -> None:
+def add_load_friction(
+    system: ContactSystem, state: ContactState, here: StepEquations, step: float, support: int
+) -> None:
     """Add the friction of a turning bearing due to the load R on one support: rho e.R, where rho is the friction radius
     and e is the direction of R in the last solution.
 
@@ -300,10 +302,10 @@ def find_bearing_loads(system: ContactSystem, state: ContactState, here: StepEqu
     friction used in the solution.
     """
     loaded, differs = system.loaded, False
-    for m in range(len(here.pressing)):
-        here.pressing[m, 0] = here.pressing[m, 1] if state.turning[m] == 0 else 0.0
-        here.pressing[m, 1] = 0.0
-    size = np.zeros(len(here.pressing))
+    for m in range(len(here.load_friction)):
+        here.load_friction[m, 0] = here.load_friction[m, 1] if state.turning[m] == 0 else 0.0
+        here.load_friction[m, 1] = 0.0
+    size = np.zeros(len(here.load_friction))
     R = np.zeros(3)
     for support in range(len(loaded.bearing)):
         m, row, e = loaded.bearing[support], loaded.supports[support], here.direction[support]
@@ -322,15 +324,15 @@ def find_bearing_loads(system: ContactSystem, state: ContactState, here: StepEqu
         for x in range(3):
             R[x] -= inside * row[3 + x]
         if state.turning[m] != 0:
-            here.pressing[m, 0] += row[6] * (e[0, 0] * R[0] + e[0, 1] * R[1] + e[0, 2] * R[2]) / step
+            here.load_friction[m, 0] += row[6] * (e[0, 0] * R[0] + e[0, 1] * R[1] + e[0, 2] * R[2]) / step
         length = sqrt(R[0] * R[0] + R[1] * R[1] + R[2] * R[2])
-        here.pressing[m, 1] += row[6] * length / step
+        here.load_friction[m, 1] += row[6] * length / step
         if length > 0.0:
             for x in range(3):
                 e[1, x] = R[x] / length
-    for m in range(len(here.pressing)):
+    for m in range(len(here.load_friction)):
         # the forces of a train at rest are not determined: stuck bearings keep the loads of the last solution
-        off = abs(here.pressing[m, 1] - here.pressing[m, 0]) * step
+        off = abs(here.load_friction[m, 1] - here.load_friction[m, 0]) * step
         if state.turning[m] != 0 and off > SAME_FRICTION * size[m]:
             differs = True
     return differs
@@ -408,9 +410,9 @@ def correct_bearings(
         now = state.turning[m]
         want = now
         if now == 0:
-            limit, used = creep, system.sticking[m] + here.pressing[m, 0]
-            if used > 0.0 and here.pressing[m, 0] != here.pressing[m, 1]:
-                limit *= (system.sticking[m] + here.pressing[m, 1]) / used
+            limit, used = creep, system.sticking[m] + here.load_friction[m, 0]
+            if used > 0.0 and here.load_friction[m, 0] != here.load_friction[m, 1]:
+                limit *= (system.sticking[m] + here.load_friction[m, 1]) / used
             if rate > limit:
                 want = 1
             elif rate < -limit:

@@ -77,9 +77,9 @@ def count_energy(
         for x in range(system.bearing_at[m], system.bearing_at[m + 1]):
             rate += system.bearing_c[x] * here.middle[system.bearing_of[x]]
             end += system.bearing_c[x] * here.v[system.bearing_of[x]]
-        torque = (system.sliding[m] + here.pressing[m, 0]) * state.turning[m]
+        torque = (system.sliding[m] + here.load_friction[m, 0]) * state.turning[m]
         if state.turning[m] == 0:
-            torque = (system.sticking[m] + here.pressing[m, 0]) * end / rules.creep
+            torque = (system.sticking[m] + here.load_friction[m, 0]) * end / rules.creep
         record.energy[BEARINGS] += rules.step * torque * rate
 
 

@@ -18,9 +18,9 @@ from geartrain.errors import Problem, QuestionError, check_choice, check_numbers
 from geartrain.numerics.kernels import is_fast
 from geartrain.numerics.labelled_array import labelled_array
 from geartrain.numerics.results import Result, Tabular
+from geartrain.simulation.contacts.bearing_forces import BearingForces
 from geartrain.simulation.contacts.compliant_train import CompliantTrain
 from geartrain.simulation.contacts.link_inertia import find_link_inertias
-from geartrain.simulation.contacts.loaded_bearings import BearingForces
 from geartrain.simulation.contacts.time_case import find_time_case
 from geartrain.simulation.contacts.train_model import TrainModel
 from geartrain.simulation.steps.simulation import StepPlan, simulate
@@ -138,10 +138,10 @@ def model_in_time(
         rate *= problem.way
     inertia = {each.link: each.value for each in find_link_inertias(train, state, with_inputs=True) if each.value}
     found = find_time_case(declared, case, problem, train.tree, inertia, rate, restitution, scale)
-    pressing = None if setting is None else BearingForces(declared, problem, found.drive, BearingLoads(setting))
+    forces = None if setting is None else BearingForces(declared, problem, found.drive, BearingLoads(setting))
     if yields:
-        return CompliantTrain(declared, problem, found, train.tree, case.state, pressing, restitution)
-    return TrainModel(declared, problem, found, train.tree, case.state, pressing)
+        return CompliantTrain(declared, problem, found, train.tree, case.state, forces, restitution)
+    return TrainModel(declared, problem, found, train.tree, case.state, forces)
 
 
 def find_vibration_modes(

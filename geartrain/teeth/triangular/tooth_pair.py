@@ -122,11 +122,7 @@ class ToothPair:
         if phase == RETURN:
             _, sin_psi, cos_psi, s, _, _ = self._flank_line(-x, m)
             return m.asin(s) + m.atan2(sin_psi, cos_psi) - math.pi
-        if phase == APPROACH:
-            *_, sin_y = self._flank_line(x, m)
-            return self.side * m.asin(sin_y)
-        *_, sin_y, cos_y = self._driven_apex(x, m)
-        return self.side * m.atan2(sin_y, cos_y)
+        return self._angle(phase, self._contact(phase, x, m), m)
 
     def normal_arms(self, phase: str, x: Any, m: ModuleType = math) -> tuple[Any, Any]:
         """Return the distances n1 and n2 of the two wheel centres from the common normal at the contact. The ratio
@@ -134,11 +130,7 @@ class ToothPair:
 
         In approach, n2 is O2C cos(psi) of Eq. (11). In recess, n1 is O1C cos(psi2) of Eq. (18).
         """
-        if phase == APPROACH:
-            u, _, cos_psi, _, q, _ = self._flank_line(x, m)
-            return self.mirror * self._driver_arm(u, cos_psi, q), self.sign2 * self.R2 * q
-        arm, q, *_ = self._apex_directions(self._driven_apex(x, m))
-        return self.mirror * self.R1 * q, self.sign2 * arm
+        return self._arms(phase, self._contact(phase, x, m))
 
     def speed(self, phase: str, x: Any, m: ModuleType = math) -> Any:
         """Return the speed ratio tau = d alpha_2 / d alpha_1, by Eqs. (12) and (19). It is negative in the return
@@ -156,14 +148,27 @@ class ToothPair:
         """
         if phase == RETURN:
             return self.angle(phase, x, m), self.speed(phase, x, m)
+        contact = self._contact(phase, x, m)
+        first, second = self._arms(phase, contact)
+        return self._angle(phase, contact, m), first / second
+
+    def _contact(self, phase: str, x: Any, m: ModuleType) -> Any:
+        """Return the geometry of the contact: a `FlankLine` in approach, otherwise a `DrivenApex`."""
+        return self._flank_line(x, m) if phase == APPROACH else self._driven_apex(x, m)
+
+    def _angle(self, phase: str, contact: Any, m: ModuleType) -> Any:
         if phase == APPROACH:
-            u, _, cos_psi, _, q, sin_y = self._flank_line(x, m)
-            first, second = self.mirror * self._driver_arm(u, cos_psi, q), self.sign2 * self.R2 * q
-            return self.side * m.asin(sin_y), first / second
-        apex = self._driven_apex(x, m)
-        *_, sin_y, cos_y = apex
-        arm, q, *_ = self._apex_directions(apex)
-        return self.side * m.atan2(sin_y, cos_y), self.mirror * self.R1 * q / (self.sign2 * arm)
+            *_, sin_y = contact
+            return self.side * m.asin(sin_y)
+        *_, sin_y, cos_y = contact
+        return self.side * m.atan2(sin_y, cos_y)
+
+    def _arms(self, phase: str, contact: Any) -> tuple[Any, Any]:
+        if phase == APPROACH:
+            u, _, cos_psi, _, q, _ = contact
+            return self.mirror * self._driver_arm(u, cos_psi, q), self.sign2 * self.R2 * q
+        arm, q, *_ = self._apex_directions(contact)
+        return self.mirror * self.R1 * q, self.sign2 * arm
 
     def slope(self, phase: str, x: Any, m: ModuleType = math) -> Any:
         """Return the derivative of the speed ratio tau with respect to alpha_1 [1/rad].

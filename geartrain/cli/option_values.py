@@ -39,7 +39,7 @@ def quantity(place: str, text: str, dimension: str, plain: bool = False, minimum
 
 
 def read_quantity(place: str, text: str, dimension: str, plain: bool = False, minimum: Minimum = None) -> Quantity:
-    """Parse a quantity and return it with the unit in which it was written. The parameters are those of `quantity`."""
+    """Parse a quantity and return it with the unit in which it was written. See `quantity` for the parameters."""
     try:
         found = Quantity.parse(text, dimension, plain)
     except PydanticCustomError as error:

@@ -132,7 +132,7 @@ class TrainKinematics(Shown):
         return find_circuits(self.declaration, self.tree)
 
     def circuits_without(self, names: Sequence[str]) -> tuple[Circuit, ...]:
-        """Return all circuits except those of the given pairs.
+        """Return all circuits except the circuits of the given pairs.
 
         names   names of the pairs to be omitted
         """

@@ -55,7 +55,7 @@ _RESULTS = {
     "pin": "teeth.pair_results:PinFigures",
     "mesh --compare": "teeth.form_comparison:FormComparison",
 }
-"""Result class, as `package.module:class`, of each JSON output whose data are those of a single class."""
+"""Result class, as `package.module:class`, of each JSON output with the data of a single class."""
 
 
 @cache

@@ -233,7 +233,7 @@ class Engraving:
 
 
 def engrave(scale: DialScale) -> list[Engraving]:
-    """Return all engraved lines of a scale, including those of the scale that surrounds it."""
+    """Return all engraved lines of a scale, including the lines of the scale that surrounds it."""
     found = [*(_spiral(scale) if scale.turns > 1 else _circle(scale))]
     if scale.around is not None:
         found += engrave(scale.around)

@@ -106,12 +106,12 @@ class GearStages(CountSizes, Result):
 
     @property
     def teeth(self) -> tuple[int, ...]:
-        """All tooth counts: those of the numerator, followed by those of the denominator."""
+        """Tooth counts of the numerator, followed by the tooth counts of the denominator."""
         return self.top + self.beneath
 
     @property
     def counts(self) -> tuple[int, ...]:
-        """All tooth counts: those of the numerator, followed by those of the denominator."""
+        """Tooth counts of the numerator, followed by the tooth counts of the denominator."""
         return self.teeth
 
     @property

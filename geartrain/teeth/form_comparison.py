@@ -50,7 +50,7 @@ class MeasuredForm(Result):
     measures: PathMeasures | None
     """Losses and loads of the pair; None if the teeth cannot mesh."""
     ratios: PathRatios | None = None
-    """Losses and loads divided by those of the involute; None for the involute itself and if the teeth cannot run."""
+    """Losses and loads relative to the involute; None for the involute itself and if the teeth cannot run."""
     faults: tuple[ToothFault, ...] = ()
     """Faults that prevent the teeth from running. The kind of a fault is "refused" if the tooth form rejects the
     wheels.

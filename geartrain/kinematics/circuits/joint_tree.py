@@ -90,7 +90,7 @@ class Tree(FrozenFields):
         """Return the label of the axis about which a link of a circuit turns relative to the circuit's carrier.
 
         It is the link's own axis if the carrier carries this axis. If not, the link is coaxial with the carrier or
-        carries the carrier's axis, and the axis is that of the carrier.
+        carries the carrier's axis; the axis is the axis of the carrier.
         """
         return self.parent[link if self.bears(carrier, link) else carrier][1]
 

@@ -206,7 +206,7 @@ class Chord:
 
 
 class SymbolicEquations:
-    """Equations of a train in one state, as rows that must be 0. The unknowns are those of `reduce_components`.
+    """Equations of a train in one state, as rows that must be 0. See `reduce_components` for the unknowns.
 
     circuits   fundamental circuits, in which all wheels in `free` have different tooth counts
     free       wheel -> index of its variable

@@ -53,7 +53,7 @@ class Mobility(Result):
     by_rank: int
     """Mobility by rank, which is links - 1 - (rank of the equations of all circuits). It is correct for every train."""
     redundant: int
-    """Number of redundant circuits, whose equations follow from those of other circuits."""
+    """Number of redundant circuits, whose equations follow from the equations of other circuits."""
     loops: tuple[Loop, ...]
     """Loops with ratio product 1, each of which has one redundant pair; at most 1000 are listed."""
     shared: tuple[str, ...]

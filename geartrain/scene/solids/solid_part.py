@@ -41,9 +41,9 @@ class SolidPart(Shown):
     pin, wall, rod, bob or weight.
     """
     turn: Floats
-    """Rotation matrix from the coordinates of the part to those of the zero pose, shape (3, 3)."""
+    """Rotation matrix from part coordinates to zero-pose coordinates, shape (3, 3)."""
     place: Floats
-    """Translation from the coordinates of the part to those of the zero pose [mm]."""
+    """Translation from part coordinates to zero-pose coordinates [mm]."""
     status: str = ""
     """Declared status of a wheel, such as surviving or reconstructed; empty if none is declared."""
     contours: tuple[Contour, ...] = ()

@@ -102,7 +102,7 @@ class RealPath:
 
     @cached_property
     def pieces(self) -> list[MonotonePiece]:
-        """Monotonic pieces of the path of contact, first those of recess and then those of approach. They are divided
+        """Monotonic pieces of the path of contact, first in recess and then in approach. They are divided
         where the curvature of the driven angle changes sign.
 
         If `slips` is True, the contacts beyond the exit come first. The list is empty for teeth without valleys.

@@ -175,8 +175,8 @@ def check_names(settings: Sequence[ErrorOverride], wheels: Sequence[str], pairs:
 
 
 def wheel_errors(train: Train, even: WheelErrors, settings: Sequence[ErrorOverride]) -> WheelErrors:
-    """Return the errors declared for one wheel, or those of the train if the wheel declares none, with overrides
-    applied.
+    """Return the errors declared for one wheel, or the errors declared for the train if the wheel declares none, with
+    overrides applied.
 
     Raises `RangeError` if an error is larger than a tooth, or is a length that cannot be converted to a fraction.
     """

@@ -226,8 +226,6 @@ class ReachablePeriods:
     """Index of the ratio of the pair that drives each target from the intermediate arbor, shape (m, targets); -1 if no
     pair can drive the target.
     """
-    sets: Ints
-    """Bit mask of the targets that can be driven from each intermediate arbor, shape (m,)."""
 
 
 def reach(table: PairRatios, targets: PeriodTargets, log_period: float, requested: int) -> ReachablePeriods:
@@ -249,19 +247,7 @@ def reach(table: PairRatios, targets: PeriodTargets, log_period: float, requeste
         good = np.append(logs, np.inf)[start] <= falling[begin:end] + high
         found[target, size - 1 - begin - np.flatnonzero(good)] = start[good]
     first = np.flatnonzero((found >= 0).any(axis=0))
-    further = found[:, first].T.astype(np.int64)
-    sets = ((further >= 0) << np.arange(len(targets.periods))).sum(axis=1)
-    return ReachablePeriods(first, further, sets)
-
-
-def reached_sets(table: PairRatios, targets: PeriodTargets, log_period: float, requested: int) -> Ints:
-    """Return, for each ratio of the table, the bit mask of the targets that one more pair can drive from an arbor
-    driven with this ratio, shape (n,), where n is the number of ratios.
-    """
-    sets = np.zeros(len(table), dtype=np.int64)
-    found = reach(table, targets, log_period, requested)
-    sets[found.first] = found.sets
-    return sets
+    return ReachablePeriods(first, found[:, first].T.astype(np.int64))
 
 
 # ----------------------------------------------------------------------------------------- the fewest wheels of a tree
@@ -381,10 +367,9 @@ def edges(tree: ArborTree) -> list[Edge]:
 class TreeEnumeration:
     """Enumeration of every tree with exactly `extra` intermediate arbors.
 
-    Trees are extended from the first arbor. Each target that one pair can drive from an arbor is either driven from
-    this arbor or left for later arbors, and all combinations are visited. One more intermediate arbor is then added to
-    the tree. Intermediate arbors that cannot drive a target are visited as long as another intermediate arbor can be
-    added. Each tree is visited once for each order in which its intermediate arbors can be added.
+    Each target that one pair can drive from an arbor is either driven from this arbor or left for later arbors. One
+    more intermediate arbor is then added. Each tree is visited once for each order in which its intermediate arbors can
+    be added.
     """
 
     def __init__(
@@ -407,8 +392,11 @@ class TreeEnumeration:
         if requested == len(tree):
             if left:
                 yield from self._with_extra_arbor(tree, left, extra)
-            elif not extra and _useful(tree):
-                yield tree
+            elif not extra:
+                driving = {arbor.parent for arbor in tree}
+                # an intermediate arbor must drive another arbor
+                if all(arbor.target >= 0 or at in driving for at, arbor in enumerate(tree)):
+                    yield tree
             return
         from_here = []
         for target in members(left):
@@ -433,8 +421,7 @@ class TreeEnumeration:
             ways: Sequence[int] = range(len(self.table))
             # with one or two arbors left, a new arbor must have targets in reach
             if extra <= 2:
-                sets = reached_sets(self.table, self.targets, arbor.log, left)
-                ways = np.flatnonzero(sets).tolist()
+                ways = reach(self.table, self.targets, arbor.log, left).first.tolist()
             for done, at in enumerate(ways):
                 if self.tell and extra == self.extra:
                     self.tell(parent * len(ways) + done, len(tree) * len(ways))
@@ -463,9 +450,3 @@ class TreeEnumeration:
             inner = (*tree, grown(tree, -1, parent, *self.table.terms(one)))
             outer = (*inner, grown(inner, -1, len(tree), *self.table.terms(two)))
             yield from self._with_targets(outer, left, 0, len(inner))
-
-
-def _useful(tree: ArborTree) -> bool:
-    """Return whether every arbor of the tree has a requested period or drives another arbor."""
-    driving = {arbor.parent for arbor in tree}
-    return all(arbor.target >= 0 or at in driving for at, arbor in enumerate(tree))

@@ -299,31 +299,27 @@ class _OrrerySearch:
 
     def run(self, effort: int, walk: int | None) -> str:
         try:
-            for extra in self._walks(walk):
+            extra, steps = 0, 1
+            while extra <= (1 if walk is None else walk) or (walk is None and steps <= _WALKABLE):
                 self._walk(extra)
                 if self.proved:
                     return "proved"
+                extra += 1
+                # each intermediate arbor multiplies the work by the number of ratios times the number of arbors
+                steps *= len(self.table) * extra
             # iterative widening: each beam costs about four times the previous one, all narrower ones together a third
             width = 4
             while width // 4 < max(effort, 1):
-                self._widen(min(width, max(effort, 1)))
+                beam = min(width, max(effort, 1))
+                for part in BeamSearch(self.table, self.targets, self.tell).run(beam, _SEEDS_A_PART * beam):
+                    self._offer(part.tree)
                 width *= 4
         except KeyboardInterrupt:
             return "interrupted"
         return "proved" if self.proved else "effort"
 
-    def _walks(self, walk: int | None) -> Iterator[int]:
-        """Yield each number of intermediate arbors for which trees are to be enumerated.
-
-        Each intermediate arbor multiplies the work by the number of ratios times the number of arbors.
-        """
-        extra, steps = 0, 1
-        while extra <= (1 if walk is None else walk) or (walk is None and steps <= _WALKABLE):
-            yield extra
-            extra += 1
-            steps *= len(self.table) * extra
-
     def _walk(self, extra: int) -> None:
+        """Enumerate all trees with `extra` intermediate arbors."""
         found = False
         for tree in TreeEnumeration(self.table, self.targets, extra, self.tell).trees():
             found = True
@@ -332,10 +328,6 @@ class _OrrerySearch:
         # no tree of this size exists, so the bound is raised
         if not found and self.minimum_pairs == len(self.targets.periods) + extra:
             self.minimum_pairs += 1
-
-    def _widen(self, width: int) -> None:
-        for part in BeamSearch(self.table, self.targets, self.tell).run(width, _SEEDS_A_PART * width):
-            self._offer(part.tree)
 
     def _offer(self, tree: ArborTree) -> None:
         """Keep a tree if it is better than the best tree found so far. Trees are compared by the number of wheels, then
@@ -371,16 +363,27 @@ class _OrrerySearch:
 def _orrery(search: _OrrerySearch, first: str, ended: str) -> Orrery:
     assert search.best is not None
     tree, targets = search.best[1], search.targets
+    free = (name for name in map("arbor {}".format, count(1)) if name not in (first, *targets.names))
+    names = [first, *(targets.names[arbor.target] if arbor.target >= 0 else next(free) for arbor in tree[1:])]
     _, meshes, _ = fewest_wheels(search.table, edges(tree))
-    names = _names(tree, targets, first)
     pairs = tuple(
         OrreryPair(*mesh, names[arbor.parent], name)
         for arbor, name, mesh in zip(tree[1:], names[1:], meshes, strict=True)
     )
+    wheels: dict[str, set[int]] = {name: set() for name in names}
+    senses = {first: 1}
+    for pair in pairs:
+        wheels[pair.parent].add(pair.driver)
+        wheels[pair.child].add(pair.driven)
+        senses[pair.child] = -senses[pair.parent]
+    arbors = (
+        OrreryArbor(name, arbor.period, senses[name], tuple(sorted(wheels[name])), arbor.target >= 0)
+        for name, arbor in zip(names, tree, strict=True)
+    )
     return Orrery(
         dict(zip(targets.names, targets.periods, strict=True)),
         dict(zip(targets.names, targets.tolerances, strict=True)),
-        _arbors(tree, names, pairs),
+        tuple(arbors),
         pairs,
         {
             targets.names[arbor.target]: targets.error(arbor.target, arbor.period)
@@ -390,24 +393,6 @@ def _orrery(search: _OrrerySearch, first: str, ended: str) -> Orrery:
         search.minimum_pairs,
         search.minimum_wheels,
         ended,
-    )
-
-
-def _names(tree: ArborTree, targets: PeriodTargets, first: str) -> list[str]:
-    free = (name for name in map("arbor {}".format, count(1)) if name not in (first, *targets.names))
-    return [first, *(targets.names[arbor.target] if arbor.target >= 0 else next(free) for arbor in tree[1:])]
-
-
-def _arbors(tree: ArborTree, names: Sequence[str], pairs: Sequence[OrreryPair]) -> tuple[OrreryArbor, ...]:
-    wheels: dict[str, set[int]] = {name: set() for name in names}
-    senses = {names[0]: 1}
-    for pair in pairs:
-        wheels[pair.parent].add(pair.driver)
-        wheels[pair.child].add(pair.driven)
-        senses[pair.child] = -senses[pair.parent]
-    return tuple(
-        OrreryArbor(name, arbor.period, senses[name], tuple(sorted(wheels[name])), arbor.target >= 0)
-        for name, arbor in zip(names, tree, strict=True)
     )
 
 
@@ -545,7 +530,7 @@ class BeamSearch:
         """Return a table of the moves from arbor `parent`, shape (moves, 5). Its columns are: number of targets gained,
         number of wheels added, `bulk`, driving arbor, and row in `known`.
         """
-        gained, first = np.bitwise_count(known.sets).astype(np.int64), known.first
+        gained, first = (known.next >= 0).sum(axis=1), known.first
         # two wheels per pair, minus those that can be shared
         wheels = 2 + 2 * gained - self._sharing(part.tree, parent, first)
         bulk = self._bulk[first].copy()

@@ -5,7 +5,7 @@ pair of wheels.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from math import isclose
 from textwrap import fill
 from typing import TYPE_CHECKING, Any
@@ -39,6 +39,7 @@ if TYPE_CHECKING:
 
 Chances = Mapping[int, float]
 Pair = tuple[str, str]
+Pairs = Mapping[Pair, Mapping[tuple[int, int], float]]
 MOST = 9  # panels of more wheels would be too small to read
 _CELL = 1.35  # side of a panel [inch]
 _TICKS = 3  # maximum number of tick intervals
@@ -48,32 +49,70 @@ _DASHES: Any = (0, (3, 2))
 
 @dataclass(frozen=True, slots=True)
 class CountProbabilities:
-    """Probabilities of tooth counts, for a corner plot."""
+    """Probabilities of tooth counts that are drawn in a corner plot."""
 
     single: Mapping[str, Chances]
     """Posterior probability of each tooth count, keyed by wheel."""
-    pairs: Mapping[Pair, Mapping[tuple[int, int], float]]
+    pairs: Pairs
     """Joint probability of each pair of tooth counts, keyed by pair of wheels in the order of `single`."""
-    before: Mapping[str, Chances] = field(default_factory=dict)
-    """Prior probability of each tooth count, keyed by wheel; empty if the priors are unknown."""
-    declared: Mapping[str, int] = field(default_factory=dict)
+    before: Mapping[str, Chances]
+    """Prior probability of each tooth count, keyed by wheel."""
+    declared: Mapping[str, int]
     """Declared tooth count of each wheel for which a tooth count is declared."""
 
 
-def corner_figure(likely: CountProbabilities, title: str = "") -> Figure:
-    """Draw a corner plot of tooth counts: marginal probabilities on the diagonal, joint probabilities of each pair of
-    wheels below the diagonal.
+def counts_figure(found: ToothCountPosterior, pairs: Pairs) -> Figure:
+    """Draw a corner plot of uncertain tooth counts: posterior and prior of each wheel, and joint posterior of each pair
+    of wheels.
 
-    Darker squares are more probable. Outlines show priors; dashed lines show declared tooth counts. `QuestionError` is
-    raised if there is no wheel, or if there are more than 9 wheels.
+    Parameters
+    ----------
+    found : ToothCountPosterior
+        Posterior of the tooth counts.
+    pairs : mapping
+        Joint probability of each pair of tooth counts, keyed by pair of wheels in the order of declaration; see
+        `joint_posterior`.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Figure with a panel for each wheel and each pair.
+
+    Raises
+    ------
+    QuestionError
+        If no combination satisfies the observations, or if the pairs contain no wheel or more than 9 wheels.
+
+    Examples
+    --------
+    >>> from geartrain.train.declaration_files import read_declaration
+    >>> from geartrain.search import infer_counts
+    >>> found = infer_counts(read_declaration("planetary-24-18-60"), free={"s": (23, 24), "ring": (58, 60)})
+    >>> figure = counts_figure(found, {("s", "ring"): {(24, 60): 1.0}})
+    >>> figure.axes[-1].get_xlabel()
+    'ring'
     """
-    wheels = list(likely.single)
+    wheels = list(dict.fromkeys(wheel for pair in pairs for wheel in pair))
+    if not all(found[wheel].probabilities for wheel in wheels):
+        what = f"no combination of counts of '{found.name}' satisfies the observations, so there is nothing to draw"
+        why = "the posterior probabilities of the counts are then undefined"
+        raise QuestionError(Problem(what, why, "widen the tolerances or the ranges of counts"))
     if not 0 < len(wheels) <= MOST:
-        raise _cannot_draw(f"{len(wheels)} wheels do not fit on a page")
+        why, fix = f"{len(wheels)} wheels do not fit on a page", f"give 1 to {MOST} wheels with their probabilities"
+        raise QuestionError(Problem("the tooth counts cannot be drawn", why, fix))
+    single, before, declared, spans = {}, {}, {}, {}
+    for wheel in wheels:
+        prior = found[wheel].uncertainty
+        posterior = zip(prior.counts, map(float, found[wheel].probabilities), strict=True)
+        single[wheel] = {count: probability for count, probability in posterior if probability}
+        before[wheel] = dict(zip(prior.counts, map(float, prior.priors), strict=True))
+        spans[wheel] = prior.counts[0], prior.counts[-1]
+        if prior.declared is not None:
+            declared[wheel] = prior.declared
+    likely = CountProbabilities(single, pairs, before, declared)
     side = max(5.0, 0.9 + _CELL * len(wheels))
     figure = Figure(figsize=(side, side), layout="constrained")
     panels = figure.subplots(len(wheels), len(wheels), squeeze=False)
-    spans = {wheel: _span(likely, wheel) for wheel in wheels}
     for row, down in enumerate(wheels):
         for column, across in enumerate(wheels):
             axes = panels[row, column]
@@ -90,21 +129,13 @@ def corner_figure(likely: CountProbabilities, title: str = "") -> Figure:
         name_axes(panels[-1, row], down, parse_math=False)
         if row:
             name_axes(panels[row, 0], y=down, parse_math=False)
-    _legend(figure, likely)
-    if title:
-        words = fill(title, max(int((side - 0.2) / (TEXT * LETTER)), 20))
-        headed(figure, words)
-    return figure
-
-
-def _legend(figure: Figure, likely: CountProbabilities) -> None:
-    handles: list[Any] = [Patch(color=BLUE, label="posterior")]
-    if likely.before:
-        handles.append(Patch(fill=False, edgecolor=GREY, label="prior"))
-    if likely.declared:
+    handles: list[Any] = [Patch(color=BLUE, label="posterior"), Patch(fill=False, edgecolor=GREY, label="prior")]
+    if declared:
         handles.append(Line2D([], [], color=RED, linewidth=1.2, linestyle=_DASHES, label="declared"))
-    if len(handles) > 1:
-        legend_below(figure, 3, handles)
+    legend_below(figure, 3, handles)
+    title = f"{found.name}: counts that give {', '.join(witness.name for witness in found.witnesses)}"
+    headed(figure, fill(title, max(int((side - 0.2) / (TEXT * LETTER)), 20)))
+    return figure
 
 
 def _marginal_panel(axes: Axes, likely: CountProbabilities, wheel: str, span: tuple[int, int]) -> None:
@@ -114,9 +145,8 @@ def _marginal_panel(axes: Axes, likely: CountProbabilities, wheel: str, span: tu
     probabilities = likely.single[wheel]
     wide = 0.86 if span[1] - span[0] < _FEW else 1.0  # a narrow gap would be less than a pixel
     axes.bar(list(probabilities), list(probabilities.values()), width=wide, color=BLUE, linewidth=0, gid=f"{wheel}")
-    before = likely.before.get(wheel, {})
-    if before:
-        _outline(axes, before)
+    before = likely.before[wheel]
+    _outline(axes, before)
     axes.set_ylim(0, 1.08 * max([*probabilities.values(), *before.values()]))
     axes.set_yticks([])
     axes.set_title(_modes(probabilities), fontsize=SMALL, color=BLACK, pad=3)
@@ -159,13 +189,6 @@ def _joint_panel(axes: Axes, likely: CountProbabilities, pair: Pair, spans: Mapp
         each.set_color(PALE)
 
 
-def _span(likely: CountProbabilities, wheel: str) -> tuple[int, int]:
-    counts = [*likely.single[wheel], *likely.before.get(wheel, {})]
-    if not likely.single[wheel]:
-        raise _cannot_draw(f"no count of wheel '{wheel}' has a probability")
-    return min(counts), max(counts)
-
-
 def _ticks(axis: Any, span: tuple[int, int]) -> None:
     low, high = span
     found = MaxNLocator(nbins=_TICKS, steps=(1, 2, 3, 4, 5, 10), integer=True, min_n_ticks=1).tick_values(low, high)
@@ -183,67 +206,3 @@ def _modes(probabilities: Chances) -> str:
         return f"{modes[0]}: {percent}"
     some = "" if len(modes) == span else f"{len(modes)} of "
     return f"{some}{modes[0]}-{modes[-1]}: {percent} each"
-
-
-def _cannot_draw(why: str) -> QuestionError:
-    return QuestionError(
-        Problem("the tooth counts cannot be drawn", why, f"give 1 to {MOST} wheels with their probabilities")
-    )
-
-
-Pairs = Mapping[tuple[str, str], Mapping[tuple[int, int], float]]
-
-
-def counts_figure(found: ToothCountPosterior, pairs: Pairs) -> Figure:
-    """Draw a corner plot of uncertain tooth counts: posterior and prior of each wheel, and joint posterior of each pair
-    of wheels.
-
-    Parameters
-    ----------
-    found : ToothCountPosterior
-        Posterior of the tooth counts.
-    pairs : mapping
-        Joint probability of each pair of tooth counts, keyed by pair of wheels in the order of declaration; see
-        `joint_posterior`.
-
-    Returns
-    -------
-    matplotlib.figure.Figure
-        Figure with a panel for each wheel and each pair.
-
-    Raises
-    ------
-    QuestionError
-        If no combination satisfies the observations, or if the pairs contain no wheel or more than 9 wheels.
-
-    Examples
-    --------
-    >>> from geartrain.train.declaration_files import read_declaration
-    >>> from geartrain.search import infer_counts
-    >>> found = infer_counts(read_declaration("planetary-24-18-60"), free={"s": (23, 24), "ring": (58, 60)})
-    >>> figure = counts_figure(found, {("s", "ring"): {(24, 60): 1.0}})
-    >>> figure.axes[-1].get_xlabel()
-    'ring'
-    """
-    wheels = list(dict.fromkeys(wheel for pair in pairs for wheel in pair))
-    if not all(found[wheel].probabilities for wheel in wheels):
-        what = f"no combination of counts of '{found.name}' satisfies the observations, so there is nothing to draw"
-        why = "the posterior probabilities of the counts are then undefined"
-        raise QuestionError(Problem(what, why, "widen the tolerances or the ranges of counts"))
-    single = {
-        wheel: {
-            count: float(each)
-            for count, each in zip(one.uncertainty.counts, one.probabilities, strict=True)
-            if float(each)
-        }
-        for wheel, one in ((wheel, found[wheel]) for wheel in wheels)
-    }
-    before = {
-        wheel: dict(zip(found[wheel].uncertainty.counts, map(float, found[wheel].uncertainty.priors), strict=True))
-        for wheel in wheels
-    }
-    declared = {wheel: count for wheel in wheels if (count := found[wheel].uncertainty.declared) is not None}
-    requested = ", ".join(witness.name for witness in found.witnesses)
-    return corner_figure(
-        CountProbabilities(single, pairs, before, declared), f"{found.name}: counts that give {requested}"
-    )

@@ -288,10 +288,13 @@ def find_exact_posterior(question: InferenceProblem, most: int, limit: float) ->
     candidates, ranked = first_with_ties(iter(BestFirst(root, question.domains)), most) if share else ([], True)
     # covariances use weights relative to the mean, which are not integers
     floats = _weights(uncertainties, True)
+    turning = CountProbability(Fraction(1))
+    if question.conditions:
+        turning = evidence_of(replace(question, witnesses=(), soft=False), limit)
     return PosteriorSummary(
         steps,
         _probability(question, share),
-        turning_of(question, limit),
+        turning,
         None if question.soft else _fits(question, sums),
         {
             wheel: wheel_posterior(
@@ -315,15 +318,6 @@ def evidence_of(question: InferenceProblem, limit: float) -> CountProbability:
     join = ExactJoin(_join_problem(question, graded=False), budget=limit)
     counted, _ = join.count(join.question.plan, join.start())
     return _probability(question, int(counted[0]))
-
-
-def turning_of(question: InferenceProblem, limit: float) -> CountProbability:
-    """Return the prior probability that the train can turn, regardless of the speeds of its outputs. `BudgetSpentError`
-    is raised if the number of steps exceeds `limit`.
-    """
-    if not question.conditions:
-        return CountProbability(Fraction(1))
-    return evidence_of(replace(question, witnesses=(), soft=False), limit)
 
 
 def _join_problem(question: InferenceProblem, graded: bool) -> JoinProblem:

@@ -159,27 +159,17 @@ def _check(
 ) -> None:
     train.check_state(state)
     if against not in LIKELIHOOD_KINDS:
-        raise QuestionError(
-            Problem(
-                f"'{against}' is not a kind of observation",
-                "valid kinds are all, targets and figures",
-                suggest(against, LIKELIHOOD_KINDS),
-            )
-        )
+        what, why = f"'{against}' is not a kind of observation", "valid kinds are all, targets and figures"
+        raise QuestionError(Problem(what, why, suggest(against, LIKELIHOOD_KINDS)))
     if tolerance is not None and tolerance < 0:
-        raise QuestionError(
-            Problem(
-                f"the tolerance {tolerance} is negative", "a tolerance must not be negative", "give a tolerance >= 0"
-            )
-        )
+        what, why = f"the tolerance {tolerance} is negative", "a tolerance must not be negative"
+        raise QuestionError(Problem(what, why, "give a tolerance >= 0"))
     if scale < 0:
-        raise QuestionError(
-            Problem(
-                f"the tolerance factor {scale} is negative",
-                "tolerances are multiplied by it and cannot be negative",
-                "give a factor >= 0",
-            )
+        what, why = (
+            f"the tolerance factor {scale} is negative",
+            "tolerances are multiplied by it and cannot be negative",
         )
+        raise QuestionError(Problem(what, why, "give a factor >= 0"))
 
 
 def _check_outputs(train: Train, states: Sequence[str | None], outputs: Sequence[str]) -> None:
@@ -198,22 +188,21 @@ def _check_known(moved: Collection[str], known: Collection[str], outputs: Sequen
     moved   outputs whose speed depends on an uncertain tooth count
     known   outputs among `moved` with a known speed
     """
+    unknown = None if known else "no output that depends on uncertain counts has a known speed"
     for name in outputs:
         if name not in moved:
-            what, why = (
-                f"output '{name}' does not depend on uncertain counts",
-                "such an output gives no information on the counts",
-            )
+            what = f"output '{name}' does not depend on uncertain counts"
+            why = "such an output gives no information on the counts"
             raise QuestionError(Problem(what, why, f"omit '{name}'"))
         if name not in known:
-            raise _no_evidence(f"the speed of output '{name}' is not known")
-    if not known:
-        raise _no_evidence("no output that depends on uncertain counts has a known speed")
-
-
-def _no_evidence(what: str) -> QuestionError:
-    fix = "declare `targets` with a `tolerance`, or an `expect`; or give --tolerance for targets without a tolerance"
-    return QuestionError(Problem(what, "the likelihood of counts follows from speeds with a tolerance", fix))
+            unknown = f"the speed of output '{name}' is not known"
+            break
+    if unknown:
+        why = "the likelihood of counts follows from speeds with a tolerance"
+        fix = (
+            "declare `targets` with a `tolerance`, or an `expect`; or give --tolerance for targets without a tolerance"
+        )
+        raise QuestionError(Problem(unknown, why, fix))
 
 
 # ------------------------------------------------------------------ priors: the possible counts of each uncertain wheel

@@ -12,8 +12,6 @@ from geartrain.search.tooth_numbers_report import error_text
 
 if TYPE_CHECKING:
     from geartrain.search.posterior.posterior_result import (
-        CountCombination,
-        CountProbability,
         ToothCountPosterior,
         VarianceShares,
         WheelPosterior,
@@ -115,7 +113,12 @@ def _wheel(posterior: WheelPosterior) -> tuple[str, ...]:
     if posterior.idle or not posterior.probabilities:
         return uncertainty.wheel, declared, before, "-", "-", "-"
     own = "-" if uncertainty.declared is None else str(posterior.probability(uncertainty.declared))
-    return uncertainty.wheel, declared, before, own, figure(posterior.bits, 3), _most_probable(posterior)
+    pairs = zip(uncertainty.counts, posterior.probabilities, strict=True)
+    possible = sorted((pair for pair in pairs if pair[1].value), key=lambda pair: (-float(pair[1]), pair[0]))
+    listed = ", ".join(f"{count}: {figure(float(share), 3)}" for count, share in possible[:_MOST_PROBABLE])
+    if len(possible) > _MOST_PROBABLE:
+        listed += f" and {len(possible) - _MOST_PROBABLE} more"
+    return uncertainty.wheel, declared, before, own, figure(posterior.bits, 3), listed
 
 
 def _span(counts: Sequence[int]) -> str:
@@ -123,32 +126,16 @@ def _span(counts: Sequence[int]) -> str:
     return f"{counts[0]}-{counts[-1]}" if whole and len(counts) > 1 else " or ".join(map(str, counts))
 
 
-def _most_probable(posterior: WheelPosterior) -> str:
-    """Format a list of the most probable tooth counts with their probabilities. Tooth counts with probability 0 are
-    omitted.
-    """
-    pairs = zip(posterior.uncertainty.counts, posterior.probabilities, strict=True)
-    some = sorted((pair for pair in pairs if pair[1].value), key=lambda pair: (-float(pair[1]), pair[0]))
-    listed = ", ".join(f"{count}: {_short(probability)}" for count, probability in some[:_MOST_PROBABLE])
-    return listed + (f" and {len(some) - _MOST_PROBABLE} more" if len(some) > _MOST_PROBABLE else "")
-
-
-def _short(probability: CountProbability) -> str:
-    return figure(float(probability), 3)
-
-
 def _deciding(shares: Sequence[VarianceShares]) -> Section:
     rows = []
     for one in shares:
         strongest = sorted(one.whole, key=lambda wheel: -float(one.whole[wheel]))[:_DECIDING]
-        listed = ", ".join(f"{wheel} {_percent(one.whole[wheel])}" for wheel in strongest if one.whole[wheel])
+        listed = ", ".join(
+            f"{wheel} {figure(float(one.whole[wheel]) * 100, 3)} %" for wheel in strongest if one.whole[wheel]
+        )
         rows.append((one.output, figure(one.mean), figure(one.spread, 4), listed))
     line = "Shares of the prior variance of each speed that remain if all other counts are known (total Sobol indices)."
     return Section("Sensitivity of outputs to tooth counts", [line], [Table(_DECIDED, cut(rows))])
-
-
-def _percent(share: Fraction | float) -> str:
-    return f"{figure(float(share) * 100, 3)} %"
 
 
 def _correlated(found: ToothCountPosterior) -> Section:
@@ -161,26 +148,20 @@ def _correlated(found: ToothCountPosterior) -> Section:
 
 def _best(found: ToothCountPosterior) -> Section:
     lines = [
-        "Sorted by misfit, the sum of (error / tolerance)^2, then by prior probability and number of changed counts.",
+        "Sorted by misfit, the sum of (error / tolerance)^2, then by prior probability and number of changed counts."
     ]
     if not found.ranked:
         why = "only a sample is ranked" if found.method == "sample" or found.cut else "more have the same misfit"
         lines.append(f"Not proved to be the best: {why}.")
-    some = found.best[0]
-    header = ["changed", "misfit", "posterior"]
-    listed = list(some.errors) if len(some.errors) <= _OUTPUTS else []
-    header += [f"error of {name}" for name in listed] or ["maximum error"]
-    rows = [[*_combination_cells(one), *_errors(one, listed)] for one in found.best]
+    outputs = list(found.best[0].errors)
+    listed = outputs if len(outputs) <= _OUTPUTS else []
+    header = ["changed", "misfit", "posterior", *([f"error of {name}" for name in listed] or ["maximum error"])]
+    rows = []
+    for one in found.best:
+        changed = ", ".join(f"{wheel} {one.teeth[wheel]}" for wheel in one.changed) or "nothing"
+        errors = [error_text(one.errors[name]) for name in listed]
+        if not listed:
+            worst = max(one.errors, key=lambda name: abs(one.errors[name]))
+            errors = [f"{worst} {error_text(one.errors[worst])}"]
+        rows.append([changed, figure(one.misfit, 4), "-" if one.probability is None else str(one.probability), *errors])
     return Section("Best combinations", lines, [Table(header, cut(rows))])
-
-
-def _combination_cells(one: CountCombination) -> tuple[str, str, str]:
-    changed = ", ".join(f"{wheel} {one.teeth[wheel]}" for wheel in one.changed) or "nothing"
-    return changed, figure(one.misfit, 4), "-" if one.probability is None else str(one.probability)
-
-
-def _errors(one: CountCombination, listed: Sequence[str]) -> list[str]:
-    if listed:
-        return [error_text(one.errors[name]) for name in listed]
-    worst = max(one.errors, key=lambda name: abs(one.errors[name]))
-    return [f"{worst} {error_text(one.errors[worst])}"]

@@ -41,11 +41,6 @@ class CountProbability(Result):
         """Exact probability; None if the probability is a float."""
         return self.value if isinstance(self.value, Fraction) else None
 
-    @property
-    def is_exact(self) -> bool:
-        """True if the value is an exact Fraction."""
-        return isinstance(self.value, Fraction)
-
     def __float__(self) -> float:
         return float(self.value)
 

@@ -89,21 +89,12 @@ def _combination(
         errors[witness.name] = claim.error(speed)
         misfit += witness.misfit(speed)
     changed = tuple(wheel for wheel, count in ordered.items() if count != question.uncertainties[wheel].declared)
-    probability = _probability(question, ordered, misfit, evidence)
+    probability = None
+    if evidence is not None and evidence.value:
+        prior = Fraction(question.weight(ordered), prod(question.uncertainties[wheel].total for wheel in ordered))
+        joint = float(prior) * exp(-float(misfit) / 2) if question.soft else prior
+        probability = CountProbability(joint / evidence.value)
     return CountCombination(ordered, speeds, errors, misfit, probability, changed)
-
-
-def _probability(
-    question: InferenceProblem, teeth: Mapping[str, int], misfit: Fraction, evidence: CountProbability | None
-) -> CountProbability | None:
-    if evidence is None or not evidence.value:
-        return None
-    prior = Fraction(question.weight(teeth), prod(question.uncertainties[wheel].total for wheel in teeth))
-    if question.soft or not isinstance(evidence.value, Fraction):
-        return CountProbability(
-            float(prior) * (exp(-float(misfit) / 2) if question.soft else 1) / float(evidence.value)
-        )
-    return CountProbability(prior / evidence.value)
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,10 +138,14 @@ def summary_of_sample(question: InferenceProblem, tally: PosteriorTally, cut: bo
         f"the values are estimated from only {effective:.3g} combinations that fit: increase --samples, "
         "raise --limit to use the exact method, or narrow the ranges of counts"
     )
+    turning = CountProbability(Fraction(1))
+    if question.conditions:
+        share = tally.turning / tally.examined if tally.examined else 0.0
+        turning = CountProbability(share, *wilson(tally.turning, tally.examined))
     return PosteriorSummary(
         tally.examined,
         _share(question, tally),
-        _turning(tally),
+        turning,
         None,
         posteriors,
         _sample_correlations(question, tally),
@@ -163,10 +158,8 @@ def summary_of_sample(question: InferenceProblem, tally: PosteriorTally, cut: bo
 
 
 def _share(question: InferenceProblem, tally: PosteriorTally) -> CountProbability:
-    """Return the evidence estimated from a sample, with its 95 % confidence interval.
-
-    For likelihoods of 0 or 1, the interval is the Wilson score interval. For a Gaussian likelihood, it is a
-    normal-approximation interval.
+    """Return the evidence estimated from a sample, with its 95 % confidence interval: a Wilson score interval for
+    likelihoods of 0 or 1, and a normal-approximation interval for a Gaussian likelihood.
     """
     if not tally.examined:
         return CountProbability(0.0, 0.0, 1.0)
@@ -176,13 +169,6 @@ def _share(question: InferenceProblem, tally: PosteriorTally) -> CountProbabilit
     # rounding may make a variance negative
     half = deviations() * sqrt(max(tally.square / tally.examined - mean**2, 0.0) / tally.examined)
     return CountProbability(mean, max(0.0, mean - half), min(1.0, mean + half))
-
-
-def _turning(tally: PosteriorTally) -> CountProbability:
-    if not tally.batch.question.conditions:
-        return CountProbability(Fraction(1))
-    share = tally.turning / tally.examined if tally.examined else 0.0
-    return CountProbability(share, *wilson(tally.turning, tally.examined))
 
 
 def wheel_posterior(

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import pickle
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from math import nan
@@ -23,7 +22,7 @@ from geartrain.numerics.exact import as_float
 from geartrain.numerics.rounding_bounds import UNIT_ROUNDOFF
 from geartrain.search.join.wheel_monomials import IntervalConstraint, is_within
 from geartrain.search.posterior.inference_problem import InferenceProblem, ToothCountPrior, observation_constraint
-from geartrain.search.train.output_requirements import OutputRequirement, SpeedRequirement
+from geartrain.search.train.output_requirements import OutputRequirement
 
 KEPT = 2000
 """Maximum number of best combinations that a task returns. Further combinations with the same misfit are omitted."""
@@ -101,14 +100,11 @@ def decide(one: IntervalConstraint, counts: Mapping[str, Ints]) -> tuple[Bools, 
     if len(rows):
         places, at = np.unique([counts[wheel][rows] for wheel in function.wheels], axis=1, return_inverse=True)
         exact = [function.value(dict(zip(function.wheels, place, strict=True))) for place in places.T]
-        met[rows] = np.array([_is_admitted(each, one) for each in exact])[at.ravel()]
+        excluded = {end for interval in one.intervals for end in interval} if one.strict else set()
+        admitted = [each is not None and each not in excluded and is_within(each, one.intervals) for each in exact]
+        met[rows] = np.array(admitted)[at.ravel()]
         value[rows] = np.array([as_float(each or Fraction(0)) or 0.0 for each in exact])[at.ravel()]
     return met, value
-
-
-def _is_admitted(value: Fraction | None, one: IntervalConstraint) -> bool:
-    ends = {end for interval in one.intervals for end in interval} if one.strict else ()
-    return value is not None and value not in ends and is_within(value, one.intervals)
 
 
 class PosteriorTally:
@@ -213,40 +209,27 @@ def sample_task(shared: bytes, task: Sequence[int]) -> dict[str, Any]:
     }
 
 
-@dataclass(frozen=True, slots=True)
-class _Scale:
-    """Observation of a speed in floating point: observed speed, and reciprocals of the tolerances below and above this
-    speed.
+def misfit_of(witness: OutputRequirement) -> Callable[[Floats], Floats]:
+    """Return a function that maps speeds of an output to misfits, which are sums of (error / tolerance)^2, up to
+    rounding errors.
     """
-
-    wanted: float
-    signed: bool
-    below: float
-    above: float
-
-    @classmethod
-    def of(cls, claim: SpeedRequirement) -> _Scale:
+    scales: list[tuple[bool, float, float, float]] = []
+    for claim in witness.demands:
+        if claim.exact:
+            continue
         halves = (claim.half(side) for side in (False, True))
         wanted, below, above = (as_float(each or Fraction(0)) for each in (claim.wanted, *halves))
         if wanted is None or below is None or above is None:
             what = f"the speed '{claim.label}' is outside the range of float64"
             why = "misfits are computed in floats from 1e-308 to 1e308"
             raise RangeError(Problem(what, why, "omit this output, or give it an exact `expect`"))
-        return cls(wanted, claim.signed, *(1 / half if half else 0.0 for half in (below, above)))
-
-    def misfit(self, value: Floats) -> Floats:
-        off = (value if self.signed else np.abs(value)) - self.wanted
-        found: Floats = (off * np.where(off > 0, self.above, self.below)) ** 2
-        return found
-
-
-def misfit_of(witness: OutputRequirement) -> Callable[[Floats], Floats]:
-    """Return a function that maps speeds of an output to misfits, which are sums of (error / tolerance)^2, up to
-    rounding errors.
-    """
-    scales = [_Scale.of(claim) for claim in witness.demands if not claim.exact]
+        scales.append((claim.signed, wanted, 1 / below if below else 0.0, 1 / above if above else 0.0))
 
     def misfit(speeds: Floats) -> Floats:
-        return sum((scale.misfit(speeds) for scale in scales), np.zeros(len(speeds)))
+        total: Floats = np.zeros(len(speeds))
+        for signed, wanted, below, above in scales:
+            off = (speeds if signed else np.abs(speeds)) - wanted
+            total += (off * np.where(off > 0, above, below)) ** 2
+        return total
 
     return misfit

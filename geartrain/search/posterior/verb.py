@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -103,7 +103,7 @@ def run(
     Example: `geartrain posterior freeth-2008-doubt --best 8`.
     """
     from geartrain.numerics.files import ColumnTable
-    from geartrain.search.posterior.inference import infer_counts
+    from geartrain.search.posterior.inference import infer_counts, joint_posterior, most_informative_wheels
     from geartrain.train.declaration_files import read_declaration
 
     to, drawing = sink(out, force, FORMS), picture_sink(plot, force, theme)
@@ -134,18 +134,32 @@ def run(
     if drawing.path is not None and not found.best:
         tell(f"no tooth counts fit, so {drawing.path} is not written")
     if plot is not None and found.best and not found.cut:
+        from geartrain.search.posterior.corner_plot import counts_figure
+
         held = {**requested, "most": 1}
-        _draw_counts(found, lambda one: infer_counts(train, **{**held, "free": {**requested["free"], **one}}), drawing)
+        pairs = joint_posterior(
+            found,
+            most_informative_wheels(found),
+            lambda one: infer_counts(train, **{**held, "free": {**requested["free"], **one}}),
+        )
+        draw(counts_figure(found, pairs), drawing)
     _answer(found, json, to)
 
 
 def _answer(found: ToothCountPosterior, json: bool, to: Sink) -> None:
+    from geartrain.numerics.files import ColumnTable
     from geartrain.search.posterior.posterior_report import describe_posterior, posterior_rows
 
     if to.suffix == ".csv":
         emit(table_text(posterior_rows(found)), to)
     elif to.suffix == ".parquet":
-        _write_parquet(posterior_rows(found), to, {"train": found.name, "method": found.method})
+        assert to.path is not None
+        with ColumnTable(to.path, {"train": found.name, "method": found.method}, to.force) as table:
+            if rows := posterior_rows(found):
+                table.write({name: [row[name] for row in rows] for name in rows[0]})
+                tell(f"wrote {to.path}")
+            else:
+                tell(f"no tooth counts fit, so {to.path} is not written")
     elif to.suffix == ".json":
         emit(as_json(found), to)
     elif not json or to.path is not None:
@@ -176,30 +190,3 @@ def _read_free(texts: Sequence[str]) -> dict[str, tuple[int, ...]]:
             raise at_option(error, "--free") from None
         found[wheel.strip()] = found.get(wheel.strip(), ()) + listed
     return found
-
-
-def _write_parquet(rows: Sequence[Mapping[str, Any]], to: Sink, about: Mapping[str, str]) -> None:
-    """Write the rows as one Parquet row group. No file is written if there are no rows."""
-    from geartrain.numerics.files import ColumnTable
-
-    assert to.path is not None
-    with ColumnTable(to.path, about, to.force) as table:
-        if rows:
-            table.write({name: [row[name] for row in rows] for name in rows[0]})
-            tell(f"wrote {to.path}")
-        else:
-            tell(f"no tooth counts fit, so {to.path} is not written")
-
-
-def _draw_counts(
-    found: ToothCountPosterior, again: Callable[[Mapping[str, Sequence[int]]], ToothCountPosterior], to: Sink
-) -> None:
-    """Draw a corner plot of the most informative wheels to a file.
-
-    again   function that repeats the inference with fixed tooth counts of some wheels
-    """
-    from geartrain.search.posterior.corner_plot import counts_figure
-    from geartrain.search.posterior.inference import joint_posterior, most_informative_wheels
-
-    wheels = most_informative_wheels(found)
-    draw(counts_figure(found, joint_posterior(found, wheels, again)), to)

@@ -241,7 +241,7 @@ def test_geometry_of_evidence() -> None:
     question = evidence_question(read_evidence(EVIDENCE))
     geometry = question.problem.geometry
     assert (geometry.module, geometry.distance, geometry.reach) == (Fraction(1, 20), Fraction(3, 100), 1)
-    assert geometry.module_of(("x", 62)) == geometry.module_of(("v", 31)) == 1
+    assert geometry.module_of(PlacedWheel("x", 62)) == geometry.module_of(PlacedWheel("v", 31)) == 1
     assert geometry.square_distance("b", "c") == 55**2
     assert not question.unused
 

@@ -34,10 +34,8 @@ from geartrain.search.weighted_alternatives import sums_by
 Range = tuple[int, int]
 """Minimum and maximum tooth count of an added wheel."""
 
-_LONGEST = 1 << 24
-"""Maximum length of a table of products. If a table would be longer, the tooth counts of one wheel are tried one by
-one.
-"""
+_LONGEST = 12_000_000
+"""Maximum length of a table of products or of quotients."""
 
 
 @lru_cache(maxsize=16)
@@ -67,7 +65,7 @@ def count_choices(quotient: Fraction, drivers: int, driven: int, counts: Range) 
     if drivers <= 1 and driven <= 1:
         # the empty product is 1
         return last - first + 1 if drivers and driven else int(first <= 1 <= last)
-    if maximum ** max(drivers, driven) <= _LONGEST:
+    if maximum ** max(drivers, driven) <= _LONGEST:  # if not, the tooth counts of one wheel are tried one by one
         # the sum over m of P(num m) R(den m), as a scalar product
         above = product_tally(drivers, counts)[first * num : last * num + 1 : num]
         below = product_tally(driven, counts)[first * den : last * den + 1 : den]
@@ -195,11 +193,9 @@ def count_between(minimum: Fraction, maximum: Fraction, drivers: int, driven: in
     if drivers + driven <= 3:
         table = quotient_table(drivers, driven, counts)
         return int(table.choices[table.within(minimum, maximum)].sum())
-    some = (
-        quotient_table(1, 1, counts) if drivers and driven else quotient_table(min(drivers, 2), min(driven, 2), counts)
-    )
     # numbers of driving and driven wheels of the enumerated part
     used = (1, 1) if drivers and driven else (min(drivers, 2), min(driven, 2))
+    some = quotient_table(*used, counts)
     return sum(
         int(own) * count_between(minimum / some[at], maximum / some[at], drivers - used[0], driven - used[1], counts)
         for at, own in enumerate(some.choices)
@@ -333,27 +329,22 @@ class AddedCounts:
         (dials, drivers, driven), rest = groups[at], groups[:at] + groups[at + 1 :]
         if private:
             own = count_between(*bounds, drivers, driven, self.range)
-            return own and own * self._count(rest, _without(wanted, dials))
+            return own and own * self._count(rest, tuple(each for each in wanted if each[0] not in dials))
         if bounds[0] == bounds[1]:
             own = count_choices(bounds[0], drivers, driven, self.range)
             return own and own * self._count(rest, divided(wanted, dials, bounds[0]))
         pair = _pair(groups, wanted)
-        if pair is not None:
-            return self._count_pair(groups, wanted, *pair)
-        return sum(
-            own * self._count(rest, divided(wanted, dials, quotient))
-            for quotient, own in quotients(*bounds, drivers, driven, self.range)
-        )
-
-    def _count_pair(self, groups: tuple[Group, ...], wanted: Wanted, one: int, other: int, both: Fraction) -> int:
-        """Return the number of assignments, computed by enumeration of the quotients of two groups whose total quotient
-        is `both`.
-        """
+        if pair is None:
+            return sum(
+                own * self._count(rest, divided(wanted, dials, quotient))
+                for quotient, own in quotients(*bounds, drivers, driven, self.range)
+            )
+        one, other, both = pair
         rest = tuple(group for at, group in enumerate(groups) if at not in (one, other))
-        kinds = groups[one][1:], groups[other][1:]
+        parts = quotients_of_parts(both, groups[one][1:], groups[other][1:], self.range)
         return sum(
             own * self._count(rest, divided(divided(wanted, groups[one][0], part), groups[other][0], both / part))
-            for part, own in quotients_of_parts(both, *kinds, self.range)
+            for part, own in parts
         )
 
     def _listed(self, groups: tuple[Group, ...], wanted: Wanted) -> Iterator[Counts]:
@@ -443,10 +434,6 @@ def _merged_dials(groups: tuple[Group, ...], wanted: Wanted) -> Wanted | None:
     return tuple(found.values())
 
 
-def _without(wanted: Wanted, dials: Dials) -> Wanted:
-    return tuple(each for each in wanted if each[0] not in dials)
-
-
 def divided(wanted: Wanted, dials: Dials, quotient: Fraction) -> Wanted:
     """Return the bounds that remain for the other groups if the group that affects the given dials has the given
     quotient.
@@ -461,10 +448,6 @@ Bounds = tuple[Floats, Floats]
 
 _FEW = 2
 """Maximum number of added wheels for which all possible quotients are tabulated."""
-_LONGEST = 12_000_000
-"""Maximum number of quotients in a table. If a table would be longer, it is not built, and every range is considered
-possible.
-"""
 ROUNDING = 1e-12
 """Upper bound of the relative rounding error of a quotient."""
 

@@ -17,6 +17,7 @@ from geartrain.search.reconstruct.train_topology import (
     Chain,
     Dials,
     Topology,
+    dials_of,
 )
 
 # A ring meshes only with external wheels of fewer teeth. The order of arbors may therefore limit added tooth counts.
@@ -37,11 +38,6 @@ def may_mesh(wheel: PlacedWheel, mate: PlacedWheel, rings: Rings) -> bool:
         return not internal
     ring, inside = (wheel, mate) if internal else (mate, wheel)
     return inside.teeth < ring.teeth
-
-
-def rings_mesh(arbor: Arbor, rings: Rings) -> bool:
-    """Return whether every ring in the subtree of an arbor meshes only with wheels of fewer teeth."""
-    return all(may_mesh(wheel, mate, rings) for wheel, mate in _meshes(arbor))
 
 
 def rings_limit(topology: Topology, rings: Rings, maximum: int) -> bool:
@@ -135,31 +131,8 @@ def _pair(one: str | None, other: str | None) -> frozenset[str] | None:
 # orders
 
 
-def _driven_chains(branching: Branching) -> Iterator[tuple[PlacedWheel, tuple[Chain, ...]]]:
-    yield from branching.drives
-    if branching.passes:
-        assert branching.driven is not None
-        yield branching.driven, branching.passes
-
-
-def _met_on_chain(steps: tuple[_Step, ...], driving: _Driving, facts: MeshFacts) -> tuple[_Pairs | None, _Driving]:
-    found: _Pairs = frozenset()
-    for name, each in steps:
-        met = facts.met(driving, name, each.driven)
-        if met is None:
-            return None, driving
-        found |= met
-        assert each.driver is not None
-        driving = name, each.driver
-    return found, driving
-
-
-def sequences(chain: Chain) -> Iterator[tuple[_Step, ...]]:
-    """Yield each order of the surviving and added arbors on a chain. Added arbors of one kind are interchangeable."""
-    yield from _sequences(chain.through, chain.compounds, chain.idlers)
-
-
 def _sequences(through: tuple[_Step, ...], compounds: int, idlers: int) -> Iterator[tuple[_Step, ...]]:
+    """Yield each order of the surviving and added arbors on a chain. Added arbors of one kind are interchangeable."""
     if not through and not compounds and not idlers:
         yield ()
     for at, step in enumerate(through):
@@ -181,32 +154,36 @@ def arranged(topology: Topology, counts: Counts, idle: tuple[int, ...], facts: M
     arbors.
     """
     chains = topology.chains
-    for chosen in product(*map(sequences, chains)):
+    for chosen in product(*(_sequences(chain.through, chain.compounds, chain.idlers) for chain in chains)):
         orders = {id(chain): steps for chain, steps in zip(chains, chosen, strict=True)}
         if _agrees(topology, orders, facts):
             arbor = _Assembly(orders, counts, idle).branching(topology.root, ())
-            if rings_mesh(arbor, facts.rings):
+            # again, because added wheels have tooth counts only now
+            if all(may_mesh(wheel, mate, facts.rings) for wheel, mate in _meshes(arbor)):
                 yield arbor
 
 
 def _agrees(topology: Topology, orders: dict[int, tuple[_Step, ...]], facts: MeshFacts) -> bool:
+    """Return whether the meshes of a topology with given orders of arbors agree with the known facts."""
     found: _Pairs = frozenset()
-    waiting = [(chain, (topology.root.name, driver)) for driver, chains in topology.root.drives for chain in chains]
+    waiting = [(chain, (topology.root.name, driver)) for driver, chain in topology.root.driven_chains()]
     while waiting:
         chain, driving = waiting.pop()
-        met, last = _met_on_chain(orders[id(chain)], driving, facts)
-        if met is None:
-            return False
-        found |= met
-        if isinstance(chain.end, Branching):
-            at_end = facts.met(last, chain.end.name, chain.end.driven)
-            if at_end is None:
+        end = chain.end
+        steps = [(name, each.driven, each.driver) for name, each in orders[id(chain)]]
+        if isinstance(end, Branching):
+            steps.append((end.name, end.driven, None))
+        for name, driven, driver in steps:
+            met = facts.met(driving, name, driven)
+            if met is None:
                 return False
-            found |= at_end
-            end = chain.end
-            waiting += [(each, (end.name, driver)) for driver, chains in _driven_chains(end) for each in chains]
+            found |= met
+            if driver is not None:
+                driving = name, driver
+        if isinstance(end, Branching):
+            waiting += [(each, (end.name, driver)) for driver, each in end.driven_chains()]
         else:
-            waiting += [(each, last) for each in chain.end]
+            waiting += [(each, driving) for each in end]
     return found == facts.meshes  # every known mesh must be in the train
 
 
@@ -221,15 +198,13 @@ class _Assembly:
 
     def branching(self, branching: Branching, dials: Dials) -> Arbor:
         """Return the arbor of a branching with its subtree. `dials` contains all dials of the subtree."""
-        past = {dial for chain in branching.passes for dial in chain.dials}
         driven = branching.driven
         if driven == ADDED:
-            turned = tuple(dial for dial in dials if dial not in past)
+            turned = branching.turned_dials(dials)
             driven = PlacedWheel(None, next(self.driven[turned]) if turned else next(self.idle))
         drives = []
         for wheel, chains in branching.drives:
-            led_to = tuple(sorted(dial for chain in chains for dial in chain.dials))
-            driver = PlacedWheel(None, next(self.drivers[led_to])) if wheel == ADDED else wheel
+            driver = PlacedWheel(None, next(self.drivers[dials_of(chains)])) if wheel == ADDED else wheel
             drives.append((driver, self.chains(chains)))
         return Arbor(branching.name, driven, branching.here, tuple(drives), self.chains(branching.passes))
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Container, Iterator, Sequence
+from collections.abc import Container, Iterator
 from dataclasses import dataclass
 
 from geartrain.search.reconstruct.reconstruction_problem import Arbor, PlacedWheel
+from geartrain.train import Train
 
 # Canonical names of the arbors and wheels of a candidate, in an order that does not depend on tooth counts: branches
 # are sorted by the first pointer to which each leads. An added arbor is named after the first pointer that it shows,
@@ -51,6 +52,10 @@ class NamedArbor:
         own = {self.driven.name: self.driven} if self.driven is not None else {}
         return tuple((own | {wheel.name: wheel for wheel, _ in self.drives}).values())
 
+    def added_wheels(self) -> list[NamedWheel]:
+        """Return the added wheels of the subtree in depth-first order of their arbors."""
+        return [wheel for arbor in self.arbors() for wheel in arbor.wheels() if wheel.added]
+
     def meshes(self) -> Iterator[tuple[NamedArbor, NamedWheel, NamedArbor]]:
         """Yield every mesh in the subtree as (driving arbor, driving wheel, driven arbor), in the order of `arbors`."""
         for wheel, arbor in self.drives:
@@ -58,15 +63,12 @@ class NamedArbor:
             yield from arbor.meshes()
 
 
-def name_train(arbor: Arbor, dials: Sequence[str], links: Collection[str], wheels: Collection[str]) -> NamedArbor:
-    """Return a candidate in which all arbors and wheels have names.
+def named_candidate(evidence: Train, arbor: Arbor) -> NamedArbor:
+    """Return a candidate with the names of arbors and wheels that are used in its declaration.
 
-    arbor   input arbor
-    dials   names of all dials, in the order of the evidence
-    links   names of arbors that are already used
-    wheels  names of wheels that are already used
+    arbor   input arbor of the candidate
     """
-    return _Naming(tuple(dials), FreeNames(set(links), set(wheels))).name(arbor)
+    return _Naming(tuple(evidence.outputs), {*evidence.links, evidence.frame}, set(evidence.wheels)).name(arbor)
 
 
 def free_name(name: str, kind: str, taken: Container[str]) -> str:
@@ -88,43 +90,23 @@ def numbered(stem: str, taken: Container[str]) -> str:
 
 
 @dataclass
-class FreeNames:
-    """Generator of distinct names for added arbors and wheels."""
+class _Naming:
+    """Assignment of names to the arbors of a candidate, in depth-first order from the input arbor."""
 
+    dials: tuple[str, ...]
+    """Names of all dials, in the order of the evidence."""
     links: set[str]
     """Names of arbors that are already in use."""
     wheels: set[str]
     """Names of wheels that are already in use."""
 
-    def link(self, dials: tuple[str, ...] = ()) -> str:
-        """Return an unused name for an added arbor. It is derived from the first dial whose pointer the arbor carries,
-        if any.
-        """
-        name = f"{_ADDED}_{dials[0]}" if dials else numbered(_ADDED, self.links)
-        link = free_name(name, "arbor", self.links)
-        self.links.add(link)
-        return link
-
-    def wheel(self, link: str, survives: bool) -> str:
-        """Return an unused name for an added wheel on the arbor `link`. `survives` is True if the arbor is a surviving
-        arbor.
-        """
-        # the underscore separates two numbers, as in `new1_2`
-        stem = f"{link}_{_ADDED}" if survives else f"{link}_" if link[-1].isdigit() else link
-        name = numbered(stem, self.wheels)
-        self.wheels.add(name)
-        return name
-
-
-@dataclass
-class _Naming:
-    """Assignment of names to the arbors of a candidate, in depth-first order from the input arbor."""
-
-    dials: tuple[str, ...]
-    free: FreeNames
-
     def name(self, arbor: Arbor) -> NamedArbor:
-        link = arbor.name if arbor.name is not None else self.free.link(arbor.dials)
+        """Return an arbor and its subtree with names."""
+        link = arbor.name
+        if link is None:
+            wanted = f"{_ADDED}_{arbor.dials[0]}" if arbor.dials else numbered(_ADDED, self.links)
+            link = free_name(wanted, "arbor", self.links)
+            self.links.add(link)
         driven = self._wheel(arbor, link, arbor.driven) if arbor.driven is not None else None
         # the driven wheel first, then the driving wheels
         drives = [arbor.passes, *(below for _, below in arbor.drives)]
@@ -146,6 +128,11 @@ class _Naming:
         return min(shown, default=len(self.dials))
 
     def _wheel(self, arbor: Arbor, link: str, wheel: PlacedWheel) -> NamedWheel:
+        """Return a wheel with its name; `link` is the name of its arbor."""
         if wheel.name is not None:
             return NamedWheel(wheel.name, wheel.teeth, False)
-        return NamedWheel(self.free.wheel(link, arbor.name is not None), wheel.teeth, True)
+        # the underscore separates two numbers, as in `new1_2`
+        stem = f"{link}_{_ADDED}" if arbor.name is not None else f"{link}_" if link[-1].isdigit() else link
+        name = numbered(stem, self.wheels)
+        self.wheels.add(name)
+        return NamedWheel(name, wheel.teeth, True)

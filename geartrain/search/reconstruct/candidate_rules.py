@@ -95,10 +95,11 @@ def _dial_rules(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[Br
             shown.setdefault(name, []).append((arbor, speed))
     for dial in problem.dials:
         if len(shown.get(dial.name, ())) != 1:
-            yield BrokenRule("dial", (dial.name,), f"{dial.name} is not shown", _without(dial.name))
+            change = f"without the dial {dial.name}"
+            yield BrokenRule("dial", (dial.name,), f"{dial.name} is not shown", change)
             continue
         ((arbor, speed),) = shown[dial.name]
-        if not dial.minimum <= (speed if dial.signed else abs(speed)) <= dial.maximum:
+        if not dial.accepts(speed):
             turns = fraction_text(speed)
             what = f"{dial.name} turns at {turns}, not {speed_text(dial)}"
             yield BrokenRule("speed", (dial.name,), what, f"if {dial.name} turns at {turns}")
@@ -107,10 +108,6 @@ def _dial_rules(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[Br
             where = "is lost" if dial.place == NEW else f"is {dial.place}"
             change = f"without the fact that the arbor of {dial.name} {where}"
             yield BrokenRule("place", (dial.name,), f"{dial.name} is shown on {at}", change)
-
-
-def _without(dial: str) -> str:
-    return f"without the dial {dial}"
 
 
 def speed_text(dial: SearchedDial) -> str:
@@ -183,32 +180,29 @@ def _addition_rules(candidate: Arbor, problem: ReconstructionProblem) -> Iterato
     if limits.arbors is not None and arbors > limits.arbors:
         what = f"{arbors} arbors are added, more than {limits.arbors}"
         yield BrokenRule("arbors", (), what, f"if {arbors} arbors may be added")
-    beside = [arbor.name for arbor in candidate.arbors() if arbor.name and None in _wheel_names(arbor)]
+    beside = []
+    for arbor in candidate.arbors():
+        meshing = [arbor.driven, *(wheel for wheel, _ in arbor.drives)]
+        if arbor.name and any(wheel is not None and wheel.name is None for wheel in meshing):
+            beside.append(arbor.name)
     if limits.on == "new" and beside:
         what = f"wheels are added on {', '.join(beside)}"
         yield BrokenRule("beside", (), what, "if wheels may be added on surviving arbors")
 
 
-def _wheel_names(arbor: Arbor) -> set[str | None]:
-    """Return the names of the meshing wheels on one arbor. The set contains None if one of them is an added wheel."""
-    driven = set() if arbor.driven is None else {arbor.driven.name}
-    return driven | {wheel.name for wheel, _ in arbor.drives}
-
-
 def _mesh_rules(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[BrokenRule]:
     meshes = list(candidate.meshes())
-    wheels = {_pair(wheel.name, child.driven.name) for _, wheel, child in meshes if child.driven}
-    arbors = {_pair(parent.name, child.name) for parent, _, child in meshes}
-    for pair in sorted(map(sorted, problem.meshes - wheels)):
-        said = " and ".join(pair)
-        yield BrokenRule("seen", tuple(pair), f"{said} do not mesh", f"without the fact that {said} mesh")
-    for pair in sorted(map(sorted, problem.apart & wheels)):
-        said = " and ".join(pair)
-        yield BrokenRule("apart", tuple(pair), f"{said} mesh", f"without the fact that {said} do not mesh")
-    for pair in sorted(map(sorted, problem.coaxial & arbors)):
-        said = " and ".join(pair)
-        what = f"wheels of the coaxial arbors {said} mesh"
-        yield BrokenRule("coaxial", tuple(pair), what, f"without the fact that {said} are coaxial")
+    wheels = {frozenset((wheel.name, child.driven.name)) for _, wheel, child in meshes if child.driven}
+    arbors = {frozenset((parent.name, child.name)) for parent, _, child in meshes}
+    rules: tuple[tuple[Rule, frozenset[frozenset[str]], str, str], ...] = (
+        ("seen", problem.meshes - wheels, "{} do not mesh", "{} mesh"),
+        ("apart", problem.apart & wheels, "{} mesh", "{} do not mesh"),
+        ("coaxial", problem.coaxial & arbors, "wheels of the coaxial arbors {} mesh", "{} are coaxial"),
+    )
+    for rule, pairs, what, fact in rules:
+        for pair in sorted(map(sorted, pairs)):
+            said = " and ".join(pair)
+            yield BrokenRule(rule, tuple(pair), what.format(said), f"without the fact that {fact.format(said)}")
     for _, wheel, child in meshes:
         if child.driven is not None and not may_mesh(wheel, child.driven, problem.rings):
             what = f"{wheel.name or wheel.teeth} and {child.driven.name or child.driven.teeth} cannot mesh in a ring"
@@ -216,10 +210,6 @@ def _mesh_rules(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[Br
     if problem.geometry.reach is not None and not candidate_likelihood(candidate, problem.geometry):
         what = "radii of meshing wheels do not match the distance between their axes"
         yield BrokenRule("distance", (), what, "if the distances between axes exclude no meshes")
-
-
-def _pair(one: str | None, other: str | None) -> frozenset[str | None]:
-    return frozenset((one, other))
 
 
 # ----------------------------------------------------------- a given train as a candidate, in the names of the problem
@@ -314,9 +304,7 @@ class _TrainReading:
         are connected by pins and slots.
         """
         tree, frame = find_tree(self.train), self.train.frame
-        pairs = (
-            (coupling.pin, coupling.slot) for coupling in self.train.pin_couplings if coupling.kind == "pin_and_slot"
-        )
+        pairs = ((one.pin, one.slot) for one in self.train.pin_couplings if one.kind == "pin_and_slot")
         joints = (pair for pair in pairs if all(tree.bears(frame, link) for link in pair))
         return {link: links[0] for links in joined_groups(self.train.links, joints) for link in links}
 
@@ -366,16 +354,9 @@ class _TrainReading:
     def _teeth(self, wheel: str) -> int:
         count = self.train.wheels[wheel][1].count
         if count is None:
-            place = self.train.place("links")
-            what = f"the tooth count of '{wheel}' is not known"
-            raise QuestionError(
-                Problem(
-                    what,
-                    "a train is ranked by all its tooth counts",
-                    "declare the count, such as `teeth: {value: 64}`",
-                    place,
-                )
-            )
+            what, why = f"the tooth count of '{wheel}' is not known", "a train is ranked by all its tooth counts"
+            fix = "declare the count, such as `teeth: {value: 64}`"
+            raise QuestionError(Problem(what, why, fix, self.train.place("links")))
         return count
 
     # pointers
@@ -401,15 +382,8 @@ class _TrainReading:
             if called[name] == dial.name and output.relative_to in (None, self.train.frame):
                 return self._joined[output.of or name]
         lost = dial.place == NEW
-        return next(
-            (
-                link
-                for link, speed in self._speeds.items()
-                if dial.minimum <= (speed if dial.signed else abs(speed)) <= dial.maximum
-                and not (lost and link in self._names)
-            ),
-            None,
-        )
+        fitting = (link for link, speed in self._speeds.items() if dial.accepts(speed))
+        return next((link for link in fitting if not (lost and link in self._names)), None)
 
     @cached_property
     def _speeds(self) -> dict[str, Fraction]:
@@ -434,13 +408,9 @@ def check_same(pairs: Mapping[str, str], trains: Sequence[Train], problem: Recon
     for name, called in pairs.items():
         if name not in own:
             what = f"'{name}' is not a wheel or an output of a ranked train"
-            raise QuestionError(
-                Problem(what, "in `--same ITS=OURS`, ITS is a name in the ranked train", suggest(name, sorted(own)))
-            )
+            why = "in `--same ITS=OURS`, ITS is a name in the ranked train"
+            raise QuestionError(Problem(what, why, suggest(name, sorted(own))))
         if called not in requested:
             what = f"'{called}' is not a wheel or a dial of the evidence"
-            raise QuestionError(
-                Problem(
-                    what, "in `--same ITS=OURS`, OURS is a name in the evidence", suggest(called, sorted(requested))
-                )
-            )
+            why = "in `--same ITS=OURS`, OURS is a name in the evidence"
+            raise QuestionError(Problem(what, why, suggest(called, sorted(requested))))

@@ -18,18 +18,15 @@ from geartrain.search.reconstruct.reconstruction_problem import (
     SearchedDial,
     SurvivingArbor,
     find_unreachable,
+    magnitude_bounds,
 )
 from geartrain.search.reconstruct.reconstruction_search import find_reconstructions
 
 _MINIMUM_TEETH = 3  # lower end of the widened range of added tooth counts
 
 
-@dataclass(frozen=True)
-class ChangedQuestion:
-    """Reconstruction problem in which one item of the evidence is changed, and a description of the change."""
-
-    change: str
-    problem: ReconstructionProblem
+ChangedProblem = tuple[str, ReconstructionProblem]
+"""Description of one change of the evidence, and the reconstruction problem after this change."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,14 +53,14 @@ class ChangedCount(Result):
         return next((added for added, count in enumerate(self.solutions) if count), None)
 
 
-def changed_counts(questions: list[ChangedQuestion], execution: Execution | None = None) -> Iterator[ChangedCount]:
-    """Yield the number of trains for each changed problem, in the order of `questions`, as soon as it is known.
+def changed_counts(changed: list[ChangedProblem], execution: Execution) -> Iterator[ChangedCount]:
+    """Yield the number of trains for each changed problem, in the order of `changed`, as soon as it is known.
 
     `KeyboardInterrupt` is raised if a search is interrupted, so that no journal stores a partial result.
     """
-    answers = (execution or Execution()).run(_count, [question.problem for question in questions])
-    for question, (solutions, complete, refused) in zip(questions, answers, strict=True):
-        yield ChangedCount(question.change, tuple(solutions), complete, refused)
+    answers = execution.run(_count, [problem for _, problem in changed])
+    for (change, _), (solutions, complete, refused) in zip(changed, answers, strict=True):
+        yield ChangedCount(change, tuple(solutions), complete, refused)
 
 
 def _count(problem: ReconstructionProblem) -> tuple[list[int], bool, str | None]:
@@ -76,24 +73,17 @@ def _count(problem: ReconstructionProblem) -> tuple[list[int], bool, str | None]
     return [count.solutions for count in found.counts], True, None
 
 
-def without_each_fact(problem: ReconstructionProblem) -> list[ChangedQuestion]:
+def without_each_fact(problem: ReconstructionProblem) -> list[ChangedProblem]:
     """Return the problems that result if one hard constraint of the evidence is removed, one problem for each
     constraint.
     """
+    changes = (*_facts(problem), *_dials(problem), *_rules(problem))
     # a change without effect on the problem needs no search
-    return [ChangedQuestion(change, changed) for change, changed in _changes(problem) if changed != problem]
+    return [(change, changed) for change, changed in changes if changed != problem]
 
 
-def without_each_dial(problem: ReconstructionProblem) -> Iterator[ChangedQuestion]:
-    """Yield the problems that result if one dial is removed, one problem for each dial. Yield nothing if there is only
-    one dial.
-    """
-    for dial in problem.dials if len(problem.dials) > 1 else ():
-        left = tuple(each for each in problem.dials if each is not dial)
-        yield ChangedQuestion(f"without the dial {dial.name}", replace(problem, dials=left))
-
-
-def _changes(problem: ReconstructionProblem) -> Iterator[tuple[str, ReconstructionProblem]]:
+def _facts(problem: ReconstructionProblem) -> Iterator[ChangedProblem]:
+    """Yield the problem without each known pair of wheels or arbors, and without the limits of distances."""
     measured = frozenset(find_unreachable((problem.input, *problem.arbors), problem.geometry))
     for key, pairs, what in (
         ("meshes", problem.meshes, "that {} mesh"),
@@ -107,27 +97,29 @@ def _changes(problem: ReconstructionProblem) -> Iterator[tuple[str, Reconstructi
         free = replace(problem.geometry, reach=None)
         changed = replace(problem, apart=problem.apart - measured, geometry=free)
         yield "if the distances between axes exclude no meshes", changed
-    yield from _senses(problem)
+
+
+def _dials(problem: ReconstructionProblem) -> Iterator[ChangedProblem]:
+    """Yield the problem without the sense of each dial, without all senses, and without the arbor of each dial."""
+
+    def with_dials(changed: Mapping[str, SearchedDial]) -> ReconstructionProblem:
+        return replace(problem, dials=tuple(changed.get(dial.name, dial) for dial in problem.dials))
+
+    unsigned = {}
+    for dial in (dial for dial in problem.dials if dial.signed):
+        minimum, maximum = magnitude_bounds(dial.minimum, dial.maximum)
+        unsigned[dial.name] = replace(dial, minimum=minimum, maximum=maximum, signed=False)
+        yield f"without the sense of {dial.name}", with_dials({dial.name: unsigned[dial.name]})
+    if len(unsigned) > 1:
+        yield "without the sense of any dial", with_dials(unsigned)
     for dial in problem.dials:
         where = "is lost" if dial.place == NEW else f"is {dial.place}"
         change = f"without the fact that the arbor of {dial.name} {where}"
-        yield change, _with_dials(problem, {dial.name: replace(dial, place=None)})
-    yield from _rules(problem)
+        yield change, with_dials({dial.name: replace(dial, place=None)})
 
 
-def _senses(problem: ReconstructionProblem) -> Iterator[tuple[str, ReconstructionProblem]]:
-    unsigned = {dial.name: _unsigned(dial) for dial in problem.dials if dial.signed}
-    for name, dial in unsigned.items():
-        yield f"without the sense of {name}", _with_dials(problem, {name: dial})
-    if len(unsigned) > 1:
-        yield "without the sense of any dial", _with_dials(problem, unsigned)
-
-
-def _with_dials(problem: ReconstructionProblem, changed: Mapping[str, SearchedDial]) -> ReconstructionProblem:
-    return replace(problem, dials=tuple(changed.get(dial.name, dial) for dial in problem.dials))
-
-
-def _rules(problem: ReconstructionProblem) -> Iterator[tuple[str, ReconstructionProblem]]:
+def _rules(problem: ReconstructionProblem) -> Iterator[ChangedProblem]:
+    """Yield the problem without each rule for the use of surviving parts and for added parts."""
     limits = problem.additions
     if problem.use == "wheels":
         yield "if every surviving arbor is used, but not every wheel", replace(problem, use="arbors")
@@ -147,15 +139,6 @@ def _rules(problem: ReconstructionProblem) -> Iterator[tuple[str, Reconstruction
         yield "if any number of arbors may be added", replace(problem, additions=replace(limits, arbors=None))
     if limits.on == "new":
         yield "if wheels may be added on surviving arbors", replace(problem, additions=replace(limits, on="any"))
-
-
-def _unsigned(dial: SearchedDial) -> SearchedDial:
-    """Return the dial without its sense of rotation. The bounds of its speed become bounds of the magnitude of the
-    speed.
-    """
-    ends = sorted(map(abs, (dial.minimum, dial.maximum)))
-    minimum = Fraction(0) if dial.minimum < 0 < dial.maximum else ends[0]
-    return replace(dial, minimum=minimum, maximum=ends[1], signed=False)
 
 
 # Reasons why nothing explains the evidence: dials that fail without the others, and single changes that would help.
@@ -197,21 +180,24 @@ class MissingExplanation(Result):
     """Descriptions of the changes for which the search was rejected."""
 
 
-def explain_missing(problem: ReconstructionProblem, execution: Execution | None = None) -> MissingExplanation:
+def explain_missing(problem: ReconstructionProblem, execution: Execution) -> MissingExplanation:
     """Return the reasons why a problem has no explanation."""
-    dials = tuple(_lone_dial(problem, at) for at in range(len(problem.dials)))
-    changed = [*without_each_fact(problem), *without_each_dial(problem), *_misread_counts(problem)]
+    dials = tuple(_lone_dial(problem, dial) for dial in problem.dials)
+    changed = without_each_fact(problem)
+    for dial in problem.dials if len(problem.dials) > 1 else ():
+        left = tuple(each for each in problem.dials if each is not dial)
+        changed.append((f"without the dial {dial.name}", replace(problem, dials=left)))
+    changed += _misread_counts(problem)
     counts = tuple(changed_counts(changed, execution))
     cheap = sorted((one for one in counts if one.total), key=lambda one: one.fewest or 0)
     refused = tuple(one.change for one in counts if one.refused is not None)
     return MissingExplanation(dials, tuple(cheap), len(changed), refused)
 
 
-def _lone_dial(problem: ReconstructionProblem, at: int) -> LoneDial:
-    """Return the minimum number of added wheels with which the dial with index `at` can be explained if the other dials
-    are ignored. Surviving arbors that are not on the path to this dial may be unused.
+def _lone_dial(problem: ReconstructionProblem, dial: SearchedDial) -> LoneDial:
+    """Return the minimum number of added wheels with which a dial can be explained if the other dials are ignored.
+    Surviving arbors that are not on the path to this dial may be unused.
     """
-    dial = problem.dials[at]
     # known meshes may belong to arbors of other dials
     lone = replace(problem, dials=(dial,), use="some", meshes=frozenset())
     for wheels in range(problem.additions.wheels + 1):
@@ -224,7 +210,7 @@ def _lone_dial(problem: ReconstructionProblem, at: int) -> LoneDial:
     return LoneDial(dial.name, None)
 
 
-def _misread_counts(problem: ReconstructionProblem) -> Iterator[ChangedQuestion]:
+def _misread_counts(problem: ReconstructionProblem) -> Iterator[ChangedProblem]:
     """Yield problems in which one surviving wheel has a different tooth count, one problem for each tooth count that
     differs by at most `MISREAD` from a possible one. The problems are in ascending order of this difference.
     """
@@ -234,7 +220,7 @@ def _misread_counts(problem: ReconstructionProblem) -> Iterator[ChangedQuestion]
             near = {count + step for count in counts for step in range(-MISREAD, MISREAD + 1)}
             for count in sorted(near - counts, key=lambda one: (min(abs(one - old) for old in counts), one)):
                 if count > 0:
-                    yield ChangedQuestion(f"if {wheel.name} has {count} teeth", _with_count(problem, wheel.name, count))
+                    yield f"if {wheel.name} has {count} teeth", _with_count(problem, wheel.name, count)
 
 
 def _with_count(problem: ReconstructionProblem, name: str, count: int) -> ReconstructionProblem:

@@ -5,7 +5,7 @@ that gives their location.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
 
@@ -33,12 +33,13 @@ from geartrain.search.reconstruct.reconstruction_problem import (
     SurvivingGeometry,
     SurvivingWheel,
     find_unreachable,
+    magnitude_bounds,
     read_geometry_evidence,
     refuse_unreachable,
     unweighed_geometry,
 )
 from geartrain.train import Output, Teeth, Train, Wheel
-from geartrain.train.reconstruction import NEW_ARBOR, AddedParts
+from geartrain.train.reconstruction import NEW_ARBOR
 
 # Range of the speed of a pointer, from all declarations of its output.
 
@@ -46,25 +47,9 @@ from geartrain.train.reconstruction import NEW_ARBOR, AddedParts
 Limits = tuple[Fraction, Fraction]
 
 
-@dataclass(frozen=True)
-class PointerBounds:
-    """Minimum and maximum speed of a pointer, and the declared facts that are not used as bounds.
-
-    If `signed` is False, the bounds are bounds of the magnitude of the speed.
-    """
-
-    limits: Limits
-    signed: bool
-    unused: tuple[str, ...] = ()
-
-    def allow(self, speed: Fraction) -> bool:
-        """Return whether a speed is within the bounds."""
-        return self.limits[0] <= (speed if self.signed else abs(speed)) <= self.limits[1]
-
-
-def find_bounds(evidence: Train, name: str, free_sense: bool, base: BaseLink) -> PointerBounds:
-    """Return the bounds of the speed of an output relative to the base, which is the link that carries the arbors. If
-    `free_sense` is True, return bounds of the magnitude of this speed.
+def find_dial(evidence: Train, name: str, free_sense: bool, base: BaseLink) -> SearchedDial:
+    """Return the dial of an output. The bounds of its speed are relative to the base, which is the link that carries
+    the arbors. If `free_sense` is True, they are bounds of the magnitude of this speed.
 
     `DeclarationError` is raised if the admissible speeds do not form a single range.
     """
@@ -79,27 +64,37 @@ def find_bounds(evidence: Train, name: str, free_sense: bool, base: BaseLink) ->
         raise DeclarationError(
             Problem(what, "the frame does not turn", "name in `of` the link that carries the pointer", place)
         )
-    found = _bounds(evidence, name, free_sense)
-    found = _seen_from_base(found, name, base.seen(output.relative_to or evidence.frame), place)
-    if output.of is None and base.source == evidence.frame and found.allow(base.driven):
+    (minimum, maximum), signed = _bounds(evidence, name, free_sense)
+    turning = base.seen(output.relative_to or evidence.frame)
+    if turning and not signed:
+        what = f"the sense of '{name}' is not known, and its speed is relative to the frame"
+        why = "the pointer would have two possible speeds relative to the carrier"
+        raise DeclarationError(Problem(what, why, "give its sense, or its speed with `relative_to` the carrier", place))
+    on = NEW if output.of == NEW_ARBOR else output.of
+    dial = SearchedDial(name, minimum - turning, maximum - turning, signed, on)
+    if output.of is None and base.source == evidence.frame and dial.accepts(base.driven):
         what = f"the speed of '{name}' may be the speed of the frame, so its pointer could be on the frame"
         fix = "name its arbor in `of`, or give `of: new` if its arbor is lost"
         raise DeclarationError(Problem(what, "the arbor of the pointer is not declared", fix, place))
-    return found
+    return dial
 
 
-def _bounds(evidence: Train, name: str, free_sense: bool) -> PointerBounds:
+def _bounds(evidence: Train, name: str, free_sense: bool) -> tuple[Limits, bool]:
+    """Return the minimum and the maximum declared speed of an output, and True; or the minimum and the maximum of its
+    magnitude, and False.
+    """
     output, place = evidence.outputs[name], evidence.place("outputs", name)
     known = list(_ranges(evidence, output))
-    unused = _unused_targets(name, output)
     if not known:
         why = "the output has no `expect`, and no target with a tolerance"
         fix = "for example, add `expect: -5/19`, or add `tolerance: 1/446` to a target"
         raise DeclarationError(Problem(f"the speed of '{name}' is not known", why, fix, place))
     signed = [limits for limits, has_sign in known if has_sign and not free_sense]
-    plain = [_magnitudes(limits) if has_sign else limits for limits, has_sign in known if not has_sign or free_sense]
+    plain = [
+        magnitude_bounds(*limits) if has_sign else limits for limits, has_sign in known if not has_sign or free_sense
+    ]
     if not signed:
-        return PointerBounds(_common(plain, name, place), False, unused)
+        return _common(plain, name, place), False
     limits = _common(signed, name, place)
     if plain:
         low, high = _common(plain, name, place)
@@ -111,19 +106,7 @@ def _bounds(evidence: Train, name: str, free_sense: bool) -> PointerBounds:
             why = "the targets with a sense allow both senses, and the target of the magnitude excludes speeds near 0"
             raise DeclarationError(Problem(what, why, "keep only one of the targets", place))
         limits = _common([limits, *(allowed or senses)], name, place)
-    return PointerBounds(limits, True, unused)
-
-
-def _seen_from_base(bounds: PointerBounds, name: str, turning: Fraction, place: str) -> PointerBounds:
-    """Convert bounds of a speed relative to the frame to bounds relative to a base that turns with speed `turning`."""
-    if not turning:
-        return bounds
-    if not bounds.signed:
-        what = f"the sense of '{name}' is not known, and its speed is relative to the frame"
-        why = "the pointer would have two possible speeds relative to the carrier"
-        raise DeclarationError(Problem(what, why, "give its sense, or its speed with `relative_to` the carrier", place))
-    minimum, maximum = bounds.limits
-    return replace(bounds, limits=(minimum - turning, maximum - turning))
+    return limits, True
 
 
 def _ranges(evidence: Train, output: Output) -> Iterator[tuple[Limits, bool]]:
@@ -146,31 +129,13 @@ def _ranges(evidence: Train, output: Output) -> Iterator[tuple[Limits, bool]]:
         yield (goal.speed - half, goal.speed + half), goal.signed
 
 
-def _unused_targets(name: str, output: Output) -> tuple[str, ...]:
-    lines = [
-        f"a target of '{name}' ({target.name or target.period or target.speed}): it has no tolerance"
-        for target in output.targets
-        if target.tolerance is None and (target.speed is None or output.expect is not None)
-    ]
-    if output.published is not None:
-        lines.append(f"`published` of '{name}': only `expect` and targets with a tolerance are used")
-    return tuple(lines)
-
-
-def _magnitudes(limits: Limits) -> Limits:
-    ends = sorted(map(abs, limits))
-    return (Fraction(0), ends[1]) if limits[0] < 0 < limits[1] else (ends[0], ends[1])
-
-
 def _common(ranges: list[Limits], name: str, place: str) -> Limits:
+    """Return the intersection of ranges of the speed of an output."""
     minimum, maximum = max(low for low, _ in ranges), min(high for _, high in ranges)
     if minimum > maximum:
+        what = f"the declared speeds of '{name}' contradict each other"
         why = "no speed is within `expect` and all targets with a tolerance"
-        raise DeclarationError(
-            Problem(
-                f"the declared speeds of '{name}' contradict each other", why, "correct `expect` or a target", place
-            )
-        )
+        raise DeclarationError(Problem(what, why, "correct `expect` or a target", place))
     return minimum, maximum
 
 
@@ -242,11 +207,11 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
         place = evidence.place("reconstruct")
         why = "the search needs the minimum and maximum count of an added wheel"
         found.append(Problem("the tooth counts of added wheels have no limits", why, fix, place))
-    bounds = {}
+    dials = []
     for name in evidence.outputs:
         try:
             if base is not None:
-                bounds[name] = find_bounds(evidence, name, requested.sense == "free", base)
+                dials.append(find_dial(evidence, name, requested.sense == "free", base))
         except DeclarationError as error:
             found += error.problems
     if not evidence.outputs:
@@ -254,17 +219,18 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
         found.append(Problem("the evidence has no outputs", "a reconstruction explains the speeds of pointers", fix))
     if found or base is None:
         raise DeclarationError(first_problems(found))
-    places = {name: NEW if output.of == NEW_ARBOR else output.of for name, output in evidence.outputs.items()}
     others = (link for link in evidence.links if link not in (base.source, base.name, evidence.frame))
     arbors = tuple(_arbor(evidence, link) for link in others)
     geometry = read_geometry_evidence(evidence)
     unreachable = frozenset(find_unreachable((_arbor(evidence, base.source), *arbors), geometry))
     refuse_unreachable(evidence, unreachable)
+    limits = requested.add
+    minimum, maximum = limits.teeth or (1, 1)  # the limits do not matter if nothing is added
     problem = ReconstructionProblem(
         input=_arbor(evidence, base.source),
         arbors=arbors,
-        dials=tuple(SearchedDial(name, *bound.limits, bound.signed, places[name]) for name, bound in bounds.items()),
-        additions=_additions(requested.add, wheels),
+        dials=tuple(dials),
+        additions=Additions(limits.wheels if wheels is None else wheels, minimum, maximum, limits.arbors, limits.on),
         input_speed=base.driven,
         meshes=frozenset(frozenset(gear.pair) for gear in evidence.gears),
         apart=frozenset(frozenset(pair) for pair in requested.apart) | unreachable,
@@ -274,16 +240,10 @@ def evidence_question(evidence: Train, wheels: int | None = None, idlers: bool =
         factors=PriorFactors(requested.cost.wheel.value, requested.cost.arbor.value, requested.cost.unused.value),
         geometry=geometry,
     )
-    unused = [*_unused(evidence), *(line for bound in bounds.values() for line in bound.unused)]
     joined = joined_arbors(evidence)
     if parted := list(parted_problems(evidence, problem, joined)):
         raise DeclarationError(first_problems(parted))
-    return EvidenceQuestion(join_arbors(problem, joined), base, joined, tuple(unused))
-
-
-def _additions(add: AddedParts, wheels: int | None) -> Additions:
-    minimum, maximum = add.teeth or (1, 1)  # the limits do not matter if nothing is added
-    return Additions(add.wheels if wheels is None else wheels, minimum, maximum, add.arbors, add.on)
+    return EvidenceQuestion(join_arbors(problem, joined), base, joined, tuple(_unused(evidence)))
 
 
 def _arbor(evidence: Train, link: str) -> SurvivingArbor:
@@ -326,18 +286,14 @@ def _counts(wheel: Wheel) -> tuple[tuple[int, Fraction], ...]:
 
 
 def _unsupported(evidence: Train) -> Iterator[Problem]:
-    for key in _UNSUPPORTED:
-        if getattr(evidence, key):
-            yield _unsupported_problem(evidence, f"`{key}` is not supported in a reconstruction", key)
+    unsupported: list[tuple[str, Loc]] = [(f"`{key}` is", (key,)) for key in _UNSUPPORTED if getattr(evidence, key)]
     if evidence.crank is not None and evidence.crank not in evidence.inputs:
-        yield _unsupported_problem(
-            evidence, "a crank that is not the input is not supported in a reconstruction", "crank"
-        )
+        unsupported.append(("a crank that is not the input is", ("crank",)))
     for label, axis in evidence.axes.items():
         if any(figure.value for figure in axis.direction[:2]) or axis.direction[2].value < 0:
-            yield _unsupported_problem(
-                evidence, "axes that are not parallel are not supported in a reconstruction", "axes", label
-            )
+            unsupported.append(("axes that are not parallel are", ("axes", label)))
+    for what, loc in unsupported:
+        yield _unsupported_problem(evidence, f"{what} not supported in a reconstruction", *loc)
 
 
 def _unsupported_problem(evidence: Train, what: str, *loc: str | int) -> Problem:
@@ -346,36 +302,22 @@ def _unsupported_problem(evidence: Train, what: str, *loc: str | int) -> Problem
 
 
 def _wheels(evidence: Train) -> Iterator[Problem]:
-    for link, part in evidence.links.items():
-        for name, wheel in part.wheels.items():
-            place = ("links", link, "wheels", name)
-            if wheel.kind != "spur":
-                what = f"'{name}' is a {wheel.kind} wheel, which is not supported in a reconstruction"
-                yield _unsupported_problem(evidence, what, *place)
-            yield from _teeth(evidence, wheel, place)
-
-
-def _teeth(evidence: Train, wheel: Wheel, place: Loc) -> Iterator[Problem]:
-    teeth = wheel.teeth
-    if not isinstance(teeth, Teeth):
-        return
-    for count in (teeth.range[1] - teeth.range[0] + 1 if teeth.range else 0, len(teeth.searched)):
-        if count > _MOST_COUNTS:
-            what = f"a wheel has {count} possible counts"
-            yield Problem(
-                what,
-                f"at most {_MOST_COUNTS} tooth counts per wheel can be searched",
-                "narrow the range of tooth counts",
-                evidence.place(*place, "teeth"),
-            )
-    if why := teeth.fault_of_weights:
-        fix = "give non-negative weights, at least one of them above 0"
-        yield Problem(
-            "the weights of a tooth count do not define probabilities",
-            why,
-            fix,
-            evidence.place(*place, "teeth", "weights"),
-        )
+    for name, (link, wheel) in evidence.wheels.items():
+        loc, teeth = ("links", link, "wheels", name), wheel.teeth
+        if wheel.kind != "spur":
+            what = f"'{name}' is a {wheel.kind} wheel, which is not supported in a reconstruction"
+            yield _unsupported_problem(evidence, what, *loc)
+        if not isinstance(teeth, Teeth):
+            continue
+        for count in (teeth.range[1] - teeth.range[0] + 1 if teeth.range else 0, len(teeth.searched)):
+            if count > _MOST_COUNTS:
+                what = f"a wheel has {count} possible counts"
+                why = f"at most {_MOST_COUNTS} tooth counts per wheel can be searched"
+                yield Problem(what, why, "narrow the range of tooth counts", evidence.place(*loc, "teeth"))
+        if fault := teeth.fault_of_weights:
+            what = "the weights of a tooth count do not define probabilities"
+            fix = "give non-negative weights, at least one of them above 0"
+            yield Problem(what, fault, fix, evidence.place(*loc, "teeth", "weights"))
 
 
 def _unused(evidence: Train) -> Iterator[str]:
@@ -384,3 +326,9 @@ def _unused(evidence: Train) -> Iterator[str]:
     for gear in evidence.gears:
         if gear.driver is not None:
             yield f"the driver of '{gear.name}': either wheel may drive"
+    for name, output in evidence.outputs.items():
+        for target in output.targets:
+            if target.tolerance is None and (target.speed is None or output.expect is not None):
+                yield f"a target of '{name}' ({target.name or target.period or target.speed}): it has no tolerance"
+        if output.published is not None:
+            yield f"`published` of '{name}': only `expect` and targets with a tolerance are used"

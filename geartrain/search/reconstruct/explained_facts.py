@@ -14,12 +14,11 @@ from typing import Literal, NamedTuple, get_args
 
 from geartrain.numerics.exact import whole_multiple
 from geartrain.numerics.results import Key, Result
-from geartrain.search.reconstruct.candidate_names import NamedArbor, NamedWheel
+from geartrain.search.reconstruct.candidate_names import NamedArbor, named_candidate
 from geartrain.search.reconstruct.dropped_facts import ChangedCount, MissingExplanation
-from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem, SurvivingArbor
+from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem
 from geartrain.search.reconstruct.reconstruction_search import Reconstructions, topology_prior
 from geartrain.search.reconstruct.search_tasks import TopologyTrains
-from geartrain.search.reconstruct.train_construction import named_candidate
 from geartrain.search.reconstruct.train_topology import Topology
 from geartrain.search.weighted_alternatives import entropy
 from geartrain.train import Train
@@ -129,7 +128,7 @@ class FactTally:
         self.trains = 0
         self._whole = Fraction(0)
         self._found: dict[Fact, dict[str, tuple[Fraction, int]]] = {}
-        self._wheels = [wheel.name for arbor in _survivors(problem) for wheel in arbor.wheels]
+        self._wheels = [wheel.name for arbor in (problem.input, *problem.arbors) for wheel in arbor.wheels]
 
     def add_trains(self, weight: Fraction | int, number: int = 1) -> None:
         """Add `number` trains, each with the given weight, to the totals."""
@@ -146,9 +145,9 @@ class FactTally:
 
     def facts(self) -> Iterator[Fact]:
         """Yield all facts. Facts of the kind `used` are omitted for wheels that are used in every train."""
-        used = {wheel: Fact("used", wheel) for wheel in self._wheels}
-        used_by_all = {fact for fact in used.values() if self._found.get(fact, {}).get(YES, (0, 0))[1] == self.trains}
-        yield from (fact for fact in {**self._found, **dict.fromkeys(used.values())} if fact not in used_by_all)
+        used = [Fact("used", wheel) for wheel in self._wheels]
+        used_by_all = {fact for fact in used if self._found.get(fact, {}).get(YES, (0, 0))[1] == self.trains}
+        yield from (fact for fact in dict.fromkeys([*self._found, *used]) if fact not in used_by_all)
 
     def marginal(self, fact: Fact) -> FactMarginal:
         """Return the marginal distribution of the answers to a fact."""
@@ -187,10 +186,14 @@ class ExplainedFacts:
         """Return the marginal distributions of all facts except facts of the kind `pair`, sorted by kind and then by
         descending probability.
         """
-        found = [self._tally.marginal(fact) for fact in self._tally.facts() if fact.kind != "pair"]
-        return tuple(
-            sorted(found, key=lambda one: (_KINDS.index(one.kind), -_yes_weight(one), _answer_order(one.subject)))
-        )
+
+        def order(one: FactMarginal) -> tuple[object, ...]:
+            # facts with the answers yes and no by the probability of yes
+            share = one.answers[0].share if one.kind in _ELSE else one.share(YES)
+            return _KINDS.index(one.kind), -share, _answer_order(one.subject)
+
+        found = (self._tally.marginal(fact) for fact in self._tally.facts() if fact.kind != "pair")
+        return tuple(sorted(found, key=order))
 
     def next_facts(self) -> tuple[NextFact, ...]:
         """Return the observable facts whose answers differ among the trains, in descending order of entropy. Equivalent
@@ -228,7 +231,7 @@ def train_facts(train: NamedArbor, doubtful: set[str], lost: set[str]) -> Iterat
     only for dials in `lost`.
     """
     yield from _order_facts(train, doubtful, lost)
-    added = _added_wheels(train)
+    added = train.added_wheels()
     yield from ((Fact("added", wheel.name), str(wheel.teeth)) for wheel in added)
     yield from ((Fact("needed", str(teeth)), YES) for teeth in {wheel.teeth for wheel in added})
 
@@ -252,10 +255,6 @@ def _order_facts(train: NamedArbor, doubtful: set[str], lost: set[str]) -> Itera
             yield Fact("driver", arbor.name), AN_ADDED_ARBOR if driving.added else driving.name
 
 
-def _added_wheels(train: NamedArbor) -> list[NamedWheel]:
-    return [wheel for arbor in train.arbors() for wheel in arbor.wheels() if wheel.added]
-
-
 def lost_pointers(problem: ReconstructionProblem) -> set[str]:
     """Return the names of the dials for which the arbor of the pointer is not known."""
     return {dial.name for dial in problem.dials if dial.place is None}
@@ -263,18 +262,8 @@ def lost_pointers(problem: ReconstructionProblem) -> set[str]:
 
 def uncertain_wheels(problem: ReconstructionProblem) -> set[str]:
     """Return the names of the surviving wheels whose tooth counts are uncertain."""
-    return {wheel.name for arbor in _survivors(problem) for wheel in arbor.wheels if not wheel.is_sure}
-
-
-def _survivors(problem: ReconstructionProblem) -> Sequence[SurvivingArbor]:
-    return (problem.input, *problem.arbors)
-
-
-def _yes_weight(fact: FactMarginal) -> Fraction:
-    """Return the probability of the answer `yes`. If the answers to the fact are not `yes` and `no`, return the
-    probability of its most probable answer.
-    """
-    return fact.answers[0].share if fact.kind in _ELSE else fact.share(YES)
+    arbors = (problem.input, *problem.arbors)
+    return {wheel.name for arbor in arbors for wheel in arbor.wheels if not wheel.is_sure}
 
 
 def _answer_order(answer: str) -> tuple[int, str]:
@@ -307,7 +296,7 @@ def sum_facts(
                 named, kinds = named_candidate(evidence, order), trains.kinds(topology, order)
                 for fact, answer in _order_facts(named, doubtful, lost):
                     sums.add(fact, answer, weight, part.choices)
-                for wheel in _added_wheels(named):
+                for wheel in named.added_wheels():
                     for count, choices in trains.counts.of_kind(part.open, kinds[wheel.teeth]).items():
                         sums.add(Fact("added", wheel.name), str(count), weight, choices)
             for count, choices in trains.counts.with_any(part.open).items():
@@ -363,7 +352,15 @@ def grow_family_tree(weighed: WeighedTrains, doubtful: Sequence[str] = ()) -> tu
     """
     root, whole = _Node(), sum(weight for _, weight in weighed)
     for rank, (train, weight) in enumerate(weighed, 1):
-        root.add(train, weight, FamilyTrain(rank, Fraction(weight, whole), _counts(train, doubtful)))
+        path = [root]
+        for step in _steps(train):
+            path.append(path[-1].below.setdefault(step, _Node()))
+        for node in path:
+            node.weight += weight
+            node.solutions += 1
+        counts = {wheel.name: wheel.teeth for arbor in train.arbors() for wheel in arbor.wheels()}
+        names = (*(wheel.name for wheel in train.added_wheels()), *(name for name in doubtful if name in counts))
+        path[-1].ends.append(FamilyTrain(rank, Fraction(weight, whole), {name: counts[name] for name in names}))
     return tuple(_branches(root))
 
 
@@ -375,18 +372,6 @@ class _Node:
     solutions: int = 0
     below: dict[str, _Node] = field(default_factory=dict)
     ends: list[FamilyTrain] = field(default_factory=list)
-
-    def add(self, train: NamedArbor, weight: int, end: FamilyTrain) -> None:
-        node = self
-        node._count(weight)
-        for step in _steps(train):
-            node = node.below.setdefault(step, _Node())
-            node._count(weight)
-        node.ends.append(end)
-
-    def _count(self, weight: int) -> None:
-        self.weight += weight
-        self.solutions += 1
 
 
 def _branches(root: _Node) -> Iterator[FamilyBranch]:
@@ -407,22 +392,13 @@ def _branches(root: _Node) -> Iterator[FamilyBranch]:
 
 
 def _steps(train: NamedArbor) -> Iterator[str]:
+    """Yield the meshes of a train as text, each followed by the pointers of the driven arbor in parentheses."""
     if train.dials:
-        yield _pointers_text(train)
+        yield f"({', '.join(train.dials)})"
     for _, wheel, arbor in train.meshes():
         assert arbor.driven is not None
-        yield f"{wheel.name} > {arbor.driven.name}{_pointers_text(arbor) and f' {_pointers_text(arbor)}'}"
-
-
-def _pointers_text(arbor: NamedArbor) -> str:
-    return f"({', '.join(arbor.dials)})" if arbor.dials else ""
-
-
-def _counts(train: NamedArbor, doubtful: Sequence[str]) -> dict[str, int]:
-    wheels = [wheel for arbor in train.arbors() for wheel in arbor.wheels()]
-    counts = {wheel.name: wheel.teeth for wheel in wheels}
-    names = (*(wheel.name for wheel in wheels if wheel.added), *(name for name in doubtful if name in counts))
-    return {name: counts[name] for name in names}
+        pointers = f" ({', '.join(arbor.dials)})" if arbor.dials else ""
+        yield f"{wheel.name} > {arbor.driven.name}{pointers}"
 
 
 # --------------------------------------------------------------------------------------------------------- all findings

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from geartrain.numerics.results import Key, Result
+from geartrain.search.reconstruct.candidate_names import named_candidate
 from geartrain.search.reconstruct.candidate_rules import BrokenRule, broken_rules, find_known_train
 from geartrain.search.reconstruct.explained_facts import (
     LOOKED_FOR,
@@ -23,7 +24,6 @@ from geartrain.search.reconstruct.reconstruction_search import (
     train_prior,
     weight_ranks,
 )
-from geartrain.search.reconstruct.train_construction import named_candidate
 from geartrain.train import Train
 
 

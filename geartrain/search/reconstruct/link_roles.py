@@ -71,7 +71,6 @@ def base_problems(evidence: Train) -> Iterator[Problem]:
         fix = "give the speed as a fraction in the unit of the train, such as `1/19`"
         yield Problem("the speed of an input is not a fraction", "a reconstruction needs exact speeds", fix, place)
     elif carrier is None:
-        yield from _input_problems(evidence)
         yield from _frame_problems(evidence)
     elif carrier == evidence.frame:
         why = "arbors turn on the frame if no carrier is named"
@@ -79,17 +78,15 @@ def base_problems(evidence: Train) -> Iterator[Problem]:
         yield Problem("the frame is not a carrier", why, fix, evidence.place("reconstruct", "carrier"))
     else:
         yield from _carrier_speed_problems(evidence, carrier)
-        yield from _carrier_wheel_problems(evidence, carrier)
-        yield from _carrier_arbor_problems(evidence, carrier)
-        yield from _carrier_pointer_problems(evidence, carrier)
-        yield from _carrier_geometry_problems(evidence)
+        yield from _carrier_part_problems(evidence, carrier)
 
 
 def _carrier(evidence: Train) -> str | None:
     return None if evidence.reconstruct is None else evidence.reconstruct.carrier
 
 
-def _input_problems(evidence: Train) -> Iterator[Problem]:
+def _frame_problems(evidence: Train) -> Iterator[Problem]:
+    """Yield the problems of evidence in which arbors turn on the frame."""
     inputs = evidence.case(None).inputs
     turning = [link for link, speed in inputs.items() if speed]
     if len(turning) != 1 or len(inputs) != 1:
@@ -104,9 +101,6 @@ def _input_problems(evidence: Train) -> Iterator[Problem]:
         why = "a fixed wheel meshes only with arbors on a carrier"
         fix = "name the carrier as `carrier`, with its speed as an input, or remove the wheels of the frame"
         yield Problem(what, why, fix, evidence.place("links", evidence.frame))
-
-
-def _frame_problems(evidence: Train) -> Iterator[Problem]:
     for at, joint in enumerate(evidence.revolutes):
         if evidence.frame not in joint.pair:
             what = "an arbor turns on a moving link that is not the `carrier`"
@@ -151,18 +145,15 @@ def _carrier_speed_problems(evidence: Train, carrier: str) -> Iterator[Problem]:
             yield Problem(f"the speed of the input '{link}' is 0", _ONE_START, fix, place)
 
 
-def _carrier_wheel_problems(evidence: Train, carrier: str) -> Iterator[Problem]:
+def _carrier_part_problems(evidence: Train, carrier: str) -> Iterator[Problem]:
+    """Yield a problem for each wheel and pointer of the carrier, for each arbor that turns neither on the carrier nor
+    in the frame about the axis of the carrier, and for a declared geometry.
+    """
     for name in evidence.links[carrier].wheels:
         what = f"'{name}' is a wheel of the carrier"
         why = "a link that turns with the carrier cannot drive arbors on the carrier"
         fix = "remove it, or describe the arbors that it drives in separate evidence"
         yield Problem(what, why, fix, evidence.place("links", carrier, "wheels", name))
-
-
-def _carrier_arbor_problems(evidence: Train, carrier: str) -> Iterator[Problem]:
-    """Yield a problem for each arbor that turns neither on the carrier nor in the frame about the axis of the
-    carrier.
-    """
     axis = carrier_axis(evidence, carrier)
     for at, joint in enumerate(evidence.revolutes):
         place = evidence.place("revolutes", at)
@@ -177,29 +168,20 @@ def _carrier_arbor_problems(evidence: Train, carrier: str) -> Iterator[Problem]:
             what = "an arbor turns on a second moving link"
             fix = "put it on the carrier, or remove it"
             yield Problem(what, "a reconstruction supports one carrier", fix, place)
+    for name, output in evidence.outputs.items():
+        if output.of == carrier:
+            what, why = f"the pointer '{name}' is on the carrier", "the speed of the carrier is already an input"
+            place = evidence.place("outputs", name)
+            yield Problem(what, why, "remove the output, or correct its `of`", place)
+    if evidence.reconstruct is not None and evidence.reconstruct.geometry is not None:
+        what, place = "`geometry` is not supported for arbors on a carrier", evidence.place("reconstruct", "geometry")
+        yield Problem(what, "axes on a carrier move", "delete `geometry`", place)
 
 
 def carrier_axis(evidence: Train, carrier: str) -> str | None:
     """Return the label of the declared axis about which the carrier turns; None if the axis is not declared."""
     pair = {evidence.frame, carrier}
     return next((joint.axis for joint in evidence.revolutes if set(joint.pair) == pair), None)
-
-
-def _carrier_pointer_problems(evidence: Train, carrier: str) -> Iterator[Problem]:
-    for name, output in evidence.outputs.items():
-        if output.of == carrier:
-            what, why = f"the pointer '{name}' is on the carrier", "the speed of the carrier is already an input"
-            place = evidence.place("outputs", name)
-            yield Problem(what, why, "remove the output, or correct its `of`", place)
-
-
-def _carrier_geometry_problems(evidence: Train) -> Iterator[Problem]:
-    requested = evidence.reconstruct
-    assert requested is not None
-    if requested.geometry is not None:
-        what = "`geometry` is not supported for arbors on a carrier"
-        fix = "delete `geometry`"
-        yield Problem(what, "axes on a carrier move", fix, evidence.place("reconstruct", "geometry"))
 
 
 # Arbors that a given coupling joins: they have the same mean speed, and are one arbor in the problem, with the wheels
@@ -338,7 +320,7 @@ def parted_problems(evidence: Train, problem: ReconstructionProblem, joined: Joi
     """
     for name, links in joined.items():
         places = {problem.geometry.places.get(link) for link in links}
-        axes = {frozenset(_coaxial_arbors(problem, link)) - set(links) for link in links}
+        axes = {frozenset().union(*(pair for pair in problem.coaxial if link in pair)) - set(links) for link in links}
         if len(places) > 1 or len(axes) > 1:
             said = " and ".join(f"'{link}'" for link in links)
             what = f"{said} are connected, but are on different axes"
@@ -346,9 +328,3 @@ def parted_problems(evidence: Train, problem: ReconstructionProblem, joined: Joi
             fix = f"remove the axis of '{name}', and list in `apart` the pairs of wheels that do not mesh"
             place = next(loc for pair, loc in _pairs(evidence) if name in pair)
             yield Problem(what, why, fix, evidence.place(*place))
-
-
-def _coaxial_arbors(problem: ReconstructionProblem, link: str) -> Iterator[str]:
-    for pair in problem.coaxial:
-        if link in pair:
-            yield from pair

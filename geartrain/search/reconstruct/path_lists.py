@@ -8,11 +8,10 @@ which every dial still has a path.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache, cached_property
 from math import prod
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -132,8 +131,7 @@ def _is_named(wheel: PlacedWheel | None, name: str) -> bool:
 # Partial paths through surviving arbors as columns of arrays, millions at a time.
 
 
-@dataclass(frozen=True)
-class PathGrowth:
+class PathGrowth(NamedTuple):
     """Partial paths through some of the arbors. Each row of the arrays represents one path."""
 
     codes: NDArray[np.uint16]
@@ -162,30 +160,14 @@ class PathGrowth:
     """True for each path that ends at one of the surviving arbors."""
 
     @staticmethod
-    def start(arbors: int, speed: float, powers: NDArray[np.int8]) -> PathGrowth:
-        """Return a single path through no arbor, from which the enumeration starts."""
-        none = np.zeros(1, dtype=np.int8)
-        return PathGrowth(
-            np.zeros((1, arbors), dtype=np.uint16),
-            np.array([speed]),
-            powers[None, :],
-            *(none,) * 5,
-            np.zeros(1, dtype=bool),
-        )
-
-    def columns(self) -> tuple[NDArray[Any], ...]:
-        """Return all arrays of the partial paths. Each of them has one row for each path."""
-        numbers = self.drivers, self.driven, self.added, self.idle, self.need
-        return self.codes, self.ratio, self.powers, *numbers, self.ended
-
-    @staticmethod
     def joined(parts: list[PathGrowth]) -> PathGrowth:
         """Return the paths of several parts, joined into one set of arrays."""
-        return PathGrowth(*map(np.concatenate, zip(*(part.columns() for part in parts), strict=True)))
+        return PathGrowth(*map(np.concatenate, zip(*parts, strict=True)))
 
     def kept(self, rows: Bools | np.bool_ | slice) -> PathGrowth:
         """Return the selected paths with the corresponding rows of all arrays."""
-        return PathGrowth(*(column[rows] for column in self.columns()))
+        columns: tuple[Any, ...] = self
+        return PathGrowth(*(column[rows] for column in columns))
 
     def along(
         self,
@@ -215,7 +197,7 @@ class PathGrowth:
             good &= self.added <= wheels - each.added
             if debts is not None:
                 good &= self.idle <= debts - each.idle
-        return replace(self, need=need).kept(good)
+        return self._replace(need=need).kept(good)
 
     def through(self, at: int, code: int, each: ArborPass, ratio: float, powers: NDArray[np.int8]) -> PathGrowth:
         """Return the paths extended by a pass of the arbor with index `at`. Paths that have ended must not be
@@ -276,7 +258,12 @@ class PathList:
         every = (problem.input, *problem.arbors)
         self.passes = tuple(tuple(self._passes(at)) for at in range(len(every)))
         self._seen = SeenMeshes(problem, self.passes)
-        plans = tuple(_plans(problem.additions.wheels, problem.idlers))
+        most = problem.additions.wheels
+        plans: tuple[AddedArbors, ...] = tuple(
+            (compounds, idlers)
+            for compounds in range(most // 2 + 1)
+            for idlers in range(most - 2 * compounds + 1 if problem.idlers else 1)
+        )
         growth, possible = self._possible_paths(plans)
         rows, taken = np.nonzero(possible)
         bits = np.int64(1) << np.arange(len(every) - 1, dtype=np.int64)
@@ -308,7 +295,15 @@ class PathList:
         """Return the complete paths, and a Boolean matrix that is True for the plans of added arbors that are possible
         with each path.
         """
-        growth = PathGrowth.start(len(self.passes), float(abs(self.problem.input_speed)), self._powers(self._wanted))
+        # a single path through no arbor
+        zero = np.zeros(1, dtype=np.int8)
+        growth = PathGrowth(
+            np.zeros((1, len(self.passes)), dtype=np.uint16),
+            np.array([float(abs(self.problem.input_speed))]),
+            self._powers(self._wanted)[None, :],
+            *(zero,) * 5,
+            ended=np.zeros(1, dtype=bool),
+        )
         self._examined = 0
         found = []
         for piece in self._grown(growth, self._seen.order):
@@ -349,12 +344,10 @@ class PathList:
             good = self._seen.allowed(growth.codes, at, code)
             own = growth if good is None else growth.kept(good)
             self._examined += len(own.codes)
-            if each is None:
-                parts.append(own.along(closing, self._lost, None, np.zeros(len(self.primes), dtype=np.int8), limits))
-            else:
-                ratio, powers = self._step(each)
-                allowed = own.along(closing, self._lost, each, powers, limits)
-                parts.append(allowed.through(at, code, each, ratio, powers))
+            ratio = Fraction(1) if each is None else _known_ratio(each)
+            powers = self._powers(1 / ratio)
+            allowed = own.along(closing, self._lost, each, powers, limits)
+            parts.append(allowed if each is None else allowed.through(at, code, each, float(ratio), powers))
         if self._examined > _MOST_PATHS:
             what = f"more than {_MOST_PATHS} paths to '{self.dial.name}' would have to be examined"
             raise QuestionError(too_wide(self.problem, what))
@@ -368,13 +361,6 @@ class PathList:
             return True
         arbor = (self.problem.input, *self.problem.arbors)[at]
         return self._along.get(arbor.name) == (None if each is None else (each.driven, each.driver))
-
-    def _step(self, each: ArborPass) -> tuple[float, NDArray[np.int8]]:
-        """Return the speed ratio of a pass, and the change of the exponents of the large primes due to the pass."""
-        if each.idler:
-            return 1.0, np.zeros(len(self.primes), dtype=np.int8)
-        ratio = Fraction(_known_count(each.driver), _known_count(each.driven))
-        return float(ratio), self._powers(1 / ratio)
 
     # large primes: an added tooth count contains at most one of them
 
@@ -429,26 +415,11 @@ class PathList:
             if self.problem.additions.arbors is not None:
                 fits &= arbors <= self.problem.additions.arbors
             turned = self._turned(growth.codes, arbors)
-            fits &= np.where(turned, self._may_turn(True), self._may_turn(False))
+            # a sense whose maximum magnitude is 0 is excluded
+            fits &= np.where(turned, self._magnitudes(True)[1] > 0, self._magnitudes(False)[1] > 0)
             fits &= self._may_be_quotient(growth, compounds, turned, fits)
             found[:, at] = fits
         return found
-
-    def _ring_meshes(self, codes: NDArray[np.uint16]) -> NDArray[np.int64]:
-        """Return, for each path, the number of meshes with a ring. These meshes do not reverse the sense of
-        rotation.
-        """
-        found = np.zeros(len(codes), dtype=np.int64)
-        if self.problem.rings:
-            for at, passes in enumerate(self.passes):
-                found += np.array([0, *(each.meshes_with(self.problem.rings) for each in passes)])[codes[:, at]]
-        return found
-
-    def _may_turn(self, turned: bool) -> bool:
-        """Return whether the dial may turn in the sense opposite to the input (if `turned` is True) or in the sense of
-        the input (if it is False).
-        """
-        return self._magnitudes(turned)[1] > 0
 
     def _magnitudes(self, turned: bool) -> tuple[Fraction, Fraction]:
         """Return the minimum and the maximum magnitude of the speed of the dial for one sense of rotation. The maximum
@@ -480,25 +451,31 @@ class PathList:
         """Return, for each path, whether the dial turns in the sense opposite to the input. `new` contains the number
         of added arbors of each path.
         """
-        return np.asarray(((codes[:, 1:] > 0).sum(axis=1) + new - self._ring_meshes(codes)) % 2 == 1)
+        reversals = (codes[:, 1:] > 0).sum(axis=1) + new
+        rings = self.problem.rings
+        for at, passes in enumerate(self.passes if rings else ()):
+            # a mesh with a ring does not reverse the sense; an idler has two meshes
+            wheels = [(each.driven, each.driver) for each in passes]
+            meshes = [0, *(sum(wheel is not None and wheel.name in rings for wheel in pair) for pair in wheels)]
+            reversals -= np.array(meshes)[codes[:, at]]
+        return np.asarray(reversals % 2 == 1)
 
     def wanted_quotients(self, row: int) -> tuple[Fraction, Fraction]:
         """Return the minimum and the maximum required quotient of the added wheels on the path in a given row."""
-        taken = [passes[code - 1] for passes, code in zip(self.passes, self.codes[row], strict=True) if code]
-        ratios = (Fraction(_known_count(each.driver), _known_count(each.driven)) for each in taken if not each.idler)
-        known = prod(ratios, start=abs(self.problem.input_speed))
+        taken = (passes[code - 1] for passes, code in zip(self.passes, self.codes[row], strict=True) if code)
+        known = prod(map(_known_ratio, taken), start=abs(self.problem.input_speed))
         (turned,) = self._turned(self.codes[[row]], self.new[[row]])
         low, high = self._magnitudes(bool(turned))
         return low / known, high / known
 
 
-def _plans(wheels: int, idlers: bool) -> Iterator[AddedArbors]:
-    for compounds in range(wheels // 2 + 1):
-        for single in range(wheels - 2 * compounds + 1 if idlers else 1):
-            yield compounds, single
+def _known_ratio(each: ArborPass) -> Fraction:
+    """Return the factor of the speed due to the surviving wheels of a pass: driving by driven tooth count. It is 1 for
+    an idler, which is both.
+    """
+    return Fraction(_known_count(each.driver), _known_count(each.driven))
 
 
-def _known_count(wheel: object) -> int:
+def _known_count(wheel: PlacedWheel | None) -> int:
     """Return the tooth count of a surviving wheel. Return 1 for an added wheel and for None."""
-    teeth = getattr(wheel, "teeth", 1)
-    return teeth if wheel is not None and wheel != ADDED else 1
+    return 1 if wheel is None or wheel == ADDED else wheel.teeth

@@ -7,12 +7,12 @@ that are common to several paths.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import reduce
 from itertools import combinations, product
-from operator import and_
-from typing import NamedTuple
+from operator import and_, or_
+from typing import NamedTuple, TypeVar
 
 from geartrain.numerics.graphs import joined_groups
 from geartrain.search.reconstruct.path_lists import PathList
@@ -68,18 +68,12 @@ def partitions(dials: Dials, arbors: Mapping[str, int]) -> Iterator[tuple[Dials,
     The first dial is in the first block.
     """
     place = {dial: at for at, dial in enumerate(dials)}
-    for blocks in _set_partitions(_connected_dials(dials, arbors)):
+    # dials whose paths have a common arbor are in one group
+    joined = (pair for pair in combinations(dials, 2) if arbors[pair[0]] & arbors[pair[1]])
+    for blocks in _set_partitions(tuple(map(tuple, joined_groups(dials, joined)))):
         yield tuple(
             tuple(sorted((dial for group in block for dial in group), key=place.__getitem__)) for block in blocks
         )
-
-
-def _connected_dials(dials: Dials, arbors: Mapping[str, int]) -> tuple[Dials, ...]:
-    """Return the connected components of dials. Two dials are connected if their paths have a common surviving
-    arbor.
-    """
-    joined = (pair for pair in combinations(dials, 2) if arbors[pair[0]] & arbors[pair[1]])
-    return tuple(map(tuple, joined_groups(dials, joined)))
 
 
 def _set_partitions(groups: tuple[Dials, ...]) -> Iterator[tuple[tuple[Dials, ...], ...]]:
@@ -94,7 +88,7 @@ def _set_partitions(groups: tuple[Dials, ...]) -> Iterator[tuple[tuple[Dials, ..
                 yield ((groups[0], *others), *blocks)
 
 
-_Drive = tuple[PlacedWheel | None, tuple[Chain, ...]]
+_T = TypeVar("_T")
 _ENDLESS = 1 << 20  # number of added arbors if it is not limited
 
 
@@ -160,14 +154,11 @@ class PathTrees:
         """Yield all topologies that have exactly `added` added wheels and, for each dial, the path in the chosen row of
         its list.
         """
-        roots = self.roots({dial: self._path(dial, choice[dial]) for dial in self.lists}, added)
+        paths = {dial: self._path(dial, choice[dial]) for dial in self.lists}
+        roots = [root for root, left in self._branching(0, paths, _Budget(added, self._new)) if not left.wheels]
         if roots:
             wanted = tuple((dial, self.lists[dial].wanted_quotients(choice[dial])) for dial in self.lists)
             yield from (Topology(root, wanted) for root in roots)
-
-    def roots(self, paths: Paths, added: int) -> list[Branching]:
-        """Return the input arbor of each tree that has the given paths and exactly `added` added wheels."""
-        return [root for root, left in self._branching(0, paths, _Budget(added, self._new)) if not left.wheels]
 
     def _path(self, dial: str, row: int) -> DialPath:
         paths = self.lists[dial]
@@ -185,23 +176,31 @@ class PathTrees:
         """
         for blocks in partitions(tuple(paths), _own_arbors(paths)):
             if len(blocks) >= minimum:
-                yield from self._chains([_restricted(paths, block) for block in blocks], left)
+                yield from self._each_block([_restricted(paths, block) for block in blocks], left, self._chain)
 
-    def _chains(self, blocks: Sequence[Paths], left: _Budget) -> Iterator[tuple[tuple[Chain, ...], _Budget]]:
-        """Yield each set of chains with one chain for each block of dials. The added wheels required by later blocks
-        are reserved.
+    def _each_block(
+        self,
+        blocks: Sequence[Paths],
+        left: _Budget,
+        subtrees: Callable[[Paths, _Budget], Iterator[tuple[_T, _Budget]]],
+    ) -> Iterator[tuple[tuple[_T, ...], _Budget]]:
+        """Yield each combination of one subtree for each block of dials, and the remaining budget. The added wheels
+        required by later blocks are reserved.
+
+        subtrees   function that yields the subtrees for one block within a budget
         """
         if not blocks:
             yield (), left
             return
         kept = sum(map(_needed_wheels, blocks[1:]))
-        for chain, after in self._chain(blocks[0], left.without(kept)):
-            for others, end in self._chains(blocks[1:], after.without(-kept)):
-                yield (chain, *others), end
+        if _needed_wheels(blocks[0]) > left.wheels - kept:
+            return
+        for subtree, after in subtrees(blocks[0], left.without(kept)):
+            for others, end in self._each_block(blocks[1:], after.without(-kept), subtrees):
+                yield (subtree, *others), end
 
     def _chain(self, paths: Paths, left: _Budget) -> Iterator[tuple[Chain, _Budget]]:
-        if _needed_wheels(paths) > left.wheels:
-            return
+        """Yield each chain that leads to the dials of the given paths, and the remaining budget."""
         if len(paths) == 1:
             ((dial, path),) = paths.items()
             yield from self._single_chain(dial, path, left)
@@ -226,11 +225,8 @@ class PathTrees:
                     yield from _with_ends(trunk, self._branching(last, below, after))
 
     def _trunks(self, paths: Paths, through: tuple[int, ...], left: _Budget) -> Iterator[tuple[Chain, _Budget, Paths]]:
-        """Yield each chain that consists of the surviving arbors `through` and of added arbors that all paths can
-        share. The end of the chain is not yet determined.
-
-        The second item is the remaining budget of added wheels and arbors, and the third item is the remaining part of
-        each path.
+        """Yield each chain, without its end, of the surviving arbors `through` and of added arbors that all paths can
+        share; with the remaining budget and the remaining part of each path.
         """
         passes = paths_first(paths).passes
         named = tuple((self.names[at], passes[at]) for at in through)
@@ -309,7 +305,10 @@ class PathTrees:
         """Yield each branching at an added arbor that carries pointers or has several exits, and the remaining
         budget.
         """
-        ways = {dial: tuple(_ways_from_added(path)) for dial, path in paths.items()}
+        ways: dict[str, tuple[str, ...]] = {}
+        for dial, path in paths.items():
+            exits = ((HERE, path.is_at_end and path.ends_new), (BESIDE, path.compounds), (IDLER, path.idlers))
+            ways[dial] = tuple(way for way, is_open in exits if is_open)
         after = left.without(1, 1)
         if not after.is_possible or not all(ways.values()):
             return
@@ -340,26 +339,15 @@ class PathTrees:
         left: _Budget,
     ) -> Iterator[tuple[Branching, _Budget]]:
         """Yield a branching for each set of chains that its wheels can drive, and the remaining budget."""
-        if not _are_disjoint([dials for _, dials in blocks], paths):
+        masks = [reduce(or_, (paths[dial].arbors for dial in dials)) for _, dials in blocks]
+        if any(one & other for one, other in combinations(masks, 2)):
             return
         after = left.without(sum(way == BESIDE for way, _ in blocks))
-        for drives, end in self._drives([_restricted(paths, dials) for _, dials in blocks], drivers, after):
+        for forests, end in self._each_block([_restricted(paths, dials) for _, dials in blocks], after, self._forest):
+            drives = list(zip(drivers, forests, strict=True))
             driving = tuple((wheel, chains) for wheel, chains in drives if wheel is not None)
             passes = tuple(chain for wheel, chains in drives if wheel is None for chain in chains)
             yield Branching(name, driven, here, driving, passes), end
-
-    def _drives(
-        self, blocks: Sequence[Paths], drivers: Sequence[PlacedWheel | None], left: _Budget
-    ) -> Iterator[tuple[tuple[_Drive, ...], _Budget]]:
-        if not blocks:
-            yield (), left
-            return
-        kept = sum(map(_needed_wheels, blocks[1:]))
-        if kept + _needed_wheels(blocks[0]) > left.wheels:
-            return
-        for chains, after in self._forest(blocks[0], left.without(kept)):
-            for drives, end in self._drives(blocks[1:], drivers[1:], after.without(-kept)):
-                yield ((drivers[0], chains), *drives), end
 
 
 def paths_first(paths: Paths) -> DialPath:
@@ -380,25 +368,10 @@ def _needed_wheels(paths: Paths) -> int:
     return max(path.wheels for path in paths.values())
 
 
-def _are_disjoint(blocks: Sequence[Dials], paths: Paths) -> bool:
-    masks = [reduce(lambda bits, dial: bits | paths[dial].arbors, block, 0) for block in blocks]
-    return not any(one & other for one, other in combinations(masks, 2))
-
-
 def _with_ends(
     trunk: Chain, ends: Iterator[tuple[Branching, _Budget]] | Iterator[tuple[tuple[Chain, ...], _Budget]]
 ) -> Iterator[tuple[Chain, _Budget]]:
     yield from ((replace(trunk, end=end), after) for end, after in ends)
-
-
-def _ways_from_added(path: DialPath) -> Iterator[str]:
-    """Yield the exits by which a path may leave an added arbor."""
-    if path.is_at_end and path.ends_new:
-        yield HERE
-    if path.compounds:
-        yield BESIDE
-    if path.idlers:
-        yield IDLER
 
 
 def _arbors(bits: int) -> Iterator[int]:

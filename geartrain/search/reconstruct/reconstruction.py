@@ -4,7 +4,7 @@ as lost.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field
 from typing import Literal
@@ -23,7 +23,7 @@ from geartrain.search.reconstruct.evidence_translation import EvidenceQuestion, 
 from geartrain.search.reconstruct.explained_facts import NO_FINDINGS, CandidateFindings, find_facts
 from geartrain.search.reconstruct.known_rank import KnownRank, rank_known_train
 from geartrain.search.reconstruct.link_roles import BaseLink, Joined
-from geartrain.search.reconstruct.reconstruction_problem import Arbor, ReconstructionProblem, RequestedQuestion
+from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem, RequestedQuestion
 from geartrain.search.reconstruct.reconstruction_search import (
     Candidate,
     ExplanationCount,
@@ -236,42 +236,42 @@ def reconstruct(request: ReconstructionRequest, run: ReconstructionRun | None = 
     (2, {'new_metonic1': 53})
     """
     run = run or ReconstructionRun()
-    evidence, original = _lost_train(request) if request.lost else (request.evidence, None)
+    evidence, original = request.evidence, None
+    if request.lost:
+        tree = find_spur_tree(request.evidence, request.lost, request.source)
+        evidence = lost_evidence(tree, request.lost, request.seen)
+        original = tree.arbor(lost_arbors(tree, request.lost))
     question = evidence_question(evidence, request.wheels, request.idlers)
     _check_known(request, question)
     problem = question.problem
     run.begin(problem)
-    listing = (
-        0 if request.counts_only else _MOST_LISTED if request.best is None else max(request.best, _MINIMUM_COMPARED)
-    )
+    listing = _MOST_LISTED if request.best is None else max(request.best, _MINIMUM_COMPARED)
     with run.search(problem) as execution:
-        found = find_reconstructions(problem, execution, listing, request.prior_of)
+        found = find_reconstructions(problem, execution, 0 if request.counts_only else listing, request.prior_of)
     run.searched(found.complete)
-    dropped = _without_facts(problem, run) if request.assumptions and found.complete else ()
     listed = () if request.counts_only else found.candidates[: request.best]
+    best = []
+    for rank, candidate in enumerate(listed, 1):
+        train = TrainConstruction(evidence, candidate.arbor)
+        meshes = tuple(f"{driving} > {driven}" for driving, driven in train.meshes)
+        best.append(
+            RankedTrain(rank, candidate.ranks, candidate.added, candidate.weight, train.added, train.doubtful, meshes)
+        )
     return ReconstructionAnswer(
         evidence.name,
         problem,
         found.counts,
         found.complete,
         question.unused,
-        best=tuple(_ranked(evidence, listed)),
+        best=tuple(best),
         known=tuple(rank_known_train(train, evidence, problem, found, request.same) for train in request.known),
         original=None if original is None else rank_of(original, found),
-        findings=_findings(evidence, problem, found, dropped, request.counts_only, run),
+        findings=_findings(request, evidence, problem, found, run),
         base=question.base,
         joined=question.joined,
         evidence=evidence,
         candidates=listed,
     )
-
-
-def _lost_train(request: ReconstructionRequest) -> tuple[Train, Arbor]:
-    """Return the evidence that remains of a train after the loss of some arbors, and the complete train as a
-    candidate.
-    """
-    tree = find_spur_tree(request.evidence, request.lost, request.source)
-    return lost_evidence(tree, request.lost, request.seen), tree.arbor(lost_arbors(tree, request.lost))
 
 
 def _check_known(request: ReconstructionRequest, question: EvidenceQuestion) -> None:
@@ -284,31 +284,24 @@ def _check_known(request: ReconstructionRequest, question: EvidenceQuestion) -> 
         find_known_train(train, question.problem, request.same)
 
 
-def _without_facts(problem: ReconstructionProblem, run: ReconstructionRun) -> tuple[ChangedCount, ...]:
-    """Return the number of trains without each hard constraint. After an interruption, only completed results are
-    returned.
-    """
-    counted: list[ChangedCount] = []
-    with run.part("assumptions") as execution:
-        for each in changed_counts(without_each_fact(problem), execution):
-            counted.append(each)
-    return tuple(counted)
-
-
 def _findings(
+    request: ReconstructionRequest,
     evidence: Train,
     problem: ReconstructionProblem,
     found: Reconstructions,
-    dropped: tuple[ChangedCount, ...],
-    counts_only: bool,
     run: ReconstructionRun,
 ) -> CandidateFindings:
     """Return the facts derived from the candidates or, if there are none, the reasons why no train explains the
-    evidence.
-
-    If `counts_only` is True, the result contains only the numbers of trains without each hard constraint.
+    evidence, and the numbers of trains without each hard constraint if they are requested.
     """
-    if counts_only:
+    counted: list[ChangedCount] = []
+    if request.assumptions and found.complete:
+        with run.part("assumptions") as execution:
+            # one by one, because an interruption keeps those that are counted
+            for each in changed_counts(without_each_fact(problem), execution):
+                counted.append(each)
+    dropped = tuple(counted)
+    if request.counts_only:
         return CandidateFindings(assumptions=dropped)
     if found.complete and not any(count.solutions for count in found.counts):
         missing = None
@@ -316,10 +309,3 @@ def _findings(
             missing = explain_missing(problem, execution)
         return CandidateFindings(assumptions=dropped, missing=missing)
     return find_facts(evidence, problem, found, dropped)
-
-
-def _ranked(evidence: Train, listed: Sequence[Candidate]) -> Iterator[RankedTrain]:
-    for rank, candidate in enumerate(listed, 1):
-        train = TrainConstruction.of(evidence, candidate.arbor)
-        meshes = tuple(f"{driving} > {driven}" for driving, driven in train.meshes)
-        yield RankedTrain(rank, candidate.ranks, candidate.added, candidate.weight, train.added, train.doubtful, meshes)

@@ -25,8 +25,6 @@ from geartrain.train import Train
 
 Place = tuple[Fraction, Fraction]
 Bounds = tuple[Fraction, Fraction]
-Size = tuple[str | None, int]
-"""Name of a wheel (None for an added wheel) and its tooth count."""
 
 NEW = "new"
 """Value of `SearchedDial.place` for a dial whose pointer is on an arbor that does not survive."""
@@ -86,12 +84,12 @@ class SurvivingGeometry:
         """Measured wheels, keyed by name."""
         return {wheel.name: wheel for wheel in self.wheels}
 
-    def module_of(self, size: Size) -> Fraction | None:
+    def module_of(self, wheel: PlacedWheel) -> Fraction | None:
         """Return the module of a wheel [mm]; None if the wheel was not measured."""
-        wheel = self.measured.get(size[0])
-        if wheel is None:
+        measured = self.measured.get(wheel.name)
+        if measured is None:
             return None
-        return wheel.length if wheel.is_module else 2 * wheel.length / size[1]
+        return measured.length if measured.is_module else 2 * measured.length / wheel.teeth
 
     def square_distance(self, first: str | None, second: str | None) -> Fraction | None:
         """Return the square of the distance between the axes of two arbors [mm2]; None if one of the positions is not
@@ -102,34 +100,20 @@ class SurvivingGeometry:
         (x, y), (u, v) = self.places[first], self.places[second]
         return (x - u) ** 2 + (y - v) ** 2
 
-    def radii_sum(self, first: Size, second: Size) -> Fraction | None:
+    def radii_sum(self, first: PlacedWheel, second: PlacedWheel) -> Fraction | None:
         """Return the sum of the pitch radii of two meshing wheels [mm]; None if neither wheel was measured.
 
         An unmeasured wheel is assumed to have the module of its mate.
         """
-        module, other = self.module_of(first), self.module_of(second)
-        if module is None and other is None:
-            return None
-        module, other = (other if module is None else module), (module if other is None else other)
-        assert module is not None
-        assert other is not None
-        return (module * first[1] + other * second[1]) / 2
+        module, mate = self.module_of(first), self.module_of(second)
+        module, mate = (mate if module is None else module), (module if mate is None else mate)
+        return None if module is None or mate is None else (module * first.teeth + mate * second.teeth) / 2
 
-    def distance_bounds(self, first: Size, second: Size) -> Bounds | None:
-        """Return the minimum and the maximum axis distance of two meshing wheels [mm]; None if the distance is not
-        limited.
-        """
-        own, mate = self.module_bounds(first, second), self.module_bounds(second, first)
-        if own is None or mate is None or self.reach is None:
-            return None
-        minimum, maximum = ((one * first[1] + other * second[1]) / 2 for one, other in zip(own, mate, strict=True))
-        return max(Fraction(0), minimum - self.reach), maximum + self.reach
-
-    def module_bounds(self, size: Size, mate: Size) -> Bounds | None:
+    def module_bounds(self, wheel: PlacedWheel, mate: PlacedWheel) -> Bounds | None:
         """Return the minimum and the maximum module of a wheel that meshes with `mate` [mm]; None if neither wheel was
         measured.
         """
-        module = self.module_of(size)
+        module = self.module_of(wheel)
         if module is not None:
             return module, module
         module = self.module_of(mate)
@@ -139,17 +123,21 @@ class SurvivingGeometry:
         spread = min(Fraction(1), UNMEASURED_SPREADS * self.module)
         return module * (1 - spread), module * (1 + spread)
 
-    def may_mesh(self, arbor: str | None, wheel: Size, other_arbor: str | None, other: Size) -> bool:
+    def may_mesh(self, arbor: str | None, wheel: PlacedWheel, other_arbor: str | None, other: PlacedWheel) -> bool:
         """Return whether two wheels can mesh at the distance between their axes. Return True if the distance is not
         known.
         """
-        square, bounds = self.square_distance(arbor, other_arbor), self.distance_bounds(wheel, other)
+        square = self.square_distance(arbor, other_arbor)
         if square is None:
             return True
         if not square:
             return False  # on one axis
+        own, mate = self.module_bounds(wheel, other), self.module_bounds(other, wheel)
+        if own is None or mate is None or self.reach is None:
+            return True
+        minimum, maximum = ((one * wheel.teeth + two * other.teeth) / 2 for one, two in zip(own, mate, strict=True))
         # squares are exact fractions; distances may be irrational
-        return bounds is None or bounds[0] ** 2 <= square <= bounds[1] ** 2
+        return max(Fraction(0), minimum - self.reach) ** 2 <= square <= (maximum + self.reach) ** 2
 
 
 NO_GEOMETRY = SurvivingGeometry()
@@ -177,6 +165,11 @@ class SurvivingWheel:
     def is_sure(self) -> bool:
         """True if the wheel has a single possible tooth count."""
         return len(self.counts) == 1
+
+    @property
+    def readings(self) -> tuple[PlacedWheel, ...]:
+        """The wheel with each of its possible tooth counts."""
+        return tuple(PlacedWheel(self.name, count) for count, _ in self.counts)
 
 
 @dataclass(frozen=True)
@@ -222,6 +215,10 @@ class SearchedDial(Shown):
     def is_exact(self) -> bool:
         """True if the required range of speeds contains only one speed."""
         return self.minimum == self.maximum
+
+    def accepts(self, speed: Fraction) -> bool:
+        """Return whether a speed [turns per unit of the input] is in the required range."""
+        return self.minimum <= (speed if self.signed else abs(speed)) <= self.maximum
 
 
 @dataclass(frozen=True)
@@ -438,6 +435,12 @@ def too_wide(problem: ReconstructionProblem, what: str) -> Problem:
     return Problem(what, f"the problem has {RequestedQuestion.of(problem)}", "; or ".join(ways))
 
 
+def magnitude_bounds(minimum: Fraction, maximum: Fraction) -> Bounds:
+    """Return the minimum and the maximum magnitude of the numbers between `minimum` and `maximum`."""
+    lower, upper = sorted((abs(minimum), abs(maximum)))
+    return (Fraction(0) if minimum < 0 < maximum else lower), upper
+
+
 def question_digest(problem: ReconstructionProblem) -> str:
     """Return the SHA-256 digest of a problem. The digest does not depend on the order of facts that have no order."""
     return hashlib.sha256(json.dumps(_plain(problem), sort_keys=True).encode("utf-8")).hexdigest()
@@ -466,9 +469,14 @@ def read_geometry_evidence(evidence: Train) -> SurvivingGeometry:
     requested = evidence.reconstruct.geometry
     if requested is None:
         return NO_GEOMETRY
+    modules = (
+        MeasuredWheel(name, True, _millimetres(wheel.module))
+        for name, (_, wheel) in evidence.wheels.items()
+        if wheel.module is not None
+    )
     radii = (MeasuredWheel(name, False, _millimetres(length)) for name, length in requested.radii.items())
     return SurvivingGeometry(
-        (*_modules(evidence), *radii),
+        (*modules, *radii),
         tuple(_placed(evidence)),
         requested.module.base,
         requested.distance.base,
@@ -503,34 +511,28 @@ def refuse_unreachable(evidence: Train, unreachable: frozenset[frozenset[str]]) 
             raise DeclarationError([Problem(what, why, "correct a position or a size, or widen `reach`", place)])
 
 
-def _modules(evidence: Train) -> Iterator[MeasuredWheel]:
-    for name, (_, wheel) in evidence.wheels.items():
-        if wheel.module is not None:
-            yield MeasuredWheel(name, True, _millimetres(wheel.module))
-
-
 def _placed(evidence: Train) -> Iterator[PlacedArbor]:
+    """Yield the declared position of each arbor. `DeclarationError` is raised if there is one although the evidence
+    contains a ring.
+    """
+    ring = next((name for name, (_, wheel) in evidence.wheels.items() if wheel.internal), None)
     for joint in evidence.revolutes:
         axis = evidence.axes.get(joint.axis)
         if axis is None or axis.position is None:
             continue
         x, y, _ = map(_millimetres, axis.position)
         for link in joint.pair:
-            if link != evidence.frame:
-                _check_no_ring(evidence, link, joint.axis)
-                yield PlacedArbor(link, (x, y))
-
-
-def _check_no_ring(evidence: Train, link: str, axis: str) -> None:
-    ring = next((name for name, (_, wheel) in evidence.wheels.items() if wheel.internal), None)
-    if ring is not None:
-        what = f"the position of '{link}' cannot be used as evidence, because '{ring}' is a ring gear"
-        why = (
-            "`distance` compares axis distances with sums of pitch radii, but the centre distance of a ring gear and "
-            "its mate is a difference"
-        )
-        fix = "remove the position of its axis, or `geometry`"
-        raise DeclarationError([Problem(what, why, fix, evidence.place("axes", axis, "position"))])
+            if link == evidence.frame:
+                continue
+            if ring is not None:
+                what = f"the position of '{link}' cannot be used as evidence, because '{ring}' is a ring gear"
+                why = (
+                    "`distance` compares axis distances with sums of pitch radii, but the centre distance of a ring "
+                    "gear and its mate is a difference"
+                )
+                fix = "remove the position of its axis, or `geometry`"
+                raise DeclarationError([Problem(what, why, fix, evidence.place("axes", joint.axis, "position"))])
+            yield PlacedArbor(link, (x, y))
 
 
 def _millimetres(length: Quantity) -> Fraction:
@@ -545,8 +547,8 @@ def find_unreachable(arbors: Sequence[SurvivingArbor], geometry: SurvivingGeomet
     wheels = [(arbor.name, wheel) for arbor in arbors if arbor.name in geometry.places for wheel in arbor.wheels]
     for at, (arbor, wheel) in enumerate(wheels):
         for other_arbor, other in wheels[:at]:
-            counts = product((count for count, _ in wheel.counts), (count for count, _ in other.counts))
+            readings = product(wheel.readings, other.readings)
             if arbor != other_arbor and not any(
-                geometry.may_mesh(arbor, (wheel.name, own), other_arbor, (other.name, mate)) for own, mate in counts
+                geometry.may_mesh(arbor, own, other_arbor, mate) for own, mate in readings
             ):
                 yield frozenset((wheel.name, other.name))

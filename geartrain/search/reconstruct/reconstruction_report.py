@@ -11,7 +11,7 @@ from dataclasses import astuple
 from geartrain.numerics.exact import fraction_text, plural
 from geartrain.report.document import Branch, Document, PageExtras, SceneText, Section, Table, cut, figure, filled_table
 from geartrain.search.reconstruct.candidate_rules import counts_text, speed_text
-from geartrain.search.reconstruct.dropped_facts import MISREAD, ChangedCount, LoneDial, MissingExplanation
+from geartrain.search.reconstruct.dropped_facts import MISREAD, ChangedCount, MissingExplanation
 from geartrain.search.reconstruct.explained_facts import (
     YES,
     Fact,
@@ -19,12 +19,11 @@ from geartrain.search.reconstruct.explained_facts import (
     FactKind,
     FactMarginal,
     FamilyBranch,
-    FamilyTrain,
     NextFact,
 )
-from geartrain.search.reconstruct.known_rank import KnownRank, TellingFact
-from geartrain.search.reconstruct.reconstruction import RankedTrain, ReconstructionAnswer
-from geartrain.search.reconstruct.reconstruction_problem import NEW, SearchedDial
+from geartrain.search.reconstruct.known_rank import KnownRank
+from geartrain.search.reconstruct.reconstruction import ReconstructionAnswer
+from geartrain.search.reconstruct.reconstruction_problem import NEW
 
 _MOST_ANSWERS = 4
 _MOST_ALIKE = 2
@@ -134,10 +133,19 @@ def _given(found: ReconstructionAnswer) -> Iterator[Section]:
         f"{' and '.join(links)} are joined by a pin and slot: they have the same mean speed."
         for links in found.joined.values()
     ]
-    yield Section("Surviving arbors", [_base_text(found), *couplings], [Table(("arbor", "wheels"), rows)])
-    pointers = [(dial.name, speed_text(dial), _place(dial)) for dial in problem.dials]
-    base = found.base
-    speed = f"speed relative to {base.name}" if base is not None and base.is_carrier else "speed"
+    base, source, speed = found.base, problem.input.name, "speed"
+    start = f"{source} is the input."
+    if base is not None and base.is_carrier:
+        start = (
+            f"Arbors turn on the carrier {base.name}, whose speed is {fraction_text(base.speed)}. "
+            f"The speed of {source} relative to it is {fraction_text(base.driven)}."
+        )
+        speed = f"speed relative to {base.name}"
+    yield Section("Surviving arbors", [start, *couplings], [Table(("arbor", "wheels"), rows)])
+    pointers = [
+        (dial.name, speed_text(dial), "one that does not survive" if dial.place == NEW else dial.place or "any")
+        for dial in problem.dials
+    ]
     yield Section("Pointers", (), [Table(("pointer", speed, "on arbor"), pointers)])
     known = [f"{' and '.join(sorted(pair))} mesh." for pair in sorted(problem.meshes, key=sorted)]
     known += [f"{' and '.join(sorted(pair))} do not mesh." for pair in sorted(problem.apart, key=sorted)]
@@ -147,40 +155,17 @@ def _given(found: ReconstructionAnswer) -> Iterator[Section]:
         yield Section("Not used", [f"{line[0].upper()}{line[1:]}." for line in found.unused])
 
 
-def _base_text(found: ReconstructionAnswer) -> str:
-    base, source = found.base, found.problem.input.name
-    if base is None or not base.is_carrier:
-        return f"{source} is the input."
-    turns, seen = fraction_text(base.speed), fraction_text(base.driven)
-    carrier = f"Arbors turn on the carrier {base.name}, whose speed is {turns}."
-    return f"{carrier} The speed of {source} relative to it is {seen}."
-
-
 def _best(found: ReconstructionAnswer, turning: int) -> Section:
     rows = []
     for one in found.best:
-        shown = _rank(one)
-        rank = SceneText(shown, one.rank) if one.rank <= turning else shown
-        rows.append((rank, share_text(one.weight), *_contents(one)))
+        rank = str(one.rank) if one.ranks[0] == one.ranks[1] else f"{one.rank} ({ranks_text(one.ranks)})"
+        added, doubtful = teeth_text(one.wheels) or "none", teeth_text(one.doubtful)
+        rows.append((_scene(rank, one.rank, turning), share_text(one.weight), added, ", ".join(one.meshes), doubtful))
     more = [f"{len(rows)} of {found.total} trains."] if len(rows) < found.total else []
     if any(one.ranks[0] < one.ranks[1] for one in found.best):
         more.append("Parentheses give the ranks that trains of equal weight share.")
-    return Section("Most probable trains", more, [filled_table(("rank", "weight", *_CONTENTS), rows, 4)])
-
-
-_CONTENTS = ("added wheels", "meshes", "uncertain counts")
-
-
-def _contents(one: RankedTrain) -> tuple[str, str, str]:
-    return teeth_text(one.wheels) or "none", ", ".join(one.meshes), teeth_text(one.doubtful)
-
-
-def _rank(one: RankedTrain) -> str:
-    return str(one.rank) if one.ranks[0] == one.ranks[1] else f"{one.rank} ({ranks_text(one.ranks)})"
-
-
-def _place(dial: SearchedDial) -> str:
-    return "any" if dial.place is None else "one that does not survive" if dial.place == NEW else dial.place
+    header = ("rank", "weight", "added wheels", "meshes", "uncertain counts")
+    return Section("Most probable trains", more, [filled_table(header, rows, 4)])
 
 
 # -------------------------------------------------------------------------------------------------------- known trains
@@ -193,48 +178,33 @@ def known_sections(known: Sequence[KnownRank]) -> Iterator[Section]:
     header = ("train", "added wheels", "added arbors", "rank", "rank, equal wheels", "weight", "maximum / weight")
     yield Section("Known trains", [_OF_KNOWN], [Table(header, [_row(one) for one in known])])
     for one in known:
+        notes = [f"{note}." for note in one.notes]
         if one.broken:
             rows = dict.fromkeys((each.what, each.change or "no single change") for each in one.broken)
             table = Table(("property of the train", "change that would admit it"), list(rows))
-            yield Section(f"Rules that {one.train} breaks", list(_note_sentences(one)), [table])
-        elif one.notes:
-            yield Section(f"Notes on {one.train}", list(_note_sentences(one)))
+            yield Section(f"Rules that {one.train} breaks", notes, [table])
+        elif notes:
+            yield Section(f"Notes on {one.train}", notes)
         if one.telling and one.place is not None:
-            yield _telling(one.train, one.telling, one.place.trains)
-
-
-def _telling(train: str, facts: Sequence[TellingFact], trains: int) -> Section:
-    """Return the section on the facts that distinguish a train from other explanations."""
-    line = "Facts that are true of this train but not of all, with the number of trains that each would leave."
-    said: dict[int, list[str]] = {}
-    for fact in facts:
-        said.setdefault(fact.solutions, []).append(_FACTS[fact.kind].format(fact.subject, fact.answer))
-    rows = [("; ".join(some), str(left)) for left, some in said.items()]
-    return Section(f"Facts that distinguish {train}", [line], [Table(("fact", f"left of {trains}"), rows)])
+            line = "Facts that are true of this train but not of all, with the number of trains that each would leave."
+            said: dict[int, list[str]] = {}
+            for fact in one.telling:
+                said.setdefault(fact.solutions, []).append(_FACTS[fact.kind].format(fact.subject, fact.answer))
+            table = Table(
+                ("fact", f"left of {one.place.trains}"), [("; ".join(some), str(left)) for left, some in said.items()]
+            )
+            yield Section(f"Facts that distinguish {one.train}", [line], [table])
 
 
 def _row(one: KnownRank) -> tuple[str, ...]:
     begins = one.train, f"{len(one.wheels)}: {teeth_text(one.wheels)}" if one.wheels else "0", str(one.arbors)
-    if one.broken:
-        return (*begins, "none", "none", "", "")
-    if one.place is None:
-        return (*begins, "not searched", "not searched", "", "")
     place = one.place
-    return (
-        *begins,
-        _ranks(place.ranks, place.trains),
-        _ranks(place.ranks_alike, place.trains_alike),
-        share_text(place.weight),
-        figure(place.dearer),
-    )
-
-
-def _ranks(ranks: tuple[int, int], trains: int) -> str:
-    return f"{ranks_text(ranks)} of {trains}"
-
-
-def _note_sentences(one: KnownRank) -> Iterator[str]:
-    yield from (f"{note}." for note in one.notes)
+    if one.broken or place is None:
+        ranks = "none" if one.broken else "not searched"
+        return (*begins, ranks, ranks, "", "")
+    among_all = f"{ranks_text(place.ranks)} of {place.trains}"
+    among_alike = f"{ranks_text(place.ranks_alike)} of {place.trains_alike}"
+    return (*begins, among_all, among_alike, share_text(place.weight), figure(place.dearer))
 
 
 # ---------------------------------------- facts common to all candidates, facts that differ, the next fact, assumptions
@@ -249,7 +219,8 @@ def shared_sections(marginals: Sequence[FactMarginal]) -> Iterator[Section]:
     agreed = list(_agreed(marginals))
     yield Section("Facts common to all trains", agreed or ["No fact is common to all trains."])
     parted = [fact for fact in marginals if len(fact.answers) > 1]
-    tables = [table for table in (_meshes(parted), _answers(parted), _needed(parted)) if table.rows]
+    meshes, needed = _yes_table("mesh", "mesh", parted), _yes_table("an added wheel of", "needed", parted)
+    tables = [table for table in (meshes, _answers(parted), needed) if table.rows]
     if tables:
         line = "Each answer with its share of the weight and its number of trains."
         yield Section("Facts that differ", [line], tables)
@@ -271,20 +242,13 @@ def _agreed(marginals: Sequence[FactMarginal]) -> Iterator[str]:
         yield f"{'Further facts' if meshes or needed else 'Facts'}: {'; '.join(others)}."
 
 
-def _meshes(facts: Sequence[FactMarginal]) -> Table:
-    return _yes_table("mesh", [fact for fact in facts if fact.kind == "mesh"])
-
-
-def _needed(facts: Sequence[FactMarginal]) -> Table:
-    return _yes_table("an added wheel of", [fact for fact in facts if fact.kind == "needed"])
-
-
-def _yes_table(title: str, facts: Sequence[FactMarginal]) -> Table:
+def _yes_table(title: str, kind: FactKind, facts: Sequence[FactMarginal]) -> Table:
+    """Return the table of the facts of one kind, with the weight and the number of trains of the answer `yes`."""
     rows = [
         (fact.subject, share_text(float(answer.share)), str(answer.solutions))
         for fact in facts
         for answer in fact.answers
-        if answer.answer == YES
+        if fact.kind == kind and answer.answer == YES
     ]
     return Table((title, "weight", "trains"), cut(rows, most=_MOST_MESHES))
 
@@ -311,15 +275,14 @@ def next_section(facts: Sequence[NextFact]) -> Iterator[Section]:
     """Yield the section on facts to observe next, in descending order of entropy."""
     if not facts:
         return
-    rows = [
-        (
-            _fact_question(one.fact),
-            figure(one.fact.bits, 3),
-            _answers_text(one.fact.answers),
-            _equivalent_text(one.same),
-        )
-        for one in facts[:_MOST_NEXT]
-    ]
+    rows = []
+    for one in facts[:_MOST_NEXT]:
+        alike: list[FactMarginal | Fact] = [one.fact, *one.same]
+        question, *equivalent = [_REQUESTED[fact.kind].format(fact.subject) for fact in alike]
+        same = "; ".join(equivalent[:_MOST_ALIKE])
+        if len(equivalent) > _MOST_ALIKE:
+            same += f" and {len(equivalent) - _MOST_ALIKE} more"
+        rows.append((question, figure(one.fact.bits, 3), _answers_text(one.fact.answers), same))
     lines = [
         "Single facts whose observation gives the most information. `bits` is the expected information: the entropy of "
         "the shares of the answers."
@@ -328,15 +291,6 @@ def next_section(facts: Sequence[NextFact]) -> Iterator[Section]:
         lines.append(f"{_MOST_NEXT} of {len(facts)}.")
     header = ("fact", "bits", "shares of the answers", "equivalent facts")
     yield Section("The next fact to look for", lines, [Table(header, rows)])
-
-
-def _fact_question(fact: FactMarginal | Fact) -> str:
-    return _REQUESTED[fact.kind].format(fact.subject)
-
-
-def _equivalent_text(facts: Sequence[Fact]) -> str:
-    listed = [_fact_question(fact) for fact in facts[:_MOST_ALIKE]]
-    return "; ".join(listed) + (f" and {len(facts) - _MOST_ALIKE} more" if len(facts) > _MOST_ALIKE else "")
 
 
 def assumptions_section(given: Sequence[int], changes: Sequence[ChangedCount]) -> Iterator[Section]:
@@ -362,10 +316,14 @@ def missing_sections(found: MissingExplanation | None, most: int) -> Iterator[Se
     if found is None:
         return
     line = "Result for each dial by itself. Surviving arbors that do not lead to this dial need not be used."
-    rows = [(dial.dial, _lone_dial_text(dial, most)) for dial in found.dials]
-    yield Section(
-        "Why no train explains the evidence", [line], [Table(("dial", "result without the other dials"), rows)]
-    )
+    rows = []
+    for dial in found.dials:
+        result = dial.refused or f"not explained with at most {plural(most, 'added wheel')}"
+        if dial.fewest is not None:
+            result = f"explained with {plural(dial.fewest, 'added wheel')}"
+        rows.append((dial.dial, result))
+    results = Table(("dial", "result without the other dials"), rows)
+    yield Section("Why no train explains the evidence", [line], [results])
     uncertainties = [(one.change, str(one.fewest), str(one.total)) for one in found.uncertainties]
     tried = (
         f"{plural(found.requested, 'change')} of the evidence tried, one at a time: a hard constraint is dropped, or "
@@ -377,14 +335,6 @@ def missing_sections(found: MissingExplanation | None, most: int) -> Iterator[Se
     header = ("change", "added wheels", "trains")
     tables = [Table(header, cut(uncertainties, most=_MOST_UNCERTAINTIES))] if uncertainties else []
     yield Section("Changes of the evidence that would help", lines, tables)
-
-
-def _lone_dial_text(dial: LoneDial, most: int) -> str:
-    if dial.refused is not None:
-        return dial.refused
-    if dial.fewest is None:
-        return f"not explained with at most {plural(most, 'added wheel')}"
-    return f"explained with {plural(dial.fewest, 'added wheel')}"
 
 
 # ----------------------------------------------------------------------------------------------------- the family tree
@@ -419,22 +369,18 @@ def family_section(tree: Sequence[FamilyBranch], turning: int = 0) -> Iterator[S
 
 
 def _branch(branch: FamilyBranch, turning: int, below: Sequence[Branch]) -> Branch:
-    meshes = ", ".join(branch.meshes) or "the input"
-    share, trains = share_text(float(branch.share)), branch.trains
+    title = f"{', '.join(branch.meshes) or 'the input'}: {share_text(float(branch.share))}"
+    trains = branch.trains
+    ends = []
+    for train in trains[:_MOST_TRAINS]:
+        counts = f" with {teeth_text(train.counts)}" if train.counts else ""
+        begins = title if len(trains) == 1 and not below else share_text(float(train.share))
+        ends.append(Branch(_scene(f"{begins}, rank {train.rank}{counts}", train.rank, turning)))
     if len(trains) == 1 and not below:
-        return Branch(_scene(f"{meshes}: {share}, {_train(trains[0])}", trains[0].rank, turning))
-    ends = [
-        Branch(_scene(f"{share_text(float(train.share))}, {_train(train)}", train.rank, turning))
-        for train in trains[:_MOST_TRAINS]
-    ]
+        return ends[0]
     if len(trains) > _MOST_TRAINS:
         ends.append(Branch(f"{len(trains) - _MOST_TRAINS} more"))
-    return Branch(f"{meshes}: {share}, {plural(branch.solutions, 'train')}", [*ends, *below])
-
-
-def _train(train: FamilyTrain) -> str:
-    counts = ", ".join(f"{wheel} {teeth}" for wheel, teeth in train.counts.items())
-    return f"rank {train.rank}" + (f" with {counts}" if counts else "")
+    return Branch(f"{title}, {plural(branch.solutions, 'train')}", [*ends, *below])
 
 
 def _scene(text: str, rank: int, turning: int) -> str:

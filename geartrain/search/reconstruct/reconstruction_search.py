@@ -303,33 +303,28 @@ def is_all_listed(found: Reconstructions) -> bool:
 
 def topology_prior(topology: Topology, problem: ReconstructionProblem) -> Fraction:
     """Return the prior weight of each train of a topology, up to a factor common to all trains."""
-    added = added_prior(problem, topology.added.number, topology.added_arbors)
-    return added * survivors_prior(problem, topology.used)
+    return _prior(problem, topology.added.number, topology.added_arbors, topology.used)
 
 
 def train_prior(arbor: Arbor, problem: ReconstructionProblem) -> Fraction:
     """Return the prior weight of a candidate, up to a factor common to all candidates."""
     used = [wheel for wheel in arbor.wheels() if wheel.name is not None]
-    return added_prior(problem, arbor.added_wheels, arbor.added_arbors) * survivors_prior(problem, used)
+    return _prior(problem, arbor.added_wheels, arbor.added_arbors, used)
 
 
-def added_prior(problem: ReconstructionProblem, wheels: int, arbors: int) -> Fraction:
-    """Return the factor of the prior weight that depends on the numbers of added wheels and added arbors."""
-    factors, limits = problem.factors, problem.additions
-    # the tooth count of an added wheel has a uniform prior
-    return 1 / ((factors.wheel * (limits.maximum - limits.minimum + 1)) ** wheels * factors.arbor**arbors)
-
-
-def survivors_prior(problem: ReconstructionProblem, used: Iterable[PlacedWheel]) -> Fraction:
-    """Return the factor of the prior weight that depends on the tooth counts of the used surviving wheels and on the
-    number of unused surviving wheels.
+def _prior(problem: ReconstructionProblem, wheels: int, arbors: int, used: Iterable[PlacedWheel]) -> Fraction:
+    """Return the prior weight of a train with given numbers of added wheels and added arbors, and with the surviving
+    wheels `used`.
     """
+    factors, limits = problem.factors, problem.additions
     counts = {wheel.name: dict(wheel.counts) for each in (problem.input, *problem.arbors) for wheel in each.wheels}
     weight, unused = Fraction(1), len(counts)
     for wheel in used:
         weight *= counts[wheel.name or ""][wheel.teeth]
         unused -= 1
-    return weight / problem.factors.unused**unused
+    # the tooth count of an added wheel has a uniform prior
+    added = (factors.wheel * (limits.maximum - limits.minimum + 1)) ** wheels * factors.arbor**arbors
+    return weight / (added * factors.unused**unused)
 
 
 def weight_ranks(weighed: Iterable[tuple[_Weight, int]]) -> dict[_Weight, tuple[int, int]]:

@@ -24,11 +24,8 @@ from geartrain.search.reconstruct.added_counts import AddedCounts, OpenCounts, Q
 from geartrain.search.reconstruct.arbor_orders import CountTokens, MeshFacts, arranged
 from geartrain.search.reconstruct.path_lists import PathList, Rows
 from geartrain.search.reconstruct.path_trees import PathTrees
-from geartrain.search.reconstruct.reconstruction_problem import (
-    Arbor,
-    ReconstructionProblem,
-)
-from geartrain.search.reconstruct.train_topology import TOPOLOGIES, AddedKind, ArborPass, Topology
+from geartrain.search.reconstruct.reconstruction_problem import Arbor, ReconstructionProblem
+from geartrain.search.reconstruct.train_topology import TOPOLOGIES, AddedKind, Topology
 
 _QUICK = 2
 """Maximum number of added wheels for which the search is not divided into parts."""
@@ -77,8 +74,16 @@ class PathColumns:
             self.driven[at] = np.array([0, *(1 + driven.index(each.driven) for each in passes)], dtype=np.int16)[taken]
             drivers = [0, *(number.get((each.driver and each.driver.name) or "", 0) for each in passes)]
             self.driver[at] = np.array(drivers, dtype=np.int16)[taken]
-            wheels = [0, *(_bits(each, number) << len(problem.arbors) for each in passes)]
-            self.used |= np.array(wheels, dtype=np.int64)[taken]
+            wheels = [
+                {
+                    number[wheel.name]
+                    for wheel in (each.driven, each.driver)
+                    if wheel is not None and wheel.name in number
+                }
+                for each in passes
+            ]
+            bits = [0, *(sum(1 << (len(problem.arbors) + wheel - 1) for wheel in each) for each in wheels)]
+            self.used |= np.array(bits, dtype=np.int64)[taken]
 
     def fit(self, rows: Rows, other: PathColumns, row: int) -> Bools:
         """Return whether each path can be in the same tree as a given path to another dial.
@@ -112,17 +117,6 @@ def all_to_use(problem: ReconstructionProblem) -> int:
         return arbors
     wheels = sum(len(each.wheels) for each in (problem.input, *problem.arbors))
     return arbors | ((1 << wheels) - 1) << len(problem.arbors)
-
-
-def _bits(each: ArborPass, number: dict[str, int]) -> int:
-    """Return the bit mask of the surviving wheels of a pass. `number` contains the number of each wheel, starting with
-    1.
-    """
-    found = 0
-    for wheel in (each.driven, each.driver):
-        if wheel is not None and wheel.name in number:
-            found |= 1 << (number[wheel.name] - 1)
-    return found
 
 
 Choice = dict[str, int]
@@ -244,10 +238,6 @@ class TopologyTrains:
         self.counts = AddedCounts(limits.minimum, limits.maximum)
         self._facts, self._maximum = MeshFacts.of(problem), limits.maximum
 
-    def count(self, topology: Topology) -> int:
-        """Return the number of trains of a topology."""
-        return sum(part.trains for part in self.parts(topology))
-
     def parts(self, topology: Topology) -> list[OrderPart]:
         """Return the orders of the arbors of a topology, grouped by the tooth-count limits that rings impose."""
         tokens = CountTokens(topology.added)
@@ -286,7 +276,7 @@ class TopologySearch:
         for chosen in self._choice.choices(task.added, task.part, task.parts):
             for topology in self._trees.topologies(chosen, task.added):
                 choices = self._trains.counts.total(OpenCounts(topology.added, topology.wanted))
-                if choices and (trains := self._trains.count(topology)):
+                if choices and (trains := sum(part.trains for part in self._trains.parts(topology))):
                     yield CountedTopology(topology, choices, trains)
 
 
@@ -309,6 +299,9 @@ class TopologyTask(NamedTuple):
     added: int
     part: int
     parts: int
+
+
+_search = lru_cache(maxsize=2)(TopologySearch)  # the path lists of a problem are built once per process
 
 
 def count_topologies(
@@ -339,20 +332,14 @@ def _counted(task: TopologyTask) -> list[tuple[Any, int, int]]:
     return [(TOPOLOGIES.dump_python(each.topology, mode="json"), each.choices, each.solutions) for each in counted]
 
 
-@lru_cache(maxsize=2)
-def _search(problem: ReconstructionProblem) -> TopologySearch:
-    """Return the enumeration of the topologies of a problem. The path lists are built once per process."""
-    return TopologySearch(problem)
-
-
-def count_choices(problem: ReconstructionProblem) -> float:
+def log_choices(problem: ReconstructionProblem) -> float:
     """Return the decimal logarithm of the number of choices of tooth counts, for the maximum number of added wheels."""
     added = problem.additions
     return added.wheels * log10(max(added.maximum - added.minimum + 1, 1))
 
 
 def _refuse_absurd(problem: ReconstructionProblem) -> None:
-    added, size = problem.additions, count_choices(problem)
+    added, size = problem.additions, log_choices(problem)
     fits = min(_MOST_ADDED, int(added.wheels * _MOST_CHOICES / size) if size else _MOST_ADDED)
     if added.wheels <= fits:
         return

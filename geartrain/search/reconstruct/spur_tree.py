@@ -18,7 +18,6 @@ from geartrain.analysis import GearTrain
 from geartrain.errors import Problem, QuestionError, suggest
 from geartrain.kinematics.circuits.joint_tree import Tree, find_tree
 from geartrain.numerics.graphs import joined_groups
-from geartrain.numerics.quantity import Figure
 from geartrain.search.reconstruct.link_roles import BaseLink, Joined
 from geartrain.search.reconstruct.reconstruction_problem import Arbor, PlacedWheel
 from geartrain.train import Train, declare
@@ -112,12 +111,8 @@ def are_spur_mates(train: Train, tree: Tree, pair: Iterable[str], carrier: str) 
         if wheel.kind != "spur" or any(link in lock for lock in train.locks) or (is_still and carrier in still):
             return False
         axis = train.axes.get(tree.axis(carrier if is_still else link) or "")
-        directions.add(_Z_AXIS if axis is None else tuple(map(_value, axis.direction)))
+        directions.add(_Z_AXIS if axis is None else tuple(figure.value for figure in axis.direction))
     return len(directions) == 1
-
-
-def _value(figure: Figure) -> object:
-    return figure.value
 
 
 @dataclass(frozen=True)
@@ -266,7 +261,13 @@ def find_spur_trees(train: Train) -> tuple[SpurTree, ...]:
         # the range of the few wheels of a small part would restrict the lost counts too much
         return found[0], *(replace(tree, teeth=(min(every), max(every))) for tree in found[1:])
     what = f"'{train.name}' has no pointer with a known speed that spur wheels on the frame or on a carrier drive"
-    obstacles = _joined(list(_unsupported_features(train)))
+    kinds = {wheel.kind for _, wheel in train.wheels.values()} - {"spur"}
+    unsupported = [f"{kind} wheels" for kind in sorted(kinds)]
+    if any(one.kind != "pin_and_slot" for one in train.pin_couplings):
+        unsupported.append("couplings other than pin and slot")
+    if train.locks:
+        unsupported.append("locked arbors")
+    obstacles = _joined(unsupported)
     why = parts.loop or (f"it has {obstacles}" if obstacles else "no output except the input has a known speed")
     fix = "give `expect` to an output that spur wheels drive on the frame or on a carrier"
     raise QuestionError(Problem(what, why, fix))
@@ -336,7 +337,7 @@ class _Parts:
         """Yield the parts of the train. If the speed of the first arbor of a part follows from another part, the other
         part comes first.
         """
-        waiting = [(base, arbors) for base in self._bases for arbors in self._connected(base)]
+        waiting = [(name, arbors) for name, base in self._bases.items() for arbors in self._connected(base)]
         # the part at the input begins; it determines the speeds at which others begin
         waiting.sort(key=lambda part: not (part[0] == self.train.frame and part[1] & {*self._inputs}))
         known = dict.fromkeys(self._inputs)
@@ -367,26 +368,26 @@ class _Parts:
             if each.carrier not in (each.i, each.j) and are_spur_mates(
                 self.train, self._solved.kinematics.tree, each.wheels, each.carrier
             ):
+                base = found[each.carrier]
                 for own, other in (each.wheels, each.wheels[::-1]):
-                    meshes = found[each.carrier].meshes
-                    meshes.setdefault(self._arbor(each.carrier, own, found), []).append(ArborMesh(at, own, other))
-        return {base: own for base, own in found.items() if own.meshes}
+                    base.meshes.setdefault(self._arbor_of_wheel(base, own), []).append(ArborMesh(at, own, other))
+        return {name: base for name, base in found.items() if base.meshes}
 
-    def _arbor(self, base: str, wheel: str, bases: dict[str, _Base] | None = None) -> str:
-        """Return the arbor of a wheel. If the link of the wheel is fixed, this is the frame; if not, it is the first of
-        the links joined to the link of the wheel.
+    def _arbor(self, base: _Base, link: str) -> str:
+        """Return the arbor of a link on a base. If the link is fixed, this is the frame; if not, it is the first of the
+        links joined to the link.
         """
-        return self._arbor_of_link(base, self.train.wheels[wheel][0], bases)
+        return self.train.frame if link in self.train.fixed else base.joined.get(link, (link,))[0]
 
-    def _arbor_of_link(self, base: str, link: str, bases: dict[str, _Base] | None = None) -> str:
-        if link in self.train.fixed:
-            return self.train.frame
-        return (bases or self._bases)[base].joined.get(link, (link,))[0]
+    def _arbor_of_wheel(self, base: _Base, wheel: str) -> str:
+        return self._arbor(base, self.train.wheels[wheel][0])
 
-    def _connected(self, base: str) -> Iterator[set[str]]:
-        meshes = self._bases[base].meshes
-        mates = ((arbor, *(self._arbor(base, each.other) for each in own)) for arbor, own in meshes.items())
-        yield from map(set, joined_groups(meshes, mates))
+    def _connected(self, base: _Base) -> Iterator[set[str]]:
+        """Yield the arbors of each connected component that the meshes on a base form."""
+        mates = (
+            (arbor, *(self._arbor_of_wheel(base, each.other) for each in own)) for arbor, own in base.meshes.items()
+        )
+        yield from map(set, joined_groups(base.meshes, mates))
 
     # first arbor of a part
 
@@ -395,7 +396,9 @@ class _Parts:
         frame, speed = self.train.frame, self._speed(base)
         if speed is None or (not speed and base != frame):
             return None
-        first = [frame] if base != frame and frame in arbors else [self._arbor_of_link(base, link) for link in known]
+        first = (
+            [frame] if base != frame and frame in arbors else [self._arbor(self._bases[base], link) for link in known]
+        )
         for source in first:
             turns = self._speed(source)
             if source in arbors and turns is not None and turns != speed:
@@ -414,14 +417,13 @@ class _Parts:
     # the tree
 
     def _tree(self, start: BaseLink) -> SpurTree | None:
-        base, train = start.name, self.train
-        meshes = self._bases[base].meshes
+        base, train = self._bases[start.name], self.train
         try:
-            driven = walk_arbors(train, start.source, meshes, lambda wheel: self._arbor(base, wheel))
+            driven = walk_arbors(train, start.source, base.meshes, lambda wheel: self._arbor_of_wheel(base, wheel))
         except QuestionError as error:
             self.loop = error.problems[0].what
             return None
-        outputs = [(name, self._arbor_of_link(base, link), wanted) for name, link, wanted in self._known_outputs(base)]
+        outputs = [(name, self._arbor(base, link), wanted) for name, link, wanted in self._known_outputs(start.name)]
         pointers = {name: arbor for name, arbor, wanted in outputs if arbor in driven and wanted}
         # reversed: the first output of an arbor names it
         named = {arbor: name for name, arbor, _ in reversed(outputs)}
@@ -433,12 +435,12 @@ class _Parts:
                 pointers[named[arbor]] = arbor
             else:
                 del driven[arbor]
+        if not pointers:
+            return None
         counts = {
             name: train.wheels[name][1].count or 0 for mesh in driven.values() for name in (mesh.driving, mesh.driven)
         }
-        joined = {arbor: links for arbor, links in self._bases[base].joined.items() if links[0] == arbor}
-        if not pointers:
-            return None
+        joined = {arbor: links for arbor, links in base.joined.items() if links[0] == arbor}
         teeth = min(counts.values()), max(counts.values())
         return _renamed(SpurTree(train, start, driven, joined, pointers, counts, teeth))
 
@@ -461,11 +463,10 @@ def _renamed(tree: SpurTree) -> SpurTree:
     """Return the tree with joined arbors named as in a reconstruction problem, that is, after their first link with
     meshing wheels.
     """
-    names = {}
-    for arbor, links in tree.joined.items():
-        names[arbor] = min(
-            links, key=lambda link: not any(name in tree.counts for name in tree.train.links[link].wheels)
-        )
+    names = {
+        arbor: min(links, key=lambda link: not any(name in tree.counts for name in tree.train.links[link].wheels))
+        for arbor, links in tree.joined.items()
+    }
     driven = {
         names.get(arbor, arbor): replace(mesh, parent=names.get(mesh.parent, mesh.parent))
         for arbor, mesh in tree.driven.items()
@@ -504,16 +505,6 @@ def why_not(train: Train, link: str) -> str:
     if others:
         return f"the link meshes with {_joined(others)} wheels"
     return "the link leads to no pointer of known speed" if mates else "the wheels of the link mesh with no other wheel"
-
-
-def _unsupported_features(train: Train) -> Iterator[str]:
-    """Yield descriptions of the features of a train that a reconstruction does not support."""
-    kinds = {wheel.kind for _, wheel in train.wheels.values()} - {"spur"}
-    yield from (f"{kind} wheels" for kind in sorted(kinds))
-    if any(one.kind != "pin_and_slot" for one in train.pin_couplings):
-        yield "couplings other than pin and slot"
-    if train.locks:
-        yield "locked arbors"
 
 
 def _joined(parts: Sequence[str]) -> str:
@@ -557,13 +548,17 @@ def lost_evidence_data(tree: SpurTree, lost: Sequence[str], seen: bool = False) 
             own = train.frame if link in train.fixed else link
             links[own] = {"wheels": {**links.get(own, {}).get("wheels", {}), **_wheels(tree, given, link)}}
     meshes = tree.meshes(arbors) if seen else ()
+    base = tree.base
+    speeds = {base.name: base.speed, base.source: base.driven + base.speed}
     return {
         "name": f"{train.name}-without-{words}",
         **kept,
         "frame": train.frame,
         "links": {link: one if one.get("wheels") else {} for link, one in links.items()},
         **({"gears": [{"pair": list(pair)} for pair in meshes]} if meshes else {}),
-        "inputs": _inputs(tree, given),
+        "inputs": {
+            link: given["inputs"].get(link, str(speed)) for link, speed in speeds.items() if link != train.frame
+        },
         "outputs": {
             name: {"of": NEW_ARBOR if arbor in arbors else tree.link_of(name)} | _shown(tree, given, name)
             for name, arbor in tree.pointers.items()
@@ -596,29 +591,20 @@ def _requested(tree: SpurTree, lost: Sequence[str], seen: bool) -> dict[str, Any
     }
 
 
-def _inputs(tree: SpurTree, given: dict[str, Any]) -> dict[str, Any]:
-    """Return the speeds of the base and of the first arbor in the format of declared inputs."""
-    base, frame = tree.base, tree.train.frame
-    speeds = {base.name: base.speed, base.source: base.driven + base.speed}
-    return {link: given["inputs"].get(link, str(speed)) for link, speed in speeds.items() if link != frame}
-
-
 def _check(tree: SpurTree, lost: Sequence[str]) -> None:
     arbors = [tree.arbor_of(link) for link in lost]
     able = [link for arbor in tree.able if arbor not in arbors for link in tree.links_of(arbor)]
     for link, arbor in zip(lost, arbors, strict=True):
+        what = f"'{link}' cannot be lost"
         if arbor == tree.source:
-            what, why = f"'{link}' cannot be lost", "it carries the input, and a reconstruction begins at the input"
+            why = "it carries the input, and a reconstruction begins at the input"
         elif arbor not in tree.driven:
-            what = f"'{link}' cannot be lost"
             why = why_not(tree.train, link) if link in tree.train.links else "the train has no such link"
         elif arbor not in tree.able:
-            what, why = f"'{link}' cannot be lost", "the arbor has a ring, and rings are never added"
+            why = "the arbor has a ring, and rings are never added"
         elif arbors.count(arbor) > 1:
-            what, why = (
-                f"'{link}' is lost twice",
-                "an arbor is lost together with all links that are connected to it, so it is given only once",
-            )
+            what = f"'{link}' is lost twice"
+            why = "an arbor is lost together with all links that are connected to it, so it is given only once"
         else:
             continue
         raise QuestionError(Problem(what, why, suggest(link, able)))

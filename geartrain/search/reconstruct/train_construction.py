@@ -7,14 +7,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
 from geartrain.numerics.exact import fraction_text
-from geartrain.search.reconstruct.candidate_names import NamedArbor, NamedWheel, free_name, name_train
-from geartrain.search.reconstruct.link_roles import BaseLink, couplings_of, find_base, joined_arbors
-from geartrain.search.reconstruct.reconstruction_problem import Arbor, SurvivingGeometry, read_geometry_evidence
+from geartrain.search.reconstruct.candidate_names import NamedArbor, NamedWheel, free_name, named_candidate
+from geartrain.search.reconstruct.link_roles import couplings_of, find_base, joined_arbors
+from geartrain.search.reconstruct.reconstruction_problem import (
+    Arbor,
+    PlacedWheel,
+    SurvivingGeometry,
+    read_geometry_evidence,
+)
 from geartrain.train import Train, declare
 from geartrain.train.yaml_nodes import as_yaml
 
@@ -28,7 +32,11 @@ def fit_modules(train: NamedArbor, geometry: SurvivingGeometry) -> dict[str, flo
     of the measured modules, and the others receive None, because their modules follow from the first. All wheels of a
     group receive None if the positions of two axes determine their module.
     """
-    mates = _meshing(train)
+    # first wheel of the group of each wheel
+    mates: dict[str, str] = {}
+    for _, wheel, arbor in train.meshes():
+        assert arbor.driven is not None
+        mates[arbor.driven.name] = mates.setdefault(wheel.name, wheel.name)
     placed = {
         mates[wheel.name]
         for arbor, wheel, driven in train.meshes()
@@ -36,7 +44,7 @@ def fit_modules(train: NamedArbor, geometry: SurvivingGeometry) -> dict[str, flo
     }
     measured: dict[str, dict[str, float]] = {}
     for wheel in (wheel for arbor in train.arbors() for wheel in arbor.wheels()):
-        module = geometry.module_of((None if wheel.added else wheel.name, wheel.teeth))
+        module = geometry.module_of(PlacedWheel(None if wheel.added else wheel.name, wheel.teeth))
         if module is not None:
             measured.setdefault(mates[wheel.name], {})[wheel.name] = math.log(module)
     found: dict[str, float | None] = {}
@@ -49,36 +57,11 @@ def fit_modules(train: NamedArbor, geometry: SurvivingGeometry) -> dict[str, flo
     return found
 
 
-def _meshing(train: NamedArbor) -> dict[str, str]:
-    """Return, for each wheel, the first wheel of its group. Wheels of a group have the same module because they
-    mesh.
-    """
-    first: dict[str, str] = {}
-    for _, wheel, arbor in train.meshes():
-        assert arbor.driven is not None
-        first[arbor.driven.name] = first.setdefault(wheel.name, wheel.name)
-    return first
-
-
 ADDED_NOTE = "added by reconstruct"
 _LEFT_OUT = {
-    "name",
-    "title",
-    "extends",
-    "remove",
-    "reconstruct",
-    "links",
-    "axes",
-    "revolutes",
-    "gears",
-    "couplings",
-    "outputs",
+    *("name", "title", "extends", "remove", "reconstruct"),
+    *("links", "axes", "revolutes", "gears", "couplings", "outputs"),
 }
-
-
-def named_candidate(evidence: Train, arbor: Arbor) -> NamedArbor:
-    """Return a candidate with the names of arbors and wheels that are used in its declaration."""
-    return name_train(arbor, tuple(evidence.outputs), {*evidence.links, evidence.frame}, evidence.wheels)
 
 
 def candidate_train(evidence: Train, arbor: Arbor, name: str) -> Train:
@@ -116,7 +99,7 @@ def candidate_text(evidence: Train, arbor: Arbor, name: str) -> str:
 
 def candidate_data(evidence: Train, arbor: Arbor, name: str) -> dict[str, Any]:
     """Return the declaration of a candidate as plain data."""
-    train = TrainConstruction.of(evidence, arbor)
+    train = TrainConstruction(evidence, arbor)
     given = train.given
     kept = {key: value for key, value in given.items() if key not in _LEFT_OUT}
     about = {"title": f"{given['title']}, as {name}"} if given.get("title") else {}
@@ -128,9 +111,8 @@ def candidate_data(evidence: Train, arbor: Arbor, name: str) -> dict[str, Any]:
     return data
 
 
-@dataclass
 class TrainConstruction:
-    """Builder of the declaration of a candidate, which adds the parts arbor by arbor.
+    """Declaration of a candidate, to which the parts are added arbor by arbor.
 
     given    evidence as plain data
     links, revolutes, gears, couplings   parts of the candidate, as plain data
@@ -141,49 +123,39 @@ class TrainConstruction:
     modules  new module [mm] of each measured wheel whose module changes; None if the module follows from other wheels
     """
 
-    evidence: Train
-    base: BaseLink
-    given: Mapping[str, Any]
-    links: dict[str, Any] = field(default_factory=dict)
-    revolutes: list[dict[str, Any]] = field(default_factory=list)
-    gears: list[dict[str, Any]] = field(default_factory=list)
-    couplings: list[dict[str, Any]] = field(default_factory=list)
-    shown: dict[str, tuple[str, Fraction]] = field(default_factory=dict)
-    meshes: list[tuple[str, str]] = field(default_factory=list)
-    added: dict[str, int] = field(default_factory=dict)
-    doubtful: dict[str, int] = field(default_factory=dict)
-    modules: Mapping[str, float | None] = field(default_factory=dict)
-
-    @classmethod
-    def of(cls, evidence: Train, arbor: Arbor) -> TrainConstruction:
-        """Build the declaration of a candidate."""
-        given = evidence.model_dump(mode="json", exclude_unset=True, by_alias=True)
-        made = cls(evidence, find_base(evidence), given)
-        made._carrier()
-        made._add(named_candidate(evidence, arbor))
-        made.doubtful = {name: made.doubtful[name] for name in evidence.wheels if name in made.doubtful}
-        return made
-
-    def _add(self, source: NamedArbor) -> None:
-        self.modules = fit_modules(source, read_geometry_evidence(self.evidence))
+    def __init__(self, evidence: Train, arbor: Arbor) -> None:
+        self.evidence, self.base, self._joined = evidence, find_base(evidence), joined_arbors(evidence)
+        self.given = evidence.model_dump(mode="json", exclude_unset=True, by_alias=True)
+        self.links: dict[str, Any] = {}
+        self.revolutes: list[dict[str, Any]] = []
+        self.gears: list[dict[str, Any]] = []
+        self.couplings: list[dict[str, Any]] = []
+        self.shown: dict[str, tuple[str, Fraction]] = {}
+        self.meshes: list[tuple[str, str]] = []
+        self.added: dict[str, int] = {}
+        self.doubtful: dict[str, int] = {}
+        source = named_candidate(evidence, arbor)
+        self.modules = fit_modules(source, read_geometry_evidence(evidence))
+        if self.base.is_carrier:
+            self.links[self.base.name] = dict(self.given["links"][self.base.name] or {})
+            self._joint(evidence.frame, self.base.name)
         self._put(source, self.base.driven)
         speeds = {source.name: self.base.driven}
-        for driving, wheel, arbor in source.meshes():
-            assert arbor.driven is not None
-            sense = 1 if self._is_ring(wheel) or self._is_ring(arbor.driven) else -1
-            speeds[arbor.name] = sense * speeds[driving.name] * wheel.teeth / arbor.driven.teeth
-            self._put(arbor, speeds[arbor.name])
-            self.gears.append(self._gear(wheel.name, arbor.driven.name))
-            self.meshes.append((wheel.name, arbor.driven.name))
-
-    def _is_ring(self, wheel: NamedWheel) -> bool:
-        return not wheel.added and self.evidence.wheels[wheel.name][1].internal
+        rings = {name for name, (_, wheel) in evidence.wheels.items() if wheel.internal}
+        for driving, wheel, child in source.meshes():
+            assert child.driven is not None
+            sense = 1 if rings & {wheel.name, child.driven.name} else -1  # added wheels have names of their own
+            speeds[child.name] = sense * speeds[driving.name] * wheel.teeth / child.driven.teeth
+            self._put(child, speeds[child.name])
+            self.gears.append(self._gear(wheel.name, child.driven.name))
+            self.meshes.append((wheel.name, child.driven.name))
+        self.doubtful = {name: self.doubtful[name] for name in evidence.wheels if name in self.doubtful}
 
     def _put(self, arbor: NamedArbor, speed: Fraction) -> None:
         """Add an arbor with its wheels and pointers. If couplings connect several links to form the arbor, add all of
         these links.
         """
-        links = joined_arbors(self.evidence).get(arbor.name, (arbor.name,))
+        links = self._joined.get(arbor.name, (arbor.name,))
         for link in links:
             self._link(link, arbor.added)
         self.couplings += couplings_of(self.evidence, links)
@@ -204,12 +176,6 @@ class TrainConstruction:
         couplings = {"couplings": self.couplings} if self.couplings else {}
         found = {"links": links, "revolutes": self.revolutes, "gears": self.gears, **couplings, "outputs": outputs}
         return {"axes": axes, **found} if axes else found
-
-    def _carrier(self) -> None:
-        """Add the carrier, if there is one, and its turning pair with the frame."""
-        if self.base.is_carrier:
-            self.links[self.base.name] = dict(self.given["links"][self.base.name] or {})
-            self._joint(self.evidence.frame, self.base.name)
 
     def _link(self, link: str, added: bool) -> None:
         base = self.base

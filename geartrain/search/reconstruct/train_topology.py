@@ -19,7 +19,6 @@ from geartrain.search.reconstruct.reconstruction_problem import (
     PlacedWheel,
     ReconstructionProblem,
     SurvivingArbor,
-    SurvivingWheel,
 )
 
 # Passes of a path through a surviving arbor: its driven and its driving wheel.
@@ -55,13 +54,6 @@ class ArborPass:
         """Number of added driven wheels on this arbor that affect the speed, 0 or 1."""
         return int(self.driven == ADDED and not self.idler)
 
-    def meshes_with(self, rings: frozenset[str]) -> int:
-        """Return the number of meshes of the path in which the wheel on this arbor is one of `rings`.
-
-        An idler takes part in two meshes.
-        """
-        return sum(wheel is not None and wheel.name in rings for wheel in (self.driven, self.driver))
-
     @property
     def added(self) -> int:
         """Number of added wheels on this arbor that the path uses."""
@@ -78,7 +70,7 @@ def arbor_passes(arbor: SurvivingArbor, problem: ReconstructionProblem) -> Itera
     is_input = arbor is problem.input
     for driven in _driven_wheels(arbor, problem, beside):
         others = [wheel for wheel in arbor.wheels if driven is None or wheel.name != driven.name]
-        drivers = [reading for wheel in others for reading in readings(wheel)]
+        drivers = [reading for wheel in others for reading in wheel.readings]
         for driver in drivers:
             yield ArborPass(driven, driver, len(others) - 1)
         if beside:
@@ -93,15 +85,9 @@ def _driven_wheels(arbor: SurvivingArbor, problem: ReconstructionProblem, beside
         yield None
     elif arbor.wheels:
         for wheel in arbor.wheels:
-            yield from readings(wheel)
+            yield from wheel.readings
     elif beside:
         yield ADDED
-
-
-def readings(wheel: SurvivingWheel) -> Iterator[PlacedWheel]:
-    """Yield a surviving wheel with each of its possible tooth counts."""
-    for teeth, _ in wheel.counts:
-        yield PlacedWheel(wheel.name, teeth)
 
 
 # A train without tooth counts of added wheels, whose arbors have any order between two branchings.
@@ -126,12 +112,20 @@ class Branching:
     passes: tuple[Chain, ...] = ()
     """Chains that the driven wheel also drives, as an idler."""
 
-    @property
-    def chains(self) -> Iterator[Chain]:
-        """Chains of arbors that this arbor drives."""
-        for _, chains in self.drives:
-            yield from chains
-        yield from self.passes
+    def driven_chains(self) -> Iterator[tuple[PlacedWheel, Chain]]:
+        """Yield each chain of arbors that this arbor drives, preceded by the wheel that drives it."""
+        for wheel, chains in self.drives:
+            yield from ((wheel, chain) for chain in chains)
+        for chain in self.passes:
+            assert self.driven is not None
+            yield self.driven, chain
+
+    def turned_dials(self, dials: Dials) -> Dials:
+        """Return those of the given dials whose speeds depend on the tooth count of the driven wheel: all except the
+        dials that this wheel drives as an idler.
+        """
+        passed = dials_of(self.passes)
+        return tuple(dial for dial in dials if dial not in passed)
 
 
 @dataclass(frozen=True)
@@ -157,7 +151,7 @@ class Chain:
     @property
     def next_chains(self) -> tuple[Chain, ...]:
         """Chains that begin at the end of this chain."""
-        return tuple(self.end.chains) if isinstance(self.end, Branching) else self.end
+        return tuple(chain for _, chain in self.end.driven_chains()) if isinstance(self.end, Branching) else self.end
 
 
 @dataclass(frozen=True)
@@ -173,7 +167,7 @@ class Topology:
     def chains(self) -> tuple[Chain, ...]:
         """All chains in depth-first order from the input arbor."""
         found: list[Chain] = []
-        waiting = list(self.root.chains)[::-1]
+        waiting = [chain for _, chain in self.root.driven_chains()][::-1]
         while waiting:
             found.append(waiting.pop())
             waiting += found[-1].next_chains[::-1]
@@ -192,20 +186,24 @@ class Topology:
             drivers[chain.dials] += chain.compounds + sum(each.added_drivers for _, each in chain.through)
             driven[chain.dials] += chain.compounds + sum(each.added_driven for _, each in chain.through)
             idle += chain.idlers + sum(each.idler and each.driven == ADDED for _, each in chain.through)
-            if isinstance(chain.end, Branching):
-                idle += _count_end(chain.end, chain.dials, drivers, driven)
-        for wheel, chains in self.root.drives:
-            drivers[_dials_of(chains)] += wheel == ADDED
+            if isinstance(chain.end, Branching) and chain.end.driven == ADDED:
+                turned = chain.end.turned_dials(chain.dials)
+                driven[turned] += bool(turned)
+                idle += not turned
+        for branching in self.branchings:
+            for wheel, chains in branching.drives:
+                drivers[dials_of(chains)] += wheel == ADDED
         groups = tuple((dials, drivers[dials], driven[dials]) for dials in sorted({*drivers, *driven}))
         return AddedWheels(tuple(group for group in groups if group[1] or group[2]), idle)
 
     @cached_property
     def used(self) -> tuple[PlacedWheel, ...]:
         """Surviving wheels that mesh, each with its tooth count."""
-        found = dict.fromkeys(wheel for chain in self.chains for _, each in chain.through for wheel in _wheels_of(each))
+        passes = (each for chain in self.chains for _, each in chain.through)
+        wheels = [wheel for each in passes for wheel in (each.driven, each.driver)]
         for branching in self.branchings:
-            found.update(dict.fromkeys([branching.driven, *(wheel for wheel, _ in branching.drives)]))
-        return tuple(wheel for wheel in found if wheel is not None and wheel != ADDED)
+            wheels += [branching.driven, *(wheel for wheel, _ in branching.drives)]
+        return tuple(wheel for wheel in dict.fromkeys(wheels) if wheel is not None and wheel != ADDED)
 
     @cached_property
     def added_arbors(self) -> int:
@@ -256,27 +254,9 @@ class AddedWheels:
         return self.idle + sum(drivers + driven for _, drivers, driven in self.groups)
 
 
-def _count_end(end: Branching, dials: Dials, drivers: Counter[Dials], driven: Counter[Dials]) -> int:
-    """Add the numbers of added wheels of a branching to `drivers` and `driven`, and return the number of added wheels
-    that affect no speed.
-    """
-    for wheel, chains in end.drives:
-        drivers[_dials_of(chains)] += wheel == ADDED
-    if end.driven != ADDED:
-        return 0
-    past = set(_dials_of(end.passes))  # the speeds of dials driven by an idler do not depend on its count
-    turned = tuple(dial for dial in dials if dial not in past)
-    # its count changes the speeds of all dials except those that it drives as an idler
-    driven[turned] += bool(turned)
-    return not turned
-
-
-def _dials_of(chains: tuple[Chain, ...]) -> Dials:
+def dials_of(chains: tuple[Chain, ...]) -> Dials:
+    """Return the sorted names of the dials to which the given chains lead."""
     return tuple(sorted(dial for chain in chains for dial in chain.dials))
-
-
-def _wheels_of(each: ArborPass) -> tuple[PlacedWheel | None, PlacedWheel | None]:
-    return each.driven, each.driver
 
 
 TOPOLOGIES = TypeAdapter(Topology)

@@ -31,7 +31,7 @@ from geartrain.numerics.exact import plural
 from geartrain.numerics.work import Execution, Journal
 from geartrain.search.reconstruct.reconstruction import ReconstructionRun
 from geartrain.search.reconstruct.reconstruction_problem import RequestedQuestion, question_digest
-from geartrain.search.reconstruct.search_tasks import count_choices
+from geartrain.search.reconstruct.search_tasks import log_choices
 
 if TYPE_CHECKING:
     from geartrain.search.reconstruct.reconstruction import ReconstructionAnswer
@@ -195,16 +195,15 @@ def _name_pair(text: str) -> tuple[str, str]:
 
 
 def _write(found: ReconstructionAnswer, folder: Path, force: bool, with_evidence: bool) -> None:
-    """Write a declaration of each listed candidate and the family tree. If `with_evidence` is True, also write the
-    evidence.
-    """
+    """Write a declaration of each listed candidate, the family tree and, if `with_evidence` is True, the evidence."""
     from geartrain.numerics.files import check_folder, write_folder
     from geartrain.search.reconstruct.train_construction import candidate_text
     from geartrain.train.declaration_files import write_declaration
 
     evidence = found.evidence
     assert evidence is not None
-    extra = {_FAMILY: _family_text(found)}
+    about = {"name": found.name, "question": question_digest(found.problem), "counts": found.counts}
+    extra = {_FAMILY: as_json({**about, "family": found.findings.family}) + "\n"}
     if with_evidence:
         extra[_EVIDENCE] = write_declaration(evidence)
 
@@ -216,14 +215,6 @@ def _write(found: ReconstructionAnswer, folder: Path, force: bool, with_evidence
 
     check_folder(folder, [*(_file(rank) for rank in range(1, len(found.candidates) + 1)), *extra], force)
     tell(f"wrote {plural(write_folder(folder, files(), force), 'file')} to {folder}")
-
-
-def _family_text(found: ReconstructionAnswer) -> str:
-    """Return the family tree, the digest of the problem and the numbers of trains as JSON text."""
-    from geartrain.search.reconstruct.reconstruction_problem import question_digest
-
-    requested = {"name": found.name, "question": question_digest(found.problem), "counts": found.counts}
-    return as_json({**requested, "family": found.findings.family}) + "\n"
 
 
 def _file(rank: int) -> str:
@@ -246,7 +237,7 @@ class CommandRun(ReconstructionRun):
     def begin(self, problem: ReconstructionProblem) -> None:
         """Print the size of the problem."""
         tell(f"problem: {RequestedQuestion.of(problem)}")
-        if (size := count_choices(problem)) >= _LARGE:
+        if (size := log_choices(problem)) >= _LARGE:
             tell(f"a large search: the counts of the added wheels have up to 1e{size:.0f} combinations")
 
     @contextmanager

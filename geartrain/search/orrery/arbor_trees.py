@@ -81,32 +81,22 @@ def read_period_targets(
     period.
     """
     if not periods:
-        raise QuestionError(
-            Problem("no periods are given", "an orrery has at least one pointer", "give a period, such as moon=29.53")
-        )
+        fix = "give a period, such as moon=29.53"
+        raise QuestionError(Problem("no periods are given", "an orrery has at least one pointer", fix))
     if len(periods) > 30:
-        raise RangeError(
-            Problem(
-                f"{len(periods)} periods are too many",
-                "one search accepts at most 30 periods",
-                "split the periods between several searches",
-            )
-        )
+        what, why = f"{len(periods)} periods are too many", "one search accepts at most 30 periods"
+        raise RangeError(Problem(what, why, "split the periods between several searches"))
     slack = tolerance if isinstance(tolerance, Mapping) else dict.fromkeys(periods, tolerance)
     problems = [
         Problem(f"period {name!r} is {value}", "a period must be positive", "give a number above 0")
         for name, value in periods.items()
         if value <= 0
     ]
-    problems += [
-        Problem(
-            f"the tolerance of {name!r} is {slack.get(name)}",
-            "a relative tolerance must be at least 0 and below 1",
-            "give a tolerance such as 1e-6",
-        )
-        for name in periods
-        if not 0 <= slack.get(name, -1) < 1
-    ]
+    for name in periods:
+        if not 0 <= slack.get(name, -1) < 1:
+            what = f"the tolerance of {name!r} is {slack.get(name)}"
+            why = "a relative tolerance must be at least 0 and below 1"
+            problems.append(Problem(what, why, "give a tolerance such as 1e-6"))
     if problems:
         raise QuestionError(problems)
     return PeriodTargets(
@@ -177,30 +167,17 @@ def pair_ratios(counts: Sequence[int]) -> PairRatios:
     """Return the table of ratios of two wheels. Time and memory grow with the square of the number of tooth counts."""
     admissible = tuple(sorted(set(counts)))
     if not admissible or admissible[0] < 1:
-        raise QuestionError(
-            Problem(
-                "no tooth counts are given, or some are below 1",
-                "at least one count is needed, and all counts must be positive",
-                "give a range such as 12:400",
-            )
-        )
+        what = "no tooth counts are given, or some are below 1"
+        why = "at least one count is needed, and all counts must be positive"
+        raise QuestionError(Problem(what, why, "give a range such as 12:400"))
     # terms below 2^31, because both terms of a ratio are packed into one integer below
     if admissible[-1] >= 2**31:
-        raise RangeError(
-            Problem(
-                f"the tooth count {admissible[-1]} is too large",
-                "tooth counts are limited to 2^31 - 1",
-                "reduce the upper end of the range",
-            )
-        )
+        what, why = f"the tooth count {admissible[-1]} is too large", "tooth counts are limited to 2^31 - 1"
+        raise RangeError(Problem(what, why, "reduce the upper end of the range"))
     if len(admissible) ** 2 > _MOST_PAIRS:
-        raise RangeError(
-            Problem(
-                f"{len(admissible)} tooth counts are too many",
-                f"the table of ratios is limited to {_MOST_PAIRS:.0e} entries, one for each pair of counts",
-                "narrow the range of tooth counts",
-            )
-        )
+        what = f"{len(admissible)} tooth counts are too many"
+        why = f"the table of ratios is limited to {_MOST_PAIRS:.0e} entries, one for each pair of counts"
+        raise RangeError(Problem(what, why, "narrow the range of tooth counts"))
     teeth = np.array(admissible, dtype=np.int64)
     over, under = (part.ravel() for part in np.meshgrid(teeth, teeth))
     common = np.gcd(over, under)

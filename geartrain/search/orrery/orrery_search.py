@@ -164,19 +164,12 @@ class Orrery(Tabular, Result):
             {"pair": [_wheel(places[pair.parent], pair.driver), _wheel(places[pair.child], pair.driven)]}
             for pair in self.pairs
         ]
-        outputs = {
-            arbor.name: {
-                "expect": str(Fraction(arbor.sense) / arbor.period),
-                "targets": [
-                    {
-                        "period": f"{_plain(self.periods[arbor.name])} {unit}",
-                        "tolerance": _plain(self.tolerances[arbor.name]),
-                    }
-                ],
-            }
-            for arbor in self.arbors
-            if arbor.shows
-        }
+        outputs = {}
+        for arbor in self.arbors:
+            if arbor.shows:
+                period = f"{_plain(self.periods[arbor.name])} {unit}"
+                target = {"period": period, "tolerance": _plain(self.tolerances[arbor.name])}
+                outputs[arbor.name] = {"expect": str(Fraction(arbor.sense) / arbor.period), "targets": [target]}
         pointers = ", ".join(f"{pointer} in {_plain(period)} {unit}" for pointer, period in self.periods.items())
         return {
             "name": name,
@@ -270,13 +263,8 @@ def find_orrery(
     targets = read_period_targets(periods, tolerance)
     if first in targets.names:
         what = f"the first arbor and a period are both named {first!r}"
-        raise QuestionError(
-            Problem(
-                what,
-                "arbors are named after their periods, and names of arbors must be unique",
-                "rename the first arbor",
-            )
-        )
+        why = "arbors are named after their periods, and names of arbors must be unique"
+        raise QuestionError(Problem(what, why, "rename the first arbor"))
     if "frame" in (first, *targets.names):
         what, why = "an arbor is named 'frame'", "this name is reserved for the link that carries the arbors"
         raise QuestionError(Problem(what, why, "rename the arbor"))
@@ -401,13 +389,10 @@ def _not_found(search: _OrrerySearch, ended: str) -> QuestionError:
     minimum, most = table.counts[0], table.counts[-1]
     walked = f"all trees with up to {size + search.walked} pairs were enumerated. " if search.walked >= 0 else ""
     stopped = "the search was interrupted. " if ended == "interrupted" else ""
-    return QuestionError(
-        Problem(
-            f"no orrery was found for {size} periods with wheels of {minimum} to {most} teeth",
-            f"{walked}{stopped}with these tooth counts one pair has {len(table)} ratios, at most {most / minimum:.3g}",
-            "increase the tolerance, the number of intermediate arbors or the beam width, or allow more tooth counts",
-        )
-    )
+    what = f"no orrery was found for {size} periods with wheels of {minimum} to {most} teeth"
+    why = f"{walked}{stopped}with these tooth counts one pair has {len(table)} ratios, at most {most / minimum:.3g}"
+    fix = "increase the tolerance, the number of intermediate arbors or the beam width, or allow more tooth counts"
+    return QuestionError(Problem(what, why, fix))
 
 
 # ------------------------------------- beam search: trees with few wheels, without proof

@@ -197,14 +197,12 @@ def infer_counts(
 
 def _check(method: str | None, most: int, limit: int, samples: int, seed: int) -> None:
     if method is not None and method not in METHODS:
-        raise QuestionError(
-            Problem(f"'{method}' is not a method", "the methods are exact and sample", suggest(method, METHODS))
-        )
+        what, why = f"'{method}' is not a method", "the methods are exact and sample"
+        raise QuestionError(Problem(what, why, suggest(method, METHODS)))
     for name, value, minimum in (("most", most, 1), ("limit", limit, 1), ("samples", samples, 1), ("seed", seed, 0)):
         if value < minimum:
-            raise QuestionError(
-                Problem(f"{name} is {value}", f"{name} must be at least {minimum}", f"give {name} >= {minimum}")
-            )
+            what, why = f"{name} is {value}", f"{name} must be at least {minimum}"
+            raise QuestionError(Problem(what, why, f"give {name} >= {minimum}"))
 
 
 def _summarise(
@@ -231,10 +229,9 @@ def _summarise(
         except BudgetSpentError:
             if method is not None:
                 what = f"the exact method needs more than {limit} steps"
+                why = "`limit` bounds the number of partial combinations that the method examines"
                 fix = "raise the limit, narrow the ranges of counts, or use the method `sample`"
-                raise RangeError(
-                    Problem(what, "`limit` bounds the number of partial combinations that the method examines", fix)
-                ) from None
+                raise RangeError(Problem(what, why, fix)) from None
     return _sampled(question, most, samples, seed, means)
 
 
@@ -347,10 +344,7 @@ def _weights(uncertainties: Mapping[str, ToothCountPrior], soft: bool) -> CountW
     their sums.
     """
     if soft:
-        return {
-            wheel: np.array([float(prior) for prior in uncertainty.priors])
-            for wheel, uncertainty in uncertainties.items()
-        }
+        return {wheel: np.array([*map(float, prior.priors)]) for wheel, prior in uncertainties.items()}
     dtype: Any = np.int64 if prod(uncertainty.total for uncertainty in uncertainties.values()) < _LONG else object
     return {wheel: np.array(uncertainty.weights, dtype=dtype) for wheel, uncertainty in uncertainties.items()}
 
@@ -360,12 +354,10 @@ def _fits(question: InferenceProblem, sums: AssignmentSums) -> int:
     counts of wheels on which no observation depends.
     """
     # with equal weights the total weight is a number of combinations
-    alike = {
-        w: replace(uncertainty, weights=(1,) * len(uncertainty.counts)) for w, uncertainty in question.moved.items()
-    }
+    alike = {wheel: replace(prior, weights=(1,) * len(prior.counts)) for wheel, prior in question.moved.items()}
     # wheels that no observation depends on multiply the number
-    idle = [uncertainty for wheel, uncertainty in question.uncertainties.items() if wheel not in alike]
-    return int(sums.total(_weights(alike, False))) * prod(len(uncertainty.counts) for uncertainty in idle)
+    idle = prod(len(prior.counts) for wheel, prior in question.uncertainties.items() if wheel not in alike)
+    return int(sums.total(_weights(alike, False))) * idle
 
 
 def _probability(question: InferenceProblem, share: int | float) -> CountProbability:

@@ -176,10 +176,8 @@ def _check_outputs(train: Train, states: Sequence[str | None], outputs: Sequence
     known = dict.fromkeys(name for one in states for name in train.case(one).outputs)
     for name in outputs:
         if name not in known:
-            fix = suggest(name, known) if known else "declare it under `outputs`"
-            raise QuestionError(
-                Problem(f"'{train.name}' has no output '{name}'", "only declared outputs can be evidence", fix)
-            )
+            what, why = f"'{train.name}' has no output '{name}'", "only declared outputs can be evidence"
+            raise QuestionError(Problem(what, why, suggest(name, known) if known else "declare it under `outputs`"))
 
 
 def _check_known(moved: Collection[str], known: Collection[str], outputs: Sequence[str]) -> None:
@@ -257,10 +255,8 @@ def find_priors(train: Train, free: Mapping[str, Sequence[int]] | None = None) -
     given = dict(free or {})
     for name in given:
         if name not in train.wheels:
-            fix = suggest(name, train.wheels)
-            raise QuestionError(
-                Problem(f"'{train.name}' has no wheel '{name}'", "only declared wheels have tooth counts", fix)
-            )
+            what, why = f"'{train.name}' has no wheel '{name}'", "only declared wheels have tooth counts"
+            raise QuestionError(Problem(what, why, suggest(name, train.wheels)))
     found = tuple(_priors(train, given))
     if not any(len(uncertainty.counts) > 1 for uncertainty in found):
         why = "no wheel has `range` or `choices` with more than one count"
@@ -301,9 +297,8 @@ def _checked_counts(name: str, counts: Sequence[int]) -> tuple[int, ...]:
 def _check_width(name: str, count: int, place: str = "") -> None:
     if count > MOST_COUNTS:
         what = f"wheel '{name}' has {count} possible counts"
-        raise RangeError(
-            Problem(what, f"at most {MOST_COUNTS} tooth counts per wheel are allowed", "narrow the range", place)
-        )
+        why = f"at most {MOST_COUNTS} tooth counts per wheel are allowed"
+        raise RangeError(Problem(what, why, "narrow the range", place))
 
 
 def _declared(name: str, teeth: Teeth, place: str) -> ToothCountPrior:
@@ -315,12 +310,11 @@ def _declared(name: str, teeth: Teeth, place: str) -> ToothCountPrior:
         what = f"the weights of wheel '{name}' do not define probabilities"
         raise QuestionError(Problem(what, why, "give non-negative weights, at least one of them above 0", place))
     probabilities = teeth.probabilities
+    weights = tuple(whole_multiple(probabilities.values()))
     kind = "choices" if teeth.choices is not None else "range"
-    said = ", weighted" if teeth.weights is not None else ""
     source = f" ({teeth.source})" if teeth.source else ""
-    return ToothCountPrior(
-        name, tuple(probabilities), tuple(whole_multiple(probabilities.values())), teeth.value, f"{kind}{source}{said}"
-    )
+    weighted = ", weighted" if teeth.weights is not None else ""
+    return ToothCountPrior(name, tuple(probabilities), weights, teeth.value, f"{kind}{source}{weighted}")
 
 
 # --------------------------------------------------------------------- observations: known speeds with their tolerances

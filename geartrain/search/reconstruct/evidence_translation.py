@@ -60,10 +60,8 @@ def find_dial(evidence: Train, name: str, free_sense: bool, base: BaseLink) -> S
         why = f"a reconstruction supports only speeds relative to the frame{carrier}"
         raise DeclarationError(Problem(what, why, f"give its speed relative to the frame{carrier}", place))
     if output.of == evidence.frame:
-        what = f"the pointer '{name}' is on the frame"
-        raise DeclarationError(
-            Problem(what, "the frame does not turn", "name in `of` the link that carries the pointer", place)
-        )
+        what, fix = f"the pointer '{name}' is on the frame", "name in `of` the link that carries the pointer"
+        raise DeclarationError(Problem(what, "the frame does not turn", fix, place))
     (minimum, maximum), signed = _bounds(evidence, name, free_sense)
     turning = base.seen(output.relative_to or evidence.frame)
     if turning and not signed:

@@ -91,10 +91,11 @@ def _frame_problems(evidence: Train) -> Iterator[Problem]:
     turning = [link for link, speed in inputs.items() if speed]
     if len(turning) != 1 or len(inputs) != 1:
         what = f"{len(turning)} links are driven" if len(inputs) == len(turning) else "the speed of an input is 0"
-        fix = "give one, such as `inputs: {b: 1}`"
-        yield Problem(
-            what, "a reconstruction needs exactly one input, with a speed other than 0", fix, evidence.place("inputs")
+        why, fix = (
+            "a reconstruction needs exactly one input, with a speed other than 0",
+            "give one, such as `inputs: {b: 1}`",
         )
+        yield Problem(what, why, fix, evidence.place("inputs"))
     frame = evidence.links.get(evidence.frame)
     if frame is not None and frame.wheels:
         what = "the frame has wheels, but no carrier is named"
@@ -118,13 +119,9 @@ def _carrier_speed_problems(evidence: Train, carrier: str) -> Iterator[Problem]:
     others = {link: speed for link, speed in inputs.items() if link != carrier}
     if carrier not in inputs:
         what = f"the speed of the carrier '{carrier}' is not given"
+        why = "the speeds of dials are converted to speeds relative to the carrier"
         fix = f"give its speed, such as `inputs: {{{carrier}: 1}}`"
-        yield Problem(
-            what,
-            "the speeds of dials are converted to speeds relative to the carrier",
-            fix,
-            evidence.place("reconstruct", "carrier"),
-        )
+        yield Problem(what, why, fix, evidence.place("reconstruct", "carrier"))
     elif not inputs[carrier]:
         fix = "delete `carrier`, or correct its speed"
         yield Problem(f"the speed of the carrier '{carrier}' is 0", "a fixed carrier is part of the frame", fix, place)
@@ -282,10 +279,8 @@ def coupling_problems(evidence: Train) -> Iterator[Problem]:
         first_link, second_link = (evidence.wheels[wheel][0] for wheel in gear.pair)
         if second_link in joined.get(first_link, ()):
             what = f"the arbors of the known mesh '{gear.name}' are connected by a coupling"
-            place = evidence.place("gears", at)
-            yield Problem(
-                what, "a mesh and a coupling of two arbors lock them", "remove the mesh or the coupling", place
-            )
+            why, fix = "a mesh and a coupling of two arbors lock them", "remove the mesh or the coupling"
+            yield Problem(what, why, fix, evidence.place("gears", at))
 
 
 def _bearing_problems(evidence: Train, pair: tuple[str, str], place: str) -> Iterator[Problem]:

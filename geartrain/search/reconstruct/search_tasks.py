@@ -61,7 +61,8 @@ class PathColumns:
     def __init__(self, paths: PathList, problem: ReconstructionProblem) -> None:
         self.paths = paths
         names = [wheel.name for arbor in (problem.input, *problem.arbors) for wheel in arbor.wheels]
-        number = {name: at for at, name in enumerate(names, 1)}  # 0 means no surviving wheel
+        number = {None: 0} | {name: at for at, name in enumerate(names, 1)}  # an added wheel has no name
+        bits = [0, *(1 << (len(problem.arbors) + at) for at in range(len(names)))]
         # one row per arbor, because an arbor is compared for many paths at once
         self.codes = np.ascontiguousarray(paths.codes.T)
         self.driven = np.zeros(self.codes.shape, dtype=np.int16)
@@ -70,20 +71,14 @@ class PathColumns:
         for at, passes in enumerate(paths.passes):
             taken = self.codes[at]
             # the numbers of driven wheels are the same in the lists of all dials
-            driven = sorted({each.driven for each in passes}, key=repr)
-            self.driven[at] = np.array([0, *(1 + driven.index(each.driven) for each in passes)], dtype=np.int16)[taken]
-            drivers = [0, *(number.get((each.driver and each.driver.name) or "", 0) for each in passes)]
-            self.driver[at] = np.array(drivers, dtype=np.int16)[taken]
-            wheels = [
-                {
-                    number[wheel.name]
-                    for wheel in (each.driven, each.driver)
-                    if wheel is not None and wheel.name in number
-                }
-                for each in passes
+            kinds = sorted({each.driven for each in passes}, key=repr)
+            self.driven[at] = np.array([0, *(1 + kinds.index(each.driven) for each in passes)], dtype=np.int16)[taken]
+            pairs = [
+                [0 if wheel is None else number[wheel.name] for wheel in (each.driven, each.driver)] for each in passes
             ]
-            bits = [0, *(sum(1 << (len(problem.arbors) + wheel - 1) for wheel in each) for each in wheels)]
-            self.used |= np.array(bits, dtype=np.int64)[taken]
+            self.driver[at] = np.array([0, *(driver for _, driver in pairs)], dtype=np.int16)[taken]
+            used = [0, *(bits[driven] | bits[driver] for driven, driver in pairs)]
+            self.used |= np.array(used, dtype=np.int64)[taken]
 
     def fit(self, rows: Rows, other: PathColumns, row: int) -> Bools:
         """Return whether each path can be in the same tree as a given path to another dial.

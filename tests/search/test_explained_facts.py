@@ -17,6 +17,7 @@ from geartrain.search.reconstruct import (
     Candidate,
     ExplanationCount,
     PlacedWheel,
+    RankedTrain,
     ReconstructionAnswer,
     ReconstructionProblem,
     Reconstructions,
@@ -101,6 +102,7 @@ def test_marginals(kind: str, subject: str, answers: list[tuple[str, str, int]])
     found = {(one.kind, one.subject): one for one in FOUND.marginals}
     told = [(answer.answer, answer.share, answer.solutions) for answer in found[kind, subject].answers]
     assert told == [(answer, Fraction(share), count) for answer, share, count in answers]
+    assert found[kind, subject].bits == pytest.approx(bits(*(float(Fraction(share)) for _, share, _ in answers)))
 
 
 def test_what_all_agree_in_is_first_and_wheels_that_all_use_are_left_out() -> None:
@@ -138,15 +140,7 @@ def test_the_most_telling_fact_is_first_and_those_that_divide_alike_stand_togeth
     assert found[2].same == (("pair", "a2 and c1"),)
     assert ("driver", "a") in found[3].same
     assert ("added", "new_sun1") in found[4].same
-
-
-def test_nothing_is_to_be_looked_for_where_there_is_one_candidate() -> None:
-    assert findings(PROBLEM, FOUR[:1], [1]).next_facts == ()
-
-
-def test_one_fact_is_certain() -> None:
-    pointer = next(one for one in FOUND.marginals if one.kind == "pointer")
-    assert pointer.bits == 0
+    assert findings(PROBLEM, FOUR[:1], [1]).next_facts == (), "one candidate leaves nothing to look for"
 
 
 def test_the_family_tree() -> None:
@@ -223,6 +217,16 @@ def test_a_wide_family_is_cut_and_says_what_is_left_out() -> None:
     many = [whole(arbor("a", ("a1", 20), ("a2", 30), sun(teeth))) for teeth in range(10, 19)]
     (branch,) = sections_of(findings(PROBLEM, many, [1] * 9))["The family tree"].branches
     assert [each.text for each in branch.below][-1] == "3 more"
+
+
+def test_a_page_shows_intervals_of_ranks_and_what_is_not_counted() -> None:
+    counts = (ExplanationCount(0, 3, 2, 1), ExplanationCount(1, 999_999, None, None))
+    best = tuple(
+        RankedTrain(rank, ranks, 0, 0.25, {}, {}, ("a > b",)) for rank, ranks in ((1, (1, 1)), (2, (2, 3)), (3, (2, 3)))
+    )
+    page = sections(ReconstructionAnswer("some", PROBLEM, counts, True, (), best))
+    assert page["Counts"].tables[0].rows[1] == ("1", "999999", "not counted", "not counted")
+    assert [row[0] for row in page["Most probable trains"].tables[0].rows] == ["1", "2 (2-3)", "3 (2-3)"]
 
 
 # ---- random questions, against concrete trees

@@ -60,42 +60,44 @@ def shared(driver: PlacedWheel, *arbors: Arbor) -> Arbor:
 # modules
 
 
-def test_nothing_measured_weighs_nothing() -> None:
-    assert candidate_likelihood(pair(), SurvivingGeometry()) == 1
+SPREAD = {"module": Fraction(1, 20)}
+RADIUS = MeasuredWheel("v", False, Fraction("15.75"))
+ADDED = PlacedWheel(None, 20)
+APART = Arbor("a", None, (), ((ADDED, (leaf("b", V),)), (ADDED, (leaf("c", X),))))
+WEIGHTS: dict[str, tuple[Arbor, SurvivingGeometry, float]] = {
+    "nothing measured": (pair(), SurvivingGeometry(), 1),
+    # ln 1.05 = 0.04879, (0.04879/0.05)^2 / 2 = 0.4761
+    "modules of a mesh": (pair(), SurvivingGeometry(modules(p="1", v="1.05"), **SPREAD), 0.62120),
+    # 15.75 mm of 30 teeth: module 1.05
+    "a radius gives the module": (pair(), SurvivingGeometry((*modules(p="1"), RADIUS), **SPREAD), 0.62120),
+    "wheels of one arbor may differ": (pair(leaf("c", X)), SurvivingGeometry(modules(v="1", w="2"), **SPREAD), 1),
+    # the added wheel has the module between 1 and 1.1: each is off by ln(1.1)/2 = 0.04766, 0.04766^2 / 0.05^2 = 0.9084
+    "an added wheel has one module": (
+        shared(ADDED, leaf("b", V), leaf("c", X)),
+        SurvivingGeometry(modules(v="1", x="1.1"), **SPREAD),
+        0.40317,
+    ),
+    "two added wheels have two": (APART, SurvivingGeometry(modules(v="1", x="1.1"), **SPREAD), 1),
+    # it is 1, its mates 1.05 and 1/1.05: both are off by ln 1.05
+    "a measured wheel does not move": (
+        shared(P, leaf("b", V), leaf("c", X)),
+        SurvivingGeometry(modules(p="1", v="1.05", x="20/21"), **SPREAD),
+        0.62120**2,
+    ),
+    # radii 10 and 15.75 with an error of 0.5: e = 0.04879 has the variance 0.05^2 + 0.05^2 + 0.031746^2
+    "small wheels are measured worse": (
+        pair(),
+        SurvivingGeometry(modules(p="1", v="1.05"), radius=Fraction(1, 2), **SPREAD),
+        math.exp(-(0.04879016**2) / 0.00600781 / 2),
+    ),
+    "arbors in one place do not mesh": (pair(), SurvivingGeometry(arbors=places(a=(3, 4), b=(3, 4))), 0),
+}
 
 
-def test_modules_of_a_mesh() -> None:
-    """Modules 1 and 1.05 with a spread of 5 %: ln 1.05 = 0.04879, (0.04879/0.05)^2 / 2 = 0.4761; its weight 0.6212."""
-    geometry = SurvivingGeometry(modules(p="1", v="1.05"), module=Fraction(1, 20))
-    assert candidate_likelihood(pair(), geometry) == pytest.approx(0.62120, abs=1e-5)
-
-
-def test_a_radius_says_the_module() -> None:
-    """Radius 15.75 mm of 30 teeth: module 1.05."""
-    radius = MeasuredWheel("v", False, Fraction("15.75"))
-    geometry = SurvivingGeometry((*modules(p="1"), radius), module=Fraction(1, 20))
-    assert candidate_likelihood(pair(), geometry) == pytest.approx(0.62120, abs=1e-5)
-
-
-def test_wheels_of_one_arbor_may_differ() -> None:
-    geometry = SurvivingGeometry(modules(v="1", w="2"), module=Fraction(1, 100))
-    assert candidate_likelihood(pair(leaf("c", X)), geometry) == 1
-
-
-def test_an_added_wheel_has_one_module() -> None:
-    """It drives 1 and 1.1: the best is between, so each is off by ln(1.1)/2 = 0.04766: 0.04766^2 / 0.05^2 = 0.9084."""
-    geometry = SurvivingGeometry(modules(v="1", x="1.1"), module=Fraction(1, 20))
-    added = shared(PlacedWheel(None, 20), leaf("b", V), leaf("c", X))
-    assert candidate_likelihood(added, geometry) == pytest.approx(0.4032, abs=1e-4)
-    apart = Arbor("a", None, (), ((PlacedWheel(None, 20), (leaf("b", V),)), (PlacedWheel(None, 20), (leaf("c", X),))))
-    assert candidate_likelihood(apart, geometry) == 1
-
-
-def test_a_measured_wheel_does_not_move() -> None:
-    """It is 1 itself, its mates 1.05 and 1/1.05: both are off by ln 1.05 = 0.04879."""
-    geometry = SurvivingGeometry(modules(p="1", v="1.05", x="20/21"), module=Fraction(1, 20))
-    weight = candidate_likelihood(shared(P, leaf("b", V), leaf("c", X)), geometry)
-    assert weight == pytest.approx(0.62120**2, abs=1e-5)
+@pytest.mark.parametrize("case", WEIGHTS)
+def test_a_candidate_weighs_what_a_calculator_says(case: str) -> None:
+    arbor, geometry, weight = WEIGHTS[case]
+    assert candidate_likelihood(arbor, geometry) == pytest.approx(weight, abs=1e-5)
 
 
 @pytest.mark.parametrize("seed", range(20))
@@ -133,14 +135,6 @@ def test_modules_that_were_not_measured_are_the_best(seed: int) -> None:
             at[number] = sum(mates) / len(mates)
     misfit = sum((at[a] - at[b]) ** 2 for a, b in edges)
     assert found == pytest.approx(math.exp(-misfit / 0.05**2 / 2), rel=1e-6)
-
-
-def test_small_wheels_are_measured_worse() -> None:
-    """Radii 10 and 15.75 with an error of 0.5: e = 0.04879 has the variance 0.05^2 + 0.05^2 + 0.031746^2."""
-    geometry = SurvivingGeometry(modules(p="1", v="1.05"), module=Fraction(1, 20), radius=Fraction(1, 2))
-    assert candidate_likelihood(pair(), geometry) == pytest.approx(
-        math.exp(-(0.04879016**2) / 0.00600781 / 2), rel=1e-5
-    )
 
 
 def test_a_wheel_that_is_measured_badly_takes_the_side_of_its_mates() -> None:
@@ -182,10 +176,6 @@ def test_one_measured_wheel_says_the_module_of_both() -> None:
 def test_what_is_only_improbable_is_not_impossible() -> None:
     geometry = SurvivingGeometry(modules(p="1", v="9"), module=Fraction(1, 1000))
     assert 0 < candidate_likelihood(pair(), geometry) < 1e-300
-
-
-def test_arbors_in_one_place_do_not_mesh() -> None:
-    assert candidate_likelihood(pair(), SurvivingGeometry(arbors=places(a=(3, 4), b=(3, 4)))) == 0
 
 
 # pruning

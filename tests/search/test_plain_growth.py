@@ -1,17 +1,39 @@
-"""The search of reconstructions against plain growth of concrete trees, on small questions of all kinds."""
+"""The search of reconstructions against plain growth of concrete trees, on small questions of all kinds.
+
+Plain growth itself is held against counts by hand here, and against other programs in `test_reconstruction_counts`.
+"""
 
 from __future__ import annotations
 
 import random
+from collections import Counter
 from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
+from itertools import product
 
 import pytest
-from concrete_trees import Found, concrete, explanations, meshes, random_problem, with_rings
+from concrete_trees import (
+    Found,
+    concrete,
+    exact_dial,
+    explanations,
+    meshes,
+    plain_prior,
+    random_problem,
+    sure_arbor,
+    with_rings,
+)
 from sampling import first_few
 
-from geartrain.search.reconstruct import ReconstructionProblem, find_reconstructions
+from geartrain.search.reconstruct import (
+    Additions,
+    Arbor,
+    PlacedWheel,
+    ReconstructionProblem,
+    SurvivingArbor,
+    find_reconstructions,
+)
 
 
 def grown_alike(problem: ReconstructionProblem, seed: int) -> tuple[Found, ...]:
@@ -23,8 +45,47 @@ def grown_alike(problem: ReconstructionProblem, seed: int) -> tuple[Found, ...]:
     trees = [(one.added, concrete(one.arbor)) for one in found.candidates]
     assert len(set(trees)) == len(trees)
     assert set(trees) == {(each.counts.added, tree) for each in right for tree in each.solutions}, seed
-    assert sum(one.weight for one in found.candidates) == pytest.approx(1 if trees else 0)
+    weights = {tree: plain_prior(tree, problem) for _, tree in trees}
+    alike, whole = Counter(weights.values()), sum(weights.values())
+    for one, (_, tree) in zip(found.candidates, trees, strict=True):
+        heavier = sum(number for weight, number in alike.items() if weight > weights[tree])
+        assert one.ranks == (heavier + 1, heavier + alike[weights[tree]])
+        assert one.weight == pytest.approx(float(weights[tree] / whole))
     return right
+
+
+def test_the_one_of_the_first_toy() -> None:
+    """20/30 * 15/10 = 1."""
+    question = ReconstructionProblem(
+        sure_arbor("in", i=20), (sure_arbor("a", a1=30, a2=15),), (exact_dial("P", 1),), Additions(3, 10, 16)
+    )
+    pointer = ("", ("", 10), ("P",), ())
+    only = ("in", (), (), ((("i", 20), (("a", ("a1", 30), (), ((("a2", 15), (pointer,)),)),)),))
+    assert explanations(question)[1].solutions == {only}
+    shown = Arbor(None, PlacedWheel(None, 10), ("P",), ())
+    between = Arbor("a", PlacedWheel("a1", 30), (), ((PlacedWheel("a2", 15), (shown,)),))
+    assert concrete(Arbor("in", None, (), ((PlacedWheel("i", 20), (between,)),))) == only
+
+
+def test_a_ring_keeps_the_sense_and_holds_smaller_wheels_alone() -> None:
+    """20 > x, y > 24 (a ring), 12 > z or 20 > 24, 12 > x, y > z: both turn by 10 y / (x z), forward."""
+    counts = range(10, 31)
+    ring = SurvivingArbor("a", (replace(sure_arbor("a", R=24).wheels[0], internal=True), *sure_arbor("a", s=12).wheels))
+    question = ReconstructionProblem(
+        sure_arbor("in", i=20), (ring,), (exact_dial("P", "1/2", place="new"),), Additions(3, 10, 30)
+    )
+    fitting = [y for x, y, z in product(counts, repeat=3) if x * z == 20 * y]
+    outside = sum(y < 24 for y in fitting)
+    assert (outside, len(fitting)) == (51, 71)
+    right = [each.counts.solutions for each in grown_alike(question, 0)]
+    assert right == [0, 0, 0, outside + len(fitting)]
+    back = replace(question, dials=(exact_dial("P", "-1/2", place="new"),))
+    assert [each.counts.solutions for each in grown_alike(back, 0)] == [0, 1, 0, 0]
+
+
+def test_most_random_questions_have_answers() -> None:
+    answered = [any(each.solutions for each in explanations(random_problem(seed))) for seed in range(40)]
+    assert sum(answered) > 20
 
 
 @pytest.mark.parametrize("start", first_few(4, [20, 40, 60, 100, 80, *range(120, 200, 20), 0]))

@@ -2,7 +2,9 @@
 
 One looks for trees whose added wheels are unknowns, one grows concrete trees; `reconstruction_counts.json` holds what
 they found: by number of added wheels from 0 on, solutions, multisets and ratio classes. The historic questions
-have the counts that were known before.
+have the counts that were known before. `carried_counts.json` holds the numbers of trains of the front of the
+Antikythera mechanism, found by a third program: it lists the shapes of trees, gathers those of one system of equations,
+and solves each by loops over products.
 """
 
 from __future__ import annotations
@@ -14,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from concrete_trees import explanations
 
 from geartrain.search.reconstruct import (
     Additions,
@@ -25,6 +28,7 @@ from geartrain.search.reconstruct import (
     find_reconstructions,
     read_evidence,
 )
+from geartrain.train import declare
 
 LONG = {  # each some seconds
     "b byzantine",
@@ -35,7 +39,10 @@ LONG = {  # each some seconds
     "back with doubts, Metonic+Saros",
     "back with doubts and c d e (sure), Metonic+Saros+Moon",
 }
-QUESTIONS = json.loads((Path(__file__).parent / "reconstruction_counts.json").read_text(encoding="utf-8"))
+QUESTIONS, CARRIED = (
+    json.loads((Path(__file__).parent / name).read_text(encoding="utf-8"))
+    for name in ("reconstruction_counts.json", "carried_counts.json")
+)
 
 
 def requested(question: dict[str, Any]) -> ReconstructionProblem:
@@ -81,6 +88,29 @@ def test_counts_are_those_of_other_programs(question: dict[str, Any]) -> None:
     found = find_reconstructions(requested(question), listed=0)
     assert found.complete
     assert [[each.solutions, each.multisets, each.classes] for each in found.counts] == question["counts"]
+
+
+@pytest.mark.parametrize("question", [*map(_parameter, QUESTIONS[:7])])
+def test_plain_growth_has_the_counts_of_toys_and_of_al_biruni(question: dict[str, Any]) -> None:
+    found = [list(each.counts[1:]) for each in explanations(requested(question))]
+    assert found == question["counts"]
+
+
+def _carried(question: dict[str, Any]) -> Any:
+    name = "-".join(map(str, [*question["dials"], *question["added"], len(question["counts"]) - 1]))
+    return pytest.param(question, id=name, marks=[pytest.mark.long] if question.get("slow") else [])
+
+
+@pytest.mark.parametrize("question", [*map(_carried, CARRIED)])
+def test_counts_on_a_carrier_are_those_of_another_program(question: dict[str, Any]) -> None:
+    evidence = read_evidence("front-planets").model_dump(mode="json", exclude_unset=True, by_alias=True)
+    evidence["outputs"] = {dial: evidence["outputs"][dial] for dial in question["dials"]}
+    if "venus" not in question["dials"]:
+        del evidence["links"]["r1"], evidence["revolutes"]
+    evidence["reconstruct"]["add"] = {"wheels": len(question["counts"]) - 1, "teeth": question["added"]}
+    found = find_reconstructions(evidence_question(declare(evidence)).problem, listed=0)
+    assert found.complete
+    assert [each.solutions for each in found.counts] == question["counts"]
 
 
 @pytest.mark.parametrize(

@@ -217,7 +217,13 @@ class SearchedDial(Shown):
         return self.minimum == self.maximum
 
     def accepts(self, speed: Fraction) -> bool:
-        """Return whether a speed [turns per unit of the input] is in the required range."""
+        """Return whether a speed is in the required range.
+
+        Parameters
+        ----------
+        speed : Fraction
+            Speed [turns per unit of the input].
+        """
         return self.minimum <= (speed if self.signed else abs(speed)) <= self.maximum
 
 

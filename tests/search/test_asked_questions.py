@@ -12,11 +12,11 @@ from concrete_trees import exact_dial, sure_arbor
 from geartrain import GearTrainError
 from geartrain.search.reconstruct import (
     Additions,
+    PriorFactors,
     ReconstructionProblem,
     evidence_question,
     find_reconstructions,
     read_evidence,
-    search_tasks,
 )
 
 TOY = ReconstructionProblem(
@@ -36,7 +36,7 @@ def test_an_absurd_number_of_added_wheels_is_refused_before_the_search(
     idlers: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """1000 wheels of 36 counts: 36^1000 = 10^1556 choices; 10^24 are those of 15 wheels."""
-    monkeypatch.setattr(search_tasks, "_counted", lambda *_: pytest.fail("searched"))
+    monkeypatch.setattr("geartrain.search.reconstruct.search_tasks._counted", lambda *_: pytest.fail("searched"))
     with pytest.raises(GearTrainError) as caught:
         find_reconstructions(replace(TOY, additions=Additions(1000, 10, 45), idlers=idlers))
     (problem,) = caught.value.problems
@@ -57,17 +57,17 @@ def test_the_command_says_the_size_first_and_refuses_the_absurd() -> None:
 
 
 def test_what_is_too_wide_is_refused_with_what_is_requested(monkeypatch: pytest.MonkeyPatch) -> None:
-    # path lists of another test with the same problem are kept
-    search_tasks._search.cache_clear()
+    # a problem of its own, because path lists of another test with the same problem are kept
+    problem = replace(doubtful(), factors=PriorFactors(wheel=Fraction(7)))
     monkeypatch.setattr("geartrain.search.reconstruct.path_lists._MOST_PATHS", 1000)
     with pytest.raises(GearTrainError) as caught:
-        find_reconstructions(doubtful())
-    (problem,) = caught.value.problems
-    assert problem.what == "more than 1000 paths to 'metonic' would have to be examined"
+        find_reconstructions(problem)
+    (refusal,) = caught.value.problems
+    assert refusal.what == "more than 1000 paths to 'metonic' would have to be examined"
     # 2 x 5 x 19 x 13 x 2 x 3 readings
-    assert problem.why == (
+    assert refusal.why == (
         "the problem has 6 arbors with 10 wheels and 14820 combinations of their counts; 2 dials; "
         "at most 2 added wheels of 12 to 225 teeth"
     )
     for way in ("`-k 1`", "e3 has 19, e4 has 13, m1 has 5", "omit arbors"):
-        assert way in problem.fix
+        assert way in refusal.fix

@@ -2,19 +2,35 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Sequence
+from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from math import log2
 
 import pytest
-from concrete_trees import concrete, declared, meshes, random_problem, sections
+from concrete_trees import (
+    ADDED,
+    concrete,
+    declared,
+    explanations,
+    meshes,
+    nodes,
+    package_arbor,
+    plain_prior,
+    random_problem,
+    sections,
+    with_rings,
+)
+from sampling import all_but, first_few
 
 from geartrain.report import Document, Section, to_markdown
 from geartrain.search.reconstruct import (
     Additions,
     Arbor,
     Candidate,
+    CandidateFindings,
     ExplanationCount,
     PlacedWheel,
     RankedTrain,
@@ -24,8 +40,10 @@ from geartrain.search.reconstruct import (
     SearchedDial,
     SurvivingArbor,
     SurvivingWheel,
-    explained_facts,
+    evidence_question,
+    find_facts,
     find_reconstructions,
+    read_evidence,
 )
 
 
@@ -70,12 +88,10 @@ FOUR = (
 )
 
 
-def findings(
-    problem: ReconstructionProblem, arbors: Sequence[Arbor], weights: Sequence[float]
-) -> explained_facts.CandidateFindings:
+def findings(problem: ReconstructionProblem, arbors: Sequence[Arbor], weights: Sequence[float]) -> CandidateFindings:
     """What is said of candidates of these weights, whatever the search would say that they weigh."""
     listed = (Candidate(one, 0, weight, (1, 1)) for one, weight in zip(arbors, weights, strict=True))
-    return explained_facts.find_facts(declared(problem), problem, Reconstructions((), True, tuple(listed)))
+    return find_facts(declared(problem), problem, Reconstructions((), True, tuple(listed)))
 
 
 FOUND = findings(PROBLEM, FOUR, [0.5, 0.25, 0.125, 0.125])
@@ -168,7 +184,7 @@ def test_a_stem_is_one_branch_and_no_candidates_have_no_tree() -> None:
     assert findings(PROBLEM, (), ()).family == ()
 
 
-def sections_of(found: explained_facts.CandidateFindings) -> dict[str, Section]:
+def sections_of(found: CandidateFindings) -> dict[str, Section]:
     answer = ReconstructionAnswer("toy", PROBLEM, (ExplanationCount(2, 4, 4, 4),), True, (), (), findings=found)
     return sections(answer)
 
@@ -231,7 +247,7 @@ def test_a_page_shows_intervals_of_ranks_and_what_is_not_counted() -> None:
 
 # ---- random questions, against concrete trees
 
-Question = tuple[tuple[Candidate, ...], explained_facts.CandidateFindings, list[Fraction]]
+Question = tuple[tuple[Candidate, ...], CandidateFindings, list[Fraction]]
 
 
 @cache
@@ -292,3 +308,82 @@ def test_a_family_tree_holds_every_candidate_once(seed: int) -> None:
             at = tree[at].parent
         for train in branch.trains:
             assert len([mesh for mesh in path if " > " in mesh]) == len(meshes(concrete(found[train.rank - 1].arbor)))
+
+
+# ---- sums over all trains of random questions, against sums train by train and over concrete trees
+
+Told = dict[tuple[str, str], dict[str, tuple[Fraction, int]]]
+
+
+def questions(first: int, rings: bool) -> list[ReconstructionProblem]:
+    plain = [random_problem(seed, idlers=True) for seed in range(first, first + 60)]
+    return [with_rings(problem, seed) for seed, problem in enumerate(plain, first)] if rings else plain
+
+
+def said(problem: ReconstructionProblem, summed: bool) -> Told:
+    """What is said of all trains, by sums over topologies or train by train."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("geartrain.search.reconstruct.explained_facts.MOST_SUMMED", 10**9 if summed else 0)
+        found = find_facts(declared(problem), problem, find_reconstructions(problem, listed=20_000))
+    facts = [*found.marginals, *(one.fact for one in found.next_facts)]
+    return {(one.kind, one.subject): {a.answer: (a.share, a.solutions) for a in one.answers} for one in facts}
+
+
+@pytest.mark.parametrize("rings", [False, True])
+@pytest.mark.parametrize("first", first_few(1, [100, 160]))
+def test_sums_are_those_over_all_trains(first: int, rings: bool) -> None:
+    answered = 0
+    for problem in questions(first, rings):
+        found, expected = said(problem, summed=True), said(problem, summed=False)
+        assert found.keys() == expected.keys()
+        for key, answers in expected.items():
+            assert found[key].keys() == answers.keys()
+            for answer, (share, number) in answers.items():
+                assert found[key][answer] == (pytest.approx(share, rel=1e-12), number)
+        answered += bool(found)
+    assert answered > (10 if rings else 40)
+
+
+@pytest.mark.parametrize("first", all_but({220}, [220, 250]))
+def test_sums_are_those_over_concrete_trees(first: int) -> None:
+    """Meshes of survivors and counts that are needed, weighed by the table of the page."""
+    for seed in range(first, first + 30):
+        problem = random_problem(seed, idlers=True)
+        found = said(problem, summed=True)
+        trees = [tree for one in explanations(problem) for tree in one.solutions]
+        weights = [plain_prior(tree, problem) for tree in trees]
+        direct: dict[tuple[str, str], Fraction] = defaultdict(Fraction)
+        for tree, weight in zip(trees, weights, strict=True):
+            assert concrete(package_arbor(tree)) == tree
+            for driving, driven in meshes(tree):
+                if driving[0] and driven[0]:
+                    direct["mesh", f"{driving[0]} > {driven[0]}"] += weight / sum(weights)
+            added = {node[1][1] for node in nodes(tree) if node[1] and node[1][0] == ADDED}
+            added |= {wheel[1] for node in nodes(tree) for wheel, _ in node[3] if wheel[0] == ADDED}
+            for teeth in added:
+                direct["needed", str(teeth)] += weight / sum(weights)
+        survivors = {wheel.name for arbor in (problem.input, *problem.arbors) for wheel in arbor.wheels}
+        told = {
+            key: answers["yes"][0]
+            for key, answers in found.items()
+            if key[0] == "needed" or (key[0] == "mesh" and set(key[1].split(" > ")) <= survivors)
+        }
+        assert told == direct
+
+
+@pytest.mark.parametrize(("most", "told"), [(10**6, 4), (3, 1)])
+def test_facts_are_told_of_all_trains_unless_they_are_too_many(
+    most: int, told: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """One of the four trains of the back is listed."""
+    evidence = read_evidence("back-train")
+    problem = evidence_question(evidence).problem
+    found = find_reconstructions(problem)
+    monkeypatch.setattr("geartrain.search.reconstruct.explained_facts.MOST_SUMMED", most)
+    findings = find_facts(evidence, problem, replace(found, candidates=found.candidates[:1]))
+    assert findings.of_all == (told == 4)
+    assert {one.trains for one in findings.marginals} == {told}
+    assert (findings.listed, len(findings.family)) == (1, 1)
+    report = ReconstructionAnswer("back", problem, found.counts, True, (), (), findings=findings)
+    said = "computed over all trains." if told == 4 else "Shares are relative to them."
+    assert sum(line.endswith(said) for line in str(report).splitlines()) == 1

@@ -18,9 +18,11 @@ from geartrain.search.reconstruct import (
     Reconstructions,
     evidence_question,
     find_reconstructions,
+    find_spur_tree,
+    find_spur_trees,
+    lost_evidence,
     reconstruct,
 )
-from geartrain.search.reconstruct.spur_tree import find_spur_tree, find_spur_trees, lost_evidence, lost_evidence_data
 
 # a > b > c is the Moon's train, a > s the Sun's; d leads to no pointer, e is driven by a contrate wheel
 SAMPLE = """\
@@ -63,21 +65,26 @@ def sample(old: str = "", new: str = "") -> Any:
     return find_spur_tree(load(SAMPLE.replace(old, new) if old else SAMPLE).declaration)
 
 
+def evidence_data(tree: Any, lost: Sequence[str]) -> dict[str, Any]:
+    """The evidence that is left, as plain data."""
+    return lost_evidence(tree, lost).model_dump(mode="json", exclude_unset=True, by_alias=True)
+
+
 def wheel(teeth: int, name: str | None = None) -> PlacedWheel:
     return PlacedWheel(name, teeth)
 
 
 def test_evidence_is_what_the_other_arbors_and_all_pointers_tell() -> None:
-    assert lost_evidence_data(sample(), ["b"]) == {
+    assert evidence_data(sample(), ["b"]) == {
         "name": "sample-without-b",
         "title": "A sample, without b",
         "unit": {"per": "year_tropical_J2000"},
         "frame": "frame",
         "links": {
             "frame": {},
-            "a": {"wheels": {"a1": 10, "a2": 12}},
-            "c": {"wheels": {"c1": 7}},
-            "s": {"wheels": {"s1": 24}},
+            "a": {"wheels": {"a1": {"teeth": 10}, "a2": {"teeth": 12}}},
+            "c": {"wheels": {"c1": {"teeth": 7}}},
+            "s": {"wheels": {"s1": {"teeth": 24}}},
         },
         "inputs": {"a": "1"},
         "outputs": {
@@ -86,11 +93,11 @@ def test_evidence_is_what_the_other_arbors_and_all_pointers_tell() -> None:
         },
         "reconstruct": {"add": {"wheels": 2, "teeth": [7, 24]}},
     }
-    found = lost_evidence_data(sample(), ["s", "c"])
+    found = evidence_data(sample(), ["s", "c"])
     assert found["links"] == {
         "frame": {},
-        "a": {"wheels": {"a1": 10, "a2": 12}},
-        "b": {"wheels": {"b1": 20, "b2": {"teeth": 14, "status": "surviving", "note": "worn"}}},
+        "a": {"wheels": {"a1": {"teeth": 10}, "a2": {"teeth": 12}}},
+        "b": {"wheels": {"b1": {"teeth": 20}, "b2": {"teeth": 14, "status": "surviving", "note": "worn"}}},
     }
     assert {name: output["of"] for name, output in found["outputs"].items()} == {"moon": "new", "sun": "new"}
     assert found["reconstruct"]["add"]["wheels"] == 2
@@ -147,7 +154,7 @@ def test_a_ring_turns_with_what_drives_it_and_is_not_lost() -> None:
     tree = sample("c1: 7}}", "c1: {teeth: 27, internal: true}}}")
     assert tree.pointers["moon"] == "c"
     assert tree.able == ("b", "s")
-    assert lost_evidence_data(tree, ["b"])["links"]["c"] == {"wheels": {"c1": {"teeth": 27, "internal": True}}}
+    assert evidence_data(tree, ["b"])["links"]["c"] == {"wheels": {"c1": {"teeth": 27, "internal": True}}}
 
 
 @pytest.mark.parametrize(
@@ -204,7 +211,7 @@ def test_what_is_borne_by_a_carrier_is_a_part_and_so_is_what_it_drives() -> None
 def test_links_that_a_pin_in_a_slot_joins_are_lost_together() -> None:
     tree = find_spur_tree(load("freeth-2008").declaration, ["k2"])
     assert (tree.source, tree.joined["k1"], tree.wheels_of("k1")) == ("e_pipe", ("k1", "k2"), ("k1", "k2"))
-    data = lost_evidence_data(tree, ["e_inner"])
+    data = evidence_data(tree, ["e_inner"])
     assert data["inputs"] == {"e_table": "-477/4237", "e_pipe": "-254/19"}
     assert data["links"] == {
         "frame": {},
@@ -223,7 +230,7 @@ def test_links_that_a_pin_in_a_slot_joins_are_lost_together() -> None:
         "relative_to": "e_table",
         "expect": {"value": "56165/4237"},
     }
-    without = lost_evidence_data(tree, ["k2"])
+    without = evidence_data(tree, ["k2"])
     assert without["reconstruct"]["add"] == {"wheels": 2, "teeth": [12, 223]}
     assert "given" not in without["reconstruct"]
 

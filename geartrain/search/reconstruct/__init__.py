@@ -46,6 +46,8 @@ from geartrain.numerics.lazy_names import public_names
 if TYPE_CHECKING:
     from geartrain.search.reconstruct.evidence_translation import EvidenceQuestion as EvidenceQuestion
     from geartrain.search.reconstruct.evidence_translation import evidence_question as evidence_question
+    from geartrain.search.reconstruct.explained_facts import CandidateFindings as CandidateFindings
+    from geartrain.search.reconstruct.explained_facts import find_facts as find_facts
     from geartrain.search.reconstruct.reconstruction import RankedTrain as RankedTrain
     from geartrain.search.reconstruct.reconstruction import ReconstructionAnswer as ReconstructionAnswer
     from geartrain.search.reconstruct.reconstruction import ReconstructionRequest as ReconstructionRequest
@@ -62,6 +64,9 @@ if TYPE_CHECKING:
     from geartrain.search.reconstruct.reconstruction_search import ExplanationCount as ExplanationCount
     from geartrain.search.reconstruct.reconstruction_search import Reconstructions as Reconstructions
     from geartrain.search.reconstruct.reconstruction_search import find_reconstructions as find_reconstructions
+    from geartrain.search.reconstruct.spur_tree import find_spur_tree as find_spur_tree
+    from geartrain.search.reconstruct.spur_tree import find_spur_trees as find_spur_trees
+    from geartrain.search.reconstruct.spur_tree import lost_evidence as lost_evidence
     from geartrain.search.reconstruct.train_construction import candidate_train as candidate_train
     from geartrain.train.declaration_files import read_evidence as read_evidence
 
@@ -69,10 +74,12 @@ __getattr__, __all__ = public_names(
     __name__,
     {
         "evidence_translation": "EvidenceQuestion evidence_question",
+        "explained_facts": "CandidateFindings find_facts",
         "reconstruction": "RankedTrain ReconstructionAnswer ReconstructionRequest reconstruct",
         "reconstruction_problem": "Additions Arbor PlacedWheel PriorFactors ReconstructionProblem SearchedDial "
         "SurvivingArbor SurvivingWheel",
         "reconstruction_search": "Candidate ExplanationCount Reconstructions find_reconstructions",
+        "spur_tree": "find_spur_tree find_spur_trees lost_evidence",
         "train_construction": "candidate_train",
         "..train.declaration_files": "read_evidence",
     },

@@ -408,6 +408,10 @@ def _steps(train: NamedArbor) -> Iterator[str]:
 class CandidateFindings(Result):
     """Facts derived from the candidates: marginals, facts to observe next, family tree, and sensitivity to
     assumptions.
+
+    See Also
+    --------
+    find_facts : Derive facts from candidates.
     """
 
     listed: int = 0
@@ -441,9 +445,33 @@ def find_facts(
     found: Reconstructions,
     assumptions: tuple[ChangedCount, ...] = (),
 ) -> CandidateFindings:
-    """Return the marginals, the facts to observe next, and the family tree of the listed candidates.
+    """Derive facts from the candidates: marginals, facts to observe next, and the family tree.
 
     The marginals and the facts to observe next are based on all trains if sums over all trains can be computed.
+
+    Parameters
+    ----------
+    evidence : Train
+        Evidence that the candidates explain.
+    problem : ReconstructionProblem
+        Reconstruction problem of this evidence.
+    found : Reconstructions
+        Explanations of the problem.
+    assumptions : tuple of ChangedCount
+        Numbers of trains without each hard constraint, which are copied to the result.
+
+    Returns
+    -------
+    CandidateFindings
+
+    Examples
+    --------
+    >>> from geartrain.search.reconstruct import evidence_question, find_reconstructions, read_evidence
+    >>> evidence = read_evidence("metonic-l-m")
+    >>> problem = evidence_question(evidence).problem
+    >>> found = find_facts(evidence, problem, find_reconstructions(problem))
+    >>> found.next_facts[0].fact.subject, found.next_facts[0].fact.bits
+    ('b2 and l1', 1.0)
     """
     candidates = found.candidates
     if not candidates:

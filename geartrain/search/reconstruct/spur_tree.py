@@ -250,8 +250,25 @@ def find_spur_trees(train: Train) -> tuple[SpurTree, ...]:
     arbor of known speed that leads to no pointer is also treated as a pointer. Arbors that lead to no pointer belong to
     no part.
 
-    `QuestionError` is raised if the train has no such part, because it does not have exactly one input, because no
-    pointer is reached, or because its meshes close a loop.
+    Parameters
+    ----------
+    train : Train
+        Complete train with one input and without states.
+
+    Returns
+    -------
+    tuple of SpurTree
+
+    Raises
+    ------
+    QuestionError
+        If the train does not have exactly one input, if no pointer is reached, or if meshes close a loop.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> [tree.able for tree in find_spur_trees(geartrain.load("longcase-clock").declaration)]
+    [('great', 'third', 'minute', 'escape', 'hour')]
     """
     _check_input(train)
     parts = _Parts(train)
@@ -276,9 +293,29 @@ def find_spur_trees(train: Train) -> tuple[SpurTree, ...]:
 def find_spur_tree(train: Train, arbors: Iterable[str] = (), source: str | None = None) -> SpurTree:
     """Return the first part of a train in which all given arbors are driven.
 
-    source   arbor at which the part begins; None if it may begin at any arbor
+    Parameters
+    ----------
+    train : Train
+        Complete train with one input and without states.
+    arbors : iterable of str
+        Names of links whose arbors must be driven in the part.
+    source : str, optional
+        Arbor at which the part begins; by default it may begin at any arbor.
 
-    `QuestionError` is raised if no part has all of these arbors.
+    Returns
+    -------
+    SpurTree
+
+    Raises
+    ------
+    QuestionError
+        If no part has all of these arbors, or if the train has no part; see `find_spur_trees`.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> find_spur_tree(geartrain.load("freeth-2008").declaration, ["k1"]).source
+    'e_pipe'
     """
     trees = find_spur_trees(train)
     if source is not None:
@@ -522,16 +559,32 @@ def lost_evidence(tree: SpurTree, lost: Sequence[str], seen: bool = False) -> Tr
     are lost. Their tooth counts must be within the range of tooth counts in the first part or, for a later part, in all
     parts.
 
-    lost   names of lost links; `QuestionError` is raised if this includes the first arbor, a link that is not in the
-           tree, or an arbor with a ring
-    seen   True if the meshes of surviving wheels are known and no more arbors may be added than are lost; False if the
-           meshes are unknown
+    Parameters
+    ----------
+    tree : SpurTree
+        Part of a train.
+    lost : sequence of str
+        Names of lost links.
+    seen : bool
+        True if the meshes of surviving wheels are known and no more arbors may be added than are lost; False if the
+        meshes are unknown.
+
+    Returns
+    -------
+    Train
+
+    Raises
+    ------
+    QuestionError
+        If the lost links include the first arbor, a link that is not in the tree, or an arbor with a ring.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> tree = find_spur_tree(geartrain.load("longcase-clock").declaration)
+    >>> lost_evidence(tree, ["great"]).reconstruct.add.wheels
+    1
     """
-    return declare(lost_evidence_data(tree, lost, seen))
-
-
-def lost_evidence_data(tree: SpurTree, lost: Sequence[str], seen: bool = False) -> dict[str, Any]:
-    """Return the evidence that remains of a tree after the loss of some arbors, in the format of a declaration."""
     _check(tree, lost)
     train = tree.train
     arbors = lost_arbors(tree, lost)
@@ -550,7 +603,7 @@ def lost_evidence_data(tree: SpurTree, lost: Sequence[str], seen: bool = False) 
     meshes = tree.meshes(arbors) if seen else ()
     base = tree.base
     speeds = {base.name: base.speed, base.source: base.driven + base.speed}
-    return {
+    data = {
         "name": f"{train.name}-without-{words}",
         **kept,
         "frame": train.frame,
@@ -565,6 +618,7 @@ def lost_evidence_data(tree: SpurTree, lost: Sequence[str], seen: bool = False) 
         },
         "reconstruct": _requested(tree, arbors, seen),
     }
+    return declare(data)
 
 
 def lost_arbors(tree: SpurTree, links: Sequence[str]) -> tuple[str, ...]:

@@ -292,8 +292,8 @@ def sum_facts(
                 continue
             sums.add_trains(weight, part.trains)
             # all choices of counts are possible in every order of a part, so their numbers are multiplied
-            for order in part.orders:
-                named, kinds = named_candidate(evidence, order), trains.kinds(topology, order)
+            for order, kinds in part.orders:
+                named = named_candidate(evidence, order)
                 for fact, answer in _order_facts(named, doubtful, lost):
                     sums.add(fact, answer, weight, part.choices)
                 for wheel in named.added_wheels():
@@ -434,9 +434,6 @@ class CandidateFindings(Result):
     """Reasons why the evidence has no explanation; None if there is an explanation, or if the reasons were not searched
     for.
     """
-
-
-NO_FINDINGS = CandidateFindings()
 
 
 def find_facts(

@@ -275,9 +275,6 @@ class PathList:
         self.new = self.compounds + self.idlers + self.ends_new
         self.bounds = self._bounds(growth.ratio[rows], self._turned(self.codes, self.new))
 
-    def __len__(self) -> int:
-        return len(self.codes)
-
     def _passes(self, at: int) -> Iterator[ArborPass]:
         problem = self.problem
         arbor = (problem.input, *problem.arbors)[at]

@@ -211,7 +211,7 @@ class PathTrees:
         through, end = found
         for trunk, after, below in self._trunks(paths, through, left):
             if end is None:
-                if trunk.arbors:
+                if trunk.through or trunk.compounds or trunk.idlers:
                     yield from _with_ends(trunk, self._forest(below, after, 2))
                 yield from _with_ends(trunk, self._new_branching(below, after))
             else:

@@ -20,7 +20,7 @@ from geartrain.search.reconstruct.dropped_facts import (
     without_each_fact,
 )
 from geartrain.search.reconstruct.evidence_translation import EvidenceQuestion, evidence_question
-from geartrain.search.reconstruct.explained_facts import NO_FINDINGS, CandidateFindings, find_facts
+from geartrain.search.reconstruct.explained_facts import CandidateFindings, find_facts
 from geartrain.search.reconstruct.known_rank import KnownRank, rank_known_train
 from geartrain.search.reconstruct.link_roles import BaseLink, Joined
 from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem, RequestedQuestion
@@ -176,7 +176,7 @@ class ReconstructionAnswer(Result):
     """First and last rank of the original train by probability, if arbors of it were treated as lost. None if no arbors
     were treated as lost, or if the train is not listed.
     """
-    findings: CandidateFindings = NO_FINDINGS
+    findings: CandidateFindings = field(default_factory=CandidateFindings)
     """Facts derived from the explanations: common facts, most informative facts, and the family tree."""
     base: BaseLink | None = None
     """Base of the train, which is the link that carries the arbors (the frame or a carrier), and input link of the

@@ -103,17 +103,6 @@ class PathColumns:
         return good & (parted <= 1)
 
 
-def all_to_use(problem: ReconstructionProblem) -> int:
-    """Return the bit mask of the surviving arbors and wheels that must be used, in the format of `PathColumns.used`."""
-    if problem.use == "some":
-        return 0
-    arbors = (1 << len(problem.arbors)) - 1
-    if problem.use == "arbors":
-        return arbors
-    wheels = sum(len(each.wheels) for each in (problem.input, *problem.arbors))
-    return arbors | ((1 << wheels) - 1) << len(problem.arbors)
-
-
 Choice = dict[str, int]
 """Chosen path for each dial, given as a row of the path list of the dial."""
 
@@ -129,7 +118,10 @@ class PathChoice:
 
     def __init__(self, problem: ReconstructionProblem, lists: Mapping[str, PathList], tables: QuotientTables) -> None:
         self.problem, self.lists, self.tables = problem, lists, tables
-        self._must = all_to_use(problem)
+        # surviving arbors and wheels that must be used, as a bit mask like `PathColumns.used`
+        wheels = sum(len(each.wheels) for each in (problem.input, *problem.arbors))
+        required = {"some": 0, "arbors": len(problem.arbors), "wheels": len(problem.arbors) + wheels}
+        self._must = (1 << required[problem.use]) - 1
         self._columns = {dial: PathColumns(paths, problem) for dial, paths in lists.items()}
 
     def choices(self, added: int, part: int = 0, parts: int = 1) -> Iterator[Choice]:
@@ -214,9 +206,9 @@ class OrderPart(NamedTuple):
 
     open: OpenCounts
     choices: int
-    orders: list[Arbor]
-    """Trains in which negative numbers (tokens) replace the tooth counts of added wheels. There is one train for each
-    order.
+    orders: list[tuple[Arbor, dict[int, AddedKind]]]
+    """One train for each order, in which negative numbers (tokens) replace the tooth counts of added wheels; with the
+    kind of each added wheel, keyed by token.
     """
 
     @property
@@ -236,17 +228,12 @@ class TopologyTrains:
     def parts(self, topology: Topology) -> list[OrderPart]:
         """Return the orders of the arbors of a topology, grouped by the tooth-count limits that rings impose."""
         tokens = CountTokens(topology.added)
-        by_limits: dict[OpenCounts, list[Arbor]] = defaultdict(list)
+        by_limits: dict[OpenCounts, list[tuple[Arbor, dict[int, AddedKind]]]] = defaultdict(list)
         for arbor in arranged(topology, tokens.counts, tokens.idle, self._facts):
-            limits = (kind for kind in self.kinds(topology, arbor).values() if kind.most is not None)
-            by_limits[OpenCounts(topology.added, topology.wanted, tuple(sorted(limits)))].append(arbor)
-        return [OrderPart(requested, self.counts.total(requested), arbors) for requested, arbors in by_limits.items()]
-
-    def kinds(self, topology: Topology, arbor: Arbor) -> dict[int, AddedKind]:
-        """Return the kind of each added wheel for one order of the arbors, keyed by the token that replaces its tooth
-        count.
-        """
-        return CountTokens(topology.added).kinds(arbor, self._facts.rings, self._maximum)
+            kinds = tokens.kinds(arbor, self._facts.rings, self._maximum)
+            limits = sorted(kind for kind in kinds.values() if kind.most is not None)
+            by_limits[OpenCounts(topology.added, topology.wanted, tuple(limits))].append((arbor, kinds))
+        return [OrderPart(requested, self.counts.total(requested), orders) for requested, orders in by_limits.items()]
 
 
 # All topologies that can explain the dials, with their numbers of choices of added counts. Paths are chosen for all

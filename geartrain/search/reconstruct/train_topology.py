@@ -144,11 +144,6 @@ class Chain:
     """Branching at which the chain ends, or the chains that the last driving wheel of the chain drives."""
 
     @property
-    def arbors(self) -> int:
-        """Number of arbors on the chain."""
-        return len(self.through) + self.compounds + self.idlers
-
-    @property
     def next_chains(self) -> tuple[Chain, ...]:
         """Chains that begin at the end of this chain."""
         return tuple(chain for _, chain in self.end.driven_chains()) if isinstance(self.end, Branching) else self.end

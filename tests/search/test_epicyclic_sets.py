@@ -18,10 +18,9 @@ from hypothesis import strategies as st
 from geartrain import GearTrain, load
 from geartrain.errors import QuestionError, RangeError
 from geartrain.search import EpicyclicSet, find_sets, read_ratio, search_train
-from geartrain.search.epicyclic.epicyclic_sets import kinds
+from geartrain.search.epicyclic import EPICYCLIC_KINDS as KINDS
 
 F = Fraction
-KINDS = kinds()
 NAMES = list(KINDS)
 ALL = range(1, 121)
 

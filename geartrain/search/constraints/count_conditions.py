@@ -17,8 +17,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from geartrain.kinematics.buildability.equal_planets import AssemblyMesh, CountRef
     from geartrain.numerics.arrays import Bools, Ints
 
@@ -132,9 +130,7 @@ class LinearSum:
         """Build the sum from pairs (weight, part), where a part is the id of a varied wheel or a fixed tooth count."""
         total = cls({})
         for weight, part in parts:
-            total = total + (
-                cls({part: Fraction(weight)}) if isinstance(part, str) else cls({}, Fraction(weight * part))
-            )
+            total += cls({part: Fraction(weight)}) if isinstance(part, str) else cls({}, Fraction(weight * part))
         return total
 
     def __add__(self, other: LinearSum) -> LinearSum:
@@ -147,9 +143,7 @@ class LinearSum:
         return self + other.times(-1)
 
     def times(self, factor: Fraction | int) -> LinearSum:
-        """Return the sum multiplied by a factor."""
-        if not factor:
-            return LinearSum({})
+        """Return the sum multiplied by a factor other than 0."""
         return LinearSum({wheel: weight * factor for wheel, weight in self.terms.items()}, self.constant * factor)
 
     def plus(self, number: Fraction | int) -> LinearSum:
@@ -243,17 +237,12 @@ def is_near_zero(total: WholeSum, most: int, columns: CandidateColumns) -> Bools
     return np.asarray(np.abs(total.of(columns)) <= most)
 
 
-def teeth_of(mesh: AssemblyMesh) -> LinearSum:
-    """Return twice the centre distance of a spur pair [modules], as a sum of tooth counts."""
-    return LinearSum.of(mesh.terms)
-
-
 def distance_of(mesh: AssemblyMesh) -> LinearSum:
     """Return twice the centre distance of a spur pair whose wheels have the same module [m, or dimensionless if the
     module has no unit].
     """
     assert mesh.module is not None
-    return teeth_of(mesh).times(mesh.module)
+    return LinearSum.of(mesh.terms).times(mesh.module)
 
 
 # -------------------------------------------------- comparisons with sines, to fifty digits where floats cannot decide
@@ -302,30 +291,16 @@ def is_positive(kernel: Kernel, counts: Sequence[Ints], constants: Sequence[Deci
     The sum is evaluated in floating point, and again with fifty digits where the floating-point result is near 0. Terms
     may include roots of differences of products.
     """
-    spread = np.broadcast_arrays(*counts)
-    terms = kernel(_root, *(column.astype(float) for column in spread), *map(float, constants))
-    margin, scale = _total(terms), _total([np.abs(term) for term in terms])
-    found = np.broadcast_to(margin > 0, spread[0].shape).copy()
+    columns = np.broadcast_arrays(*counts)
+    floats = (column.astype(float) for column in columns)
+    terms = kernel(lambda square: np.sqrt(np.maximum(square, 0.0)), *floats, *map(float, constants))
+    margin, scale = sum(terms), sum(map(np.abs, terms))
+    found = np.broadcast_to(margin > 0, columns[0].shape).copy()
     # the float result is within its error bound of 0
     for at in np.flatnonzero(np.broadcast_to(np.abs(margin) <= _NEAR * scale, found.shape)):
-        found.flat[at] = _decide(kernel, [int(column.flat[at]) for column in spread], constants, strictly)
+        with localcontext(prec=_DIGITS):
+            exact = (Decimal(int(column.flat[at])) for column in columns)
+            digits = kernel(lambda square: max(square, Decimal(0)).sqrt(), *exact, *constants)
+            total, bound = sum(digits, Decimal(0)), _EQUAL * sum(map(abs, digits), Decimal(0))
+            found.flat[at] = total > bound if strictly else total >= -bound
     return found
-
-
-def _root(square: Any) -> NDArray[np.float64]:
-    return np.asarray(np.sqrt(np.maximum(np.asarray(square, dtype=float), 0.0)))
-
-
-def _decimal_root(square: Decimal) -> Decimal:
-    return max(square, Decimal(0)).sqrt()
-
-
-def _total(terms: Sequence[Any]) -> NDArray[np.float64]:
-    return np.asarray(sum(terms), dtype=float)
-
-
-def _decide(kernel: Kernel, counts: Sequence[int], constants: Sequence[Decimal], strictly: bool) -> bool:
-    with localcontext(prec=_DIGITS):
-        terms = kernel(_decimal_root, *map(Decimal, counts), *constants)
-        total, scale = sum(terms, Decimal(0)), sum(map(abs, terms), Decimal(0))
-        return bool(total > scale * _EQUAL if strictly else total >= -scale * _EQUAL)

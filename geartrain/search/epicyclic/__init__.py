@@ -4,3 +4,7 @@ epicyclic_sets      types of epicyclic sets, results of a search, and declaratio
 set_search          enumeration of all sets of one type within bounds, in every operating mode
 verb                command `geartrain teeth set`
 """
+
+from geartrain.numerics.lazy_names import public_names
+
+__getattr__, __all__ = public_names(__name__, {"epicyclic_sets": "EPICYCLIC_KINDS EpicyclicKind"})

@@ -8,10 +8,9 @@ for every fixed member, the possible positions of equal planets, and the conditi
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cache
 from itertools import permutations
 from types import MappingProxyType
 from typing import Any, ClassVar, Literal
@@ -254,22 +253,16 @@ _KINDS = (
 )
 
 
-@cache
-def kinds() -> Mapping[str, EpicyclicKind]:
-    """Return all types of epicyclic sets, keyed by name."""
-    # read-only, because the mapping is cached
-    return MappingProxyType({kind.name: kind for kind in _KINDS})
+EPICYCLIC_KINDS: Mapping[str, EpicyclicKind] = MappingProxyType({kind.name: kind for kind in _KINDS})
+"""All types of epicyclic sets, keyed by name."""
 
 
 def epicyclic_kind(name: str) -> EpicyclicKind:
     """Return the type of epicyclic set with a given name. `QuestionError` is raised if there is no such type."""
-    if name in kinds():
-        return kinds()[name]
-    raise QuestionError(
-        Problem(
-            f"'{name}' is not a kind of epicyclic set", "the kinds are predefined", f"use one of {', '.join(kinds())}"
-        )
-    )
+    if name not in EPICYCLIC_KINDS:
+        fix = f"use one of {', '.join(EPICYCLIC_KINDS)}"
+        raise QuestionError(Problem(f"'{name}' is not a kind of epicyclic set", "the kinds are predefined", fix))
+    return EPICYCLIC_KINDS[name]
 
 
 # ------------------------------------------------------------------------------------------------ sets that were found
@@ -357,12 +350,16 @@ class EpicyclicSet(CountSizes, Result):
             be assembled.
         """
         kind, mode = epicyclic_kind(self.kind), self.mode
+        several = len(kind.planets) > 1
+        planets = [f"planet{at}" if several else "planet" for at in range(1, len(kind.planets) + 1)]
+        revolutes = [{"pair": ["frame", link], "axis": "main"} for link in kind.links]
+        revolutes += [{"pair": [CARRIER, planet], "axis": planet} for planet in planets]
         return {
             "name": f"{kind.name}-{mode.key.replace(':', '-')}",
             "title": f"{kind.title}: {mode}",
-            "links": _links(kind, self.teeth, copies),
+            "links": _links(kind, planets, self.teeth, copies),
             **({"axes": _AXES} if kind.bevel else {}),
-            "revolutes": list(_revolutes(kind)),
+            "revolutes": revolutes,
             "gears": [{"pair": [member.wheel, member.mesh]} for member in kind.members]
             + [{"pair": list(pair)} for pair in kind.between],
             "inputs": {mode.input: 1},
@@ -432,15 +429,6 @@ class SetFindings(Tabular, Result):
         return bool(self.solutions)
 
 
-def set_rank(found: EpicyclicSet, by: SetOrder, mode: int) -> tuple[Any, ...]:
-    """Return the exact sort key of a set: criterion `by`, then error, sum of tooth counts, largest tooth count, index
-    of the mode, and tooth counts.
-    """
-    counts = tuple(found.teeth.values())
-    measures: dict[SetOrder, Any] = {"error": abs(found.error), "total": sum(counts), "largest": max(counts)}
-    return (measures[by], *measures.values(), mode, counts)
-
-
 # ---------------------------------------------------------------------------------------------- a set as a declaration
 
 
@@ -448,14 +436,14 @@ def set_rank(found: EpicyclicSet, by: SetOrder, mode: int) -> tuple[Any, ...]:
 _AXES = {"main": {"direction": [1, 0, 0]}, "planet": {"direction": [0, 1, 0]}}
 
 
-def _links(kind: EpicyclicKind, teeth: Mapping[str, int], copies: int) -> dict[str, Any]:
+def _links(kind: EpicyclicKind, planets: Sequence[str], teeth: Mapping[str, int], copies: int) -> dict[str, Any]:
     links: dict[str, Any] = {"frame": {}}
     for at, member in enumerate(kind.members):
         # the second side wheel faces the first
         facing = {"facing": -1} if kind.bevel and at else {}
         links[member.link] = {"wheels": {member.wheel: _wheel(kind, teeth[member.wheel], member.internal) | facing}}
     links[CARRIER] = {}
-    for name, wheels in zip(_planet_links(kind), kind.planets, strict=True):
+    for name, wheels in zip(planets, kind.planets, strict=True):
         links[name] = {"wheels": {wheel: _wheel(kind, teeth[wheel], False) for wheel in wheels}}
         if copies > 1:
             links[name]["copies"] = copies
@@ -469,14 +457,3 @@ def _wheel(kind: EpicyclicKind, teeth: int, internal: bool) -> dict[str, Any]:
     if kind.bevel:
         wheel["kind"] = "bevel"
     return wheel
-
-
-def _planet_links(kind: EpicyclicKind) -> Sequence[str]:
-    return ["planet"] if len(kind.planets) == 1 else [f"planet{at}" for at in range(1, len(kind.planets) + 1)]
-
-
-def _revolutes(kind: EpicyclicKind) -> Iterator[dict[str, Any]]:
-    for link in kind.links:
-        yield {"pair": ["frame", link], "axis": "main"}
-    for name in _planet_links(kind):
-        yield {"pair": [CARRIER, name], "axis": name}

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from geartrain.search.epicyclic.epicyclic_sets import EpicyclicKind, SetFindings
     from geartrain.search.orrery.orrery_search import Orrery
     from geartrain.search.ratio.stage_search import StageFindings
-    from geartrain.search.search_outcome import GearStages, Shortfall
+    from geartrain.search.search_outcome import Shortfall
     from geartrain.search.stern_brocot import Approximants
     from geartrain.search.target_ratio import TargetRatio
     from geartrain.search.train.train_findings import Assignment, PartFindings, Standing, TrainFindings
@@ -59,16 +59,6 @@ def describe_stages(found: StageFindings) -> Document:
     summary.append(
         f"{found.count} solutions ({within}) among {figure(float(found.considered), 4)} combinations; {search}."
     )
-    sections = [_solutions(found.solutions)] if found.solutions else []
-    return Document(f"Tooth numbers for {found.wanted.label}", summary, [*sections, *_shortfall(found.shortfall)])
-
-
-def _wanted(wanted: TargetRatio) -> str:
-    note = f" ({wanted.note})" if wanted.note else ""
-    return f"Wanted: {exact(wanted.value)} = {figure(wanted.value, 12)}{note}."
-
-
-def _solutions(solutions: Sequence[GearStages]) -> Section:
     rows = [
         (
             f"{_product(one.top)} / {_product(one.beneath)}",
@@ -78,13 +68,20 @@ def _solutions(solutions: Sequence[GearStages]) -> Section:
             "  ".join(f"{a}/{b}" for a, b in one.pairs),
             str(one.total),
         )
-        for one in solutions
+        for one in found.solutions
     ]
     lines = [
         "The ratio is output speed / input speed if the numerator wheels drive, input speed / output speed if they are "
         "driven."
     ]
-    return Section("Solutions", lines, [Table(("teeth", "ratio", "decimal", "error", "stages", "sum"), cut(rows))])
+    table = Table(("teeth", "ratio", "decimal", "error", "stages", "sum"), cut(rows))
+    sections = [Section("Solutions", lines, [table])] if rows else []
+    return Document(f"Tooth numbers for {found.wanted.label}", summary, [*sections, *_shortfall(found.shortfall)])
+
+
+def _wanted(wanted: TargetRatio) -> str:
+    note = f" ({wanted.note})" if wanted.note else ""
+    return f"Wanted: {exact(wanted.value)} = {figure(wanted.value, 12)}{note}."
 
 
 def approximant_rows(found: Approximants) -> list[dict[str, Any]]:
@@ -107,7 +104,7 @@ def _shortfall(shortfall: Shortfall) -> list[Section]:
     """
     lines = [f"Nearest: {shortfall.nearest}."] if shortfall.nearest else []
     lines += [f"Suggestions: {shortfall.advice}."] if shortfall.advice else []
-    removed = {reason: count for reason, count in (shortfall.removed or {}).items() if count}
+    removed = {reason: count for reason, count in shortfall.removed.items() if count}
     rows = [(reason, figure(float(count), 6) if count > 10**9 else str(count)) for reason, count in removed.items()]
     if not lines and not rows:
         return []

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import partial
 from itertools import combinations_with_replacement
-from math import comb, factorial, isqrt, log
+from math import ceil, comb, factorial, floor, isqrt, log
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -25,7 +25,6 @@ from geartrain.search.ratio.product_windows import (
     ProductWindows,
     cuts,
     multisets,
-    reach_of_errors,
     rounded_up,
     row_products,
 )
@@ -100,11 +99,10 @@ def search_segment(packed: bytes, segment: Sequence[int]) -> dict[str, Any]:
 def _search_sums(question: StageProblem, low: int, high: int) -> dict[str, Any]:
     """Search the reverted trains in which the sum of the tooth counts of a stage is in [low, high). The result has the
     keys described in `search_segment`.
-
-    For each sum, every multiset of stages is generated once, from a lower and an upper half, by a meet in the middle on
-    the ratios. Candidates near the tolerance are compared as Fractions, all others as floats.
     """
-    judge, size = StageFilter(question), question.stages
+    # meet in the middle on the ratios: for each sum, every multiset of stages is generated once, from a lower and an
+    # upper half. Candidates near the tolerance are compared as Fractions, all others as floats
+    judge, size, limit = StageFilter(question), question.stages, float(question.tolerance)
     first, last = map(float, question.edges)
     for total in range(low, high):
         pairs = [(count, total - count) for count in question.top if total - count in question.beneath]
@@ -121,8 +119,12 @@ def _search_sums(question: StageProblem, low: int, high: int) -> dict[str, Any]:
             once = lower[i, -1] <= upper[j, 0] if size > 1 else np.full(len(i), True)
             chosen = stages[np.concatenate([lower[i[once]], upper[j[once]]], axis=1)]
             tops, beneaths = np.sort(chosen[:, :, 0], axis=1), np.sort(chosen[:, :, 1], axis=1)
-            p, q = (row_products(each) for each in (tops, beneaths))
-            inside = _are_within(p, q, question)
+            p, q = row_products(tops), row_products(beneaths)
+            errors = np.abs(p / q / float(question.value) - 1)
+            inside = errors <= limit
+            for at in np.flatnonzero(np.abs(errors - limit) <= _SLACK * (1 + limit)):
+                exact = abs(Fraction(int(p[at]), int(q[at])) / question.value - 1)
+                inside[at] = exact <= question.tolerance
             judge.see(tops[inside], beneaths[inside], p[inside], q[inside])
     return judge.outcome()
 
@@ -133,18 +135,6 @@ def _multisets(number: int, size: int) -> Ints:
     """
     found = list(combinations_with_replacement(range(number), size))
     return np.array(found, dtype=np.int64).reshape(len(found), size)
-
-
-def _are_within(over: Ints, under: Ints, question: StageProblem) -> NDArray[np.bool_]:
-    """Return whether each ratio over / under is within the tolerance of the requested ratio. Ratios near the tolerance
-    are compared as Fractions, all others as floats.
-    """
-    limit, value = float(question.tolerance), question.value
-    errors = np.abs(over.astype(np.float64) / under.astype(np.float64) / float(value) - 1)
-    inside = np.asarray(errors <= limit)
-    for at in np.flatnonzero(np.abs(errors - limit) <= _SLACK * (1 + limit)):
-        inside[at] = abs(Fraction(int(over[at]), int(under[at])) / value - 1) <= question.tolerance
-    return inside
 
 
 def pieces(products: ProductWindows, low: int, high: int, most: int) -> Iterator[Range]:
@@ -242,13 +232,24 @@ def solve(question: StageProblem, tolerance: Fraction | None, means: Execution) 
     The tolerance of the list is increased until it includes enough solutions, so all other solutions have larger
     errors.
     """
-    minimum, most = reach_of_errors(question.value, *question.reach)
+    # minimum and maximum absolute relative error of the possible ratios
+    first, last = (ratio / question.value - 1 for ratio in question.reach)
+    minimum, most = max(first, -last, Fraction(0)), max(last, -first)
     if tolerance is not None:
         most = tolerance
         if not (question.by == "error" and replace(question, tolerance=tolerance).loose):
-            _check(question, tolerance)
+            pairs = float(tolerance) * _density(question)
+            if pairs > _MOST:
+                raise RangeError(
+                    Problem(
+                        f"about {pairs:.1g} candidates are within the tolerance",
+                        f"with these constraints or this order, each is tested, and at most {_MOST:.0g} can be tested",
+                        f"reduce the tolerance to {float(tolerance) * _MOST / pairs:.1g} or less",
+                    )
+                )
             minimum = tolerance
-    step = _start(question)
+    # about 16 times the requested number of solutions are expected within the first tolerance
+    step = rounded_up(max(min(16 * question.best / _density(question), 1.0), 1e-18))
     while True:
         # the nearest possible ratio may be far away; the tolerance starts there
         near = min(minimum + step, most)
@@ -268,26 +269,6 @@ def _density(question: StageProblem) -> float:
     span = log(question.top[-1] / question.top[0]) + log(question.beneath[-1] / question.beneath[0])
     # factor 2: errors of both signs; logarithms of ratios spread over about `stages` times the span
     return 2 * question.candidates / max(question.stages * span, 1e-3)
-
-
-def _start(question: StageProblem) -> Fraction:
-    """Return an initial tolerance, at most 1, within which about 16 times the requested number of solutions is
-    expected.
-    """
-    return rounded_up(max(min(16 * question.best / _density(question), 1.0), 1e-18))
-
-
-def _check(question: StageProblem, tolerance: Fraction) -> None:
-    """Raise `RangeError` if too many pairs of multisets must be tested one by one."""
-    pairs = float(tolerance) * _density(question)
-    if pairs > _MOST:
-        raise RangeError(
-            Problem(
-                f"about {pairs:.1g} candidates are within the tolerance",
-                f"with these constraints or this order, each is tested, and at most {_MOST:.0g} can be tested",
-                f"reduce the tolerance to {float(tolerance) * _MOST / pairs:.1g} or less",
-            )
-        )
 
 
 def _sweep(question: StageProblem, near: Fraction, means: Execution) -> SweepOutcome:
@@ -325,9 +306,14 @@ def _segments(question: StageProblem) -> list[Sequence[int]]:
         return []
     # more products if the tables have many rows
     most = max(BLOCK, PER_ROW * multisets(max(len(question.top), len(question.beneath)), (size + 1) // 2))
-    whole = question.beneath_within(question.beneath[0] ** size, question.beneath[-1] ** size + 1)
-    return [
-        (*beneath, *top)
-        for beneath in pieces(question.under, *whole, most)
-        for top in pieces(question.over, *question.tops_for(*beneath), most)
-    ]
+    smallest, largest = question.edges
+    minimum, maximum = question.top[0] ** size, question.top[-1] ** size
+    # denominators for which a numerator may exist
+    first = max(question.beneath[0] ** size, ceil(minimum / largest))
+    last = min(question.beneath[-1] ** size, floor(maximum / smallest))
+    found: list[Sequence[int]] = []
+    for low, high in pieces(question.under, first, last + 1, most):
+        # numerators that may match these denominators
+        tops = max(ceil(low * smallest), minimum), min(floor((high - 1) * largest), maximum) + 1
+        found += [(low, high, *top) for top in pieces(question.over, *tops, most)]
+    return found

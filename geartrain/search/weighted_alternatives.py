@@ -1,19 +1,15 @@
 """Totals and marginals of weighted derivations by the inside-outside algorithm, for tables of nodes.
 
 A derivation chooses one alternative at a node, and then one alternative at each node to which the chosen alternative
-refers. The weight of a derivation is the product of the weights of all chosen alternatives. The inside sum of a node is
-the total weight of all derivations that start at the node. The outside sum of a node is the total weight of all
-contexts in which the node occurs. The product of the two sums is the total weight of all derivations that include the
-node. If the weights are integers, all sums are exact. Sources: Baker 1979; for chains, the forward-backward algorithm
-of Baum 1970.
-
-Each row of a table is a node, and the alternatives of all rows are arrays, so that millions of nodes are summed at
-once. `relative_entropy` and `entropy` return the information in probabilities [bit].
+refers. Its weight is the product of the weights of all chosen alternatives. The inside sum of a node is the total
+weight of all derivations that start at the node. The outside sum of a node is the total weight of all contexts in which
+the node occurs. Integer weights give exact sums. Sources: Baker 1979; for chains, the forward-backward algorithm of
+Baum 1970. Each row of a table is a node, so that millions of nodes are summed at once.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Mapping
+from collections.abc import Callable, Hashable, Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -49,12 +45,6 @@ class AlternativeRows(Generic[Table]):
     index of the value that each alternative assigns, shape (m,).
     """
 
-    def below(self, inside: Mapping[Table, NDArray[Any]]) -> list[NDArray[Any]]:
-        """Return, for each entry of `leads`, the inside sum of the node to which each alternative refers, shape
-        (m,).
-        """
-        return [inside[part][rows] for part, rows in self.leads]
-
 
 class WeightedAlternatives(Generic[Table]):
     """Weighted derivations from the rows of a root table, with their total weight and marginals.
@@ -74,7 +64,8 @@ class WeightedAlternatives(Generic[Table]):
             table, known = waiting.pop()
             if known:
                 way = self._ways[table]
-                below = self._below[table] = prod(way.below(self._inside), start=way.weight)
+                parts = (self._inside[part][rows] for part, rows in way.leads)
+                below = self._below[table] = prod(parts, start=way.weight)
                 self._inside[table] = below if way.owners is None else sums_by(way.owners, below, way.size)
             elif table not in self._ways:
                 self._ways[table] = alternatives(table)
@@ -96,7 +87,8 @@ class WeightedAlternatives(Generic[Table]):
         outside[self.root] = self._inside[self.root] ** 0  # 1 for each row
         found: dict[Hashable, Any] = {}
         for table in reversed(self._inside):  # in reverse order, every table comes after all tables that refer to it
-            way, inside = self._ways[table], self._ways[table].below(self._inside)
+            way = self._ways[table]
+            inside = [self._inside[part][rows] for part, rows in way.leads]
             around = outside[table] if way.owners is None else outside[table][way.owners]
             for variable, size, values in way.facts:
                 found[variable] = found.get(variable, 0) + sums_by(values, around * self._below[table], size)

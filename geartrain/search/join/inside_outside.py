@@ -1,11 +1,8 @@
 """Sums over all assignments of a recorded join: total weight, and weight for each tooth count of each wheel.
 
-The sums are inside and outside sums over tables of `search.weighted_alternatives`. They are exact for integer weights.
-All sums are linear in the weights of each wheel, and weights may be negative. If the weights w(z) of the tooth counts z
-of one wheel are replaced by w(z) (z - mean), the sums for another wheel give the covariance of the two tooth counts.
-
-The best assignments are found in ascending order of misfit by an A* search in the tree. The minimum remaining misfit of
-each state is exact.
+The sums are inside and outside sums over tables of `search.weighted_alternatives`, which are exact for integer weights.
+All sums are linear in the weights of each wheel. If the weights w(z) of the tooth counts z of one wheel are replaced by
+w(z) (z - mean), the sums for another wheel give the covariance of the two tooth counts.
 """
 
 from __future__ import annotations
@@ -23,11 +20,6 @@ from geartrain.search.join.join_plan import JoinProblem, PlanNode
 from geartrain.search.join.polynomial_constraints import PolynomialConstraint
 from geartrain.search.join.product_lists import PartialAssignments, ProductStep, Tallies
 from geartrain.search.weighted_alternatives import AlternativeRows, WeightedAlternatives
-
-# Recorded join: the values of each variable that are compatible with the assignments above, and the counts that produce
-# each value. Every transition leads to at least one complete assignment. Sums over all assignments are then sums over
-# the tree, which can be repeated with other weights.
-
 
 Misfits = Mapping[int, Callable[[Floats], Floats]]
 """Functions that convert values of a constrained function to misfits, keyed by the index of the constraint in
@@ -78,56 +70,48 @@ def record_join(question: JoinProblem, limit: float, misfits: Misfits) -> tuple[
     `BudgetSpentError` is raised if the number of steps exceeds `limit`.
     """
     join = ExactJoin(question, budget=limit)
-    return _Recorder(join, misfits).record(question.plan, join.start()), join.steps
+    return _record_node(join, misfits, question.plan, join.start()), join.steps
 
 
-@dataclass(frozen=True)
-class _Recorder:
-    join: ExactJoin
-    misfits: Misfits
-
-    def record(self, node: PlanNode, rows: PartialAssignments) -> RecordedNode:
-        at, alive = self.join.pruned(node, rows, None)
-        blocks = list(self.join.grown(node, alive, at, None))
-        # rows without any block still need columns
-        nothing = [(at[:0], alive.pick(at[:0]).plus(at[:0], node.item, at[:0]))]
-        parents = np.concatenate([owners for owners, _ in blocks or nothing])
-        # transitions of one row are adjacent: `BestFirst` finds them by bisection
-        order = np.argsort(parents, kind="stable")
-        parents, grown = parents[order], _joined([block for _, block in blocks or nothing]).pick(order)
-        misfit = self._misfit(node, grown)
-        children: list[tuple[RecordedNode, Ints]] = []
-        for child in node.children:
-            distinct, which = grown.distinct(child.interface)
-            below = self.record(child, distinct)
-            onward = np.arange(grown.size) if which is None else which
-            # transitions to rows without a complete assignment are removed
-            leads = np.zeros(distinct.size, dtype=np.bool_)
-            leads[below.parents] = True
-            kept = leads[onward]
-            parents, grown, misfit = parents[kept], grown.pick(kept), misfit[kept]
-            children = [(known, to[kept]) for known, to in children] + [(below, onward[kept])]
-        live, places = np.unique(grown.columns[node.item], return_inverse=True)
-        values = self.join.items[node.item].last_step(live)
-        self.join.spend(sum(len(step.choices) for step in values.chain()))
-        return RecordedNode(rows.size, parents, places, values, misfit, tuple(children))
-
-    def _misfit(self, node: PlanNode, rows: PartialAssignments) -> Floats:
-        """Return the misfit of each row from the graded constraints whose last variable is assigned at a node."""
-        found = np.zeros(rows.size)
-        for number in (node.guide, *node.checks):
-            demand = number - len(self.join.question.rules)
-            if number >= 0 and demand in self.misfits:
-                constraint = self.join.constraints[number]
-                assert isinstance(constraint, PolynomialConstraint)
-                found = found + self.misfits[demand](constraint.value(rows))
-        return found
+def _record_node(join: ExactJoin, misfits: Misfits, node: PlanNode, rows: PartialAssignments) -> RecordedNode:
+    """Return the recorded node of a plan node with its subtree, for the given rows."""
+    at, alive = join.pruned(node, rows, None)
+    blocks = list(join.grown(node, alive, at, None))
+    # rows without any block still need columns
+    blocks = blocks or [(at[:0], alive.pick(at[:0]).plus(at[:0], node.item, at[:0]))]
+    parents = np.concatenate([owners for owners, _ in blocks])
+    columns = {item: np.concatenate([block.columns[item] for _, block in blocks]) for item in blocks[0][1].columns}
+    # transitions of one row are adjacent: `BestFirst` finds them by bisection
+    order = np.argsort(parents, kind="stable")
+    parents, grown = parents[order], PartialAssignments(join.items, columns, len(parents)).pick(order)
+    misfit = _added_misfit(join, misfits, node, grown)
+    children: list[tuple[RecordedNode, Ints]] = []
+    for child in node.children:
+        distinct, which = grown.distinct(child.interface)
+        below = _record_node(join, misfits, child, distinct)
+        onward = np.arange(distinct.size)[which]
+        # transitions to rows without a complete assignment are removed
+        leads = np.zeros(distinct.size, dtype=np.bool_)
+        leads[below.parents] = True
+        kept = leads[onward]
+        parents, grown, misfit = parents[kept], grown.pick(kept), misfit[kept]
+        children = [(known, to[kept]) for known, to in children] + [(below, onward[kept])]
+    live, places = np.unique(grown.columns[node.item], return_inverse=True)
+    values = join.items[node.item].last_step(join.items[node.item].values[live])
+    join.spend(sum(len(step.choices) for step in values.chain()))
+    return RecordedNode(rows.size, parents, places, values, misfit, tuple(children))
 
 
-def _joined(blocks: Sequence[PartialAssignments]) -> PartialAssignments:
-    first = blocks[0]
-    columns = {item: np.concatenate([block.columns[item] for block in blocks]) for item in first.columns}
-    return PartialAssignments(first.items, columns, sum(block.size for block in blocks))
+def _added_misfit(join: ExactJoin, misfits: Misfits, node: PlanNode, rows: PartialAssignments) -> Floats:
+    """Return the misfit of each row from the graded constraints whose last variable is assigned at a node."""
+    found = np.zeros(rows.size)
+    for number in (node.guide, *node.checks):
+        demand = number - len(join.question.rules)
+        if number >= 0 and demand in misfits:
+            constraint = join.constraints[number]
+            assert isinstance(constraint, PolynomialConstraint)
+            found = found + misfits[demand](constraint.value(rows))
+    return found
 
 
 _Table = RecordedNode | ProductStep

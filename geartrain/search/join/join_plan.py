@@ -140,24 +140,16 @@ def find_join_problem(
                     constraint
     weights         integer weights of tooth counts, as in `JoinProblem`
     """
-    found = [_planned(domains, requested, early, late, probabilities) for early, late in _rule_partitions(rules)]
-    return replace(min(found, key=lambda question: question.steps), weights=weights or {})
-
-
-def _rule_partitions(
-    rules: Sequence[CountConstraint],
-) -> Iterator[tuple[tuple[CountConstraint, ...], tuple[CountConstraint, ...]]]:
-    """Yield partitions of the constraints on tooth counts into two groups: constraints evaluated as soon as possible,
-    and constraints evaluated last.
-    """
     equations = tuple(rule for rule in rules if isinstance(rule, CountEquation))
     conditions = tuple(rule for rule in rules if isinstance(rule, Condition))
     # a rule evaluated early makes its wheels separate variables, which may cost more than it saves
-    yield tuple(rules), ()
+    choices: list[tuple[tuple[CountConstraint, ...], tuple[CountConstraint, ...]]] = [(tuple(rules), ())]
     if conditions:
-        yield equations, conditions
+        choices.append((equations, conditions))
     if equations:
-        yield (), tuple(rules)
+        choices.append(((), tuple(rules)))
+    found = [_planned(domains, requested, early, late, probabilities) for early, late in choices]
+    return replace(min(found, key=lambda question: question.steps), weights=weights or {})
 
 
 def _planned(
@@ -216,7 +208,10 @@ class _Planner:
         interface = sorted({other for at in active for other in self.scopes[at] & known})
         # equal rows on the interface are merged
         rows = min(rows, prod(self.sizes[other] for other in interface))
-        examined = rows * self.sizes[item] * (self._share(item, guide) if guide >= 0 else 1.0)
+        examined = rows * self.sizes[item]
+        if guide >= 0:
+            # an equation selects one value
+            examined *= 1 / self.sizes[item] if guide < len(self.rules) else self.likely[guide]
         kept = examined * prod((self.likely[at] for at in checks), start=1.0)
         rest = open_ - {item}
         children, cost = [], rows + (examined if rest or checks or guide < 0 else 0)
@@ -232,10 +227,6 @@ class _Planner:
             item, tuple(interface), guide, tuple(checks), tuple(prunes), tuple(children), tuple(sorted(active))
         )
         return node, cost
-
-    def _share(self, item: int, guide: int) -> float:
-        """Return the expected fraction of the values of variable `item` that constraint `guide` selects."""
-        return 1 / self.sizes[item] if guide < len(self.rules) else self.likely[guide]
 
     def _next(self, open_: Items, active: Sequence[int]) -> int:
         """Return the next variable to be assigned. This is a variable that an equation determines, if there is one. If

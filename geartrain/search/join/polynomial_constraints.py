@@ -6,8 +6,8 @@ The condition is a disjunction of a few cases, such as D > 0, N - (1-t) w D >= 0
 of inequalities sense * polynomial >= 0, where sense is 1 or -1. If only one variable is free, each case admits one
 index range of the values of this variable. The ends of the range are determined by exact signs.
 
-If several variables are free, only the bounds of their values are used. A row (partial assignment) is removed if no
-values within the bounds satisfy the constraint. The sum of the extreme values of all terms bounds the polynomial.
+If several variables are free, a row (partial assignment) is removed if the sum of the extreme values of all terms,
+which bounds the polynomial, violates the constraint.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, cached_property
-from typing import Any
+from math import prod
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,10 +26,7 @@ from geartrain.numerics.bounded_polynomials import Monomial, sum_and_size
 from geartrain.numerics.rounding_bounds import UNIT_ROUNDOFF
 from geartrain.search.join.product_lists import PartialAssignments
 
-# Exact signs of polynomials at very many points. Every bound on an output is the sign of a polynomial in the
-# variables: N/D <= v is N - v D <= 0 if D > 0. A float64 value with a bound of its rounding error decides almost all
-# points; Python integers decide the rest.
-
+# A float64 value with a bound of its rounding error decides almost all signs; Python integers decide the rest.
 
 Signs = NDArray[np.int8]
 
@@ -102,18 +99,13 @@ class SignPolynomial:
         found: Signs = np.sign(value).astype(np.int8)
         doubtful = np.flatnonzero(np.abs(value) <= self.rounding * size)
         if len(doubtful):
-            found[doubtful] = np.sign(self._whole(rows.pick(doubtful))).astype(np.int8)
+            # exact values as Python integers
+            few, total = rows.pick(doubtful), np.zeros(len(doubtful), dtype=object)
+            for coefficient, monomial in self.terms:
+                powers = (few.value(item).astype(object) ** power for item, power in monomial)
+                total += prod(powers, start=np.full(len(doubtful), coefficient, dtype=object))
+            found[doubtful] = np.sign(total).astype(np.int8)
         return found
-
-    def _whole(self, rows: PartialAssignments) -> NDArray[Any]:
-        """Return the exact value of the polynomial for each row, as Python integers."""
-        total = np.zeros(rows.size, dtype=object)
-        for coefficient, monomial in self.terms:
-            term = np.full(rows.size, coefficient, dtype=object)
-            for item, power in monomial:
-                term = term * rows.value(item).astype(object) ** power
-            total = total + term
-        return total
 
 
 def _term(coefficient: float, monomial: Monomial, rows: PartialAssignments) -> Floats:
@@ -162,19 +154,6 @@ class PolynomialInequality:
             # rounding errors must not exclude a row
             best += _term(factor + slack * abs(factor), tuple(powers.items()), rows)
         return np.asarray(best >= 0)
-
-
-def find_window(case: Sequence[PolynomialInequality], rows: PartialAssignments, item: int) -> tuple[Ints, Ints]:
-    """Return, for each row, the exact half-open index range of the values of variable `item` that satisfy all
-    inequalities of a case.
-
-    The two arrays contain the starts and the ends of the ranges, indices into `rows.items[item]`, shape (rows,).
-    """
-    start, end = np.zeros(rows.size, dtype=np.int64), np.full(rows.size, len(rows.items[item]))
-    for inequality in case:
-        first, last = _ray(inequality, rows, item)
-        start, end = np.maximum(start, first), np.minimum(end, last)
-    return start, np.maximum(start, end)
 
 
 def _ray(inequality: PolynomialInequality, rows: PartialAssignments, item: int) -> tuple[Ints, Ints]:
@@ -263,4 +242,11 @@ class PolynomialConstraint:
         The two arrays of a case contain the starts and the ends of the ranges, indices into `rows.items[item]`, shape
         (rows,).
         """
-        return [find_window(case, rows, item) for case in self.cases]
+        found = []
+        for case in self.cases:
+            start, end = np.zeros(rows.size, dtype=np.int64), np.full(rows.size, len(rows.items[item]))
+            for inequality in case:
+                first, last = _ray(inequality, rows, item)
+                start, end = np.maximum(start, first), np.minimum(end, last)
+            found.append((start, np.maximum(start, end)))
+        return found

@@ -2,8 +2,8 @@
 values.
 
 An output depends on most wheels only through one monomial, such as a c / (b d). The join therefore assigns variables
-instead of wheels. A variable (class `Item`) is a list of products of tooth counts: here one variable for a c, and
-another one for b d. A wheel in a constraint on tooth counts is a separate variable.
+(class `Item`) instead of wheels: here one variable for a c, and another one for b d. A wheel in a constraint on tooth
+counts is a separate variable.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ def _forecast(factors: tuple[tuple[int, ...], ...]) -> tuple[int, int]:
     for at, some in enumerate(factors):
         examined = sizes[-1] * len(some)
         cost += examined
-        if cost <= _TRIED and len(values) == sizes[-1] and maximum(factors[: at + 1]) < 1 << 62:
+        if cost <= _TRIED and len(values) == sizes[-1] and prod(map(max, factors[: at + 1])) < 1 << 62:
             values = np.unique(np.multiply.outer(values, np.array(some, dtype=np.int64)))
             sizes.append(len(values))
         else:
@@ -59,11 +59,6 @@ def _forecast(factors: tuple[tuple[int, ...], ...]) -> tuple[int, int]:
             growth = 0.8 * sizes[-1] / sizes[-2] * len(some) / len(factors[at - 1]) if at else len(some)
             sizes.append(max(sizes[-1], int(sizes[-1] * min(growth, len(some)))))
     return sizes[-1], cost
-
-
-def maximum(factors: Sequence[Sequence[int]]) -> int:
-    """Return the largest product of factors, with one factor from each list."""
-    return prod(max(some) for some in factors)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -132,22 +127,16 @@ class Item:
             found[self.wheels[level][0]] = self.counts[level][factor]
         return owner, found
 
-    def last_step(self, indices: Ints) -> ProductStep:
-        """Return the last step of the multiplication that leads from the empty product to the distinct products at the
-        given indices.
-        """
-        step = self._step(len(self.wheels) - 1, self.values[indices])
-        assert step is not None, "a variable has at least one wheel"
-        return step
+    def last_step(self, values: Ints, level: int = -1) -> ProductStep:
+        """Return the last step of the multiplication that leads from the empty product to the given distinct products.
 
-    def _step(self, level: int, values: Ints) -> ProductStep | None:
-        if level < 0:
-            return None
+        level   index of the last wheel in these products; by default the last wheel of the variable
+        """
+        level %= len(self.wheels)
         children, choices, rest = _divided(values, self.powers[level], self.levels[level])
-        before, parents = np.unique(rest, return_inverse=True)
-        return ProductStep(
-            self.wheels[level][0], choices, children, parents, len(values), self._step(level - 1, before)
-        )
+        products, parents = np.unique(rest, return_inverse=True)
+        before = self.last_step(products, level - 1) if level else None
+        return ProductStep(self.wheels[level][0], choices, children, parents, len(values), before)
 
 
 def _multiplied(values: Ints, times: Tallies, factors: Ints, weights: Tallies) -> tuple[Ints, Tallies]:
@@ -246,12 +235,12 @@ class PartialAssignments:
         columns = {known: column[parents] for known, column in self.columns.items()}
         return PartialAssignments(self.items, {**columns, item: indices}, len(parents))
 
-    def distinct(self, items: Sequence[int]) -> tuple[PartialAssignments, Ints | None]:
+    def distinct(self, items: Sequence[int]) -> tuple[PartialAssignments, Ints | slice]:
         """Return the distinct rows with respect to the given variables, and for each original row the index of its
-        distinct row. The indices are None if the rows are unchanged.
+        distinct row. The indices are `slice(None)` if the rows are unchanged.
         """
         if len(items) == len(self.columns):
-            return self, None
+            return self, slice(None)
         key, most = np.zeros(self.size, dtype=np.int64), 1
         for item in items:
             values = len(self.items[item])

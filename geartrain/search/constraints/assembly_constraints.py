@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
 from itertools import combinations
+from math import inf
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -35,6 +36,7 @@ from geartrain.search.constraints.count_conditions import (
     CountConstraint,
     CountEquation,
     LinearSum,
+    WholeSum,
     are_coprime,
     are_owned,
     cosine,
@@ -42,21 +44,19 @@ from geartrain.search.constraints.count_conditions import (
     distance_of,
     equality,
     free_of,
-    is_bounded,
+    is_between,
     is_different,
-    is_near_zero,
     is_positive,
     plainest,
     sine,
     whole,
 )
-from geartrain.search.tooth_count_ranges import MOST_TEETH
 from geartrain.train.mechanism import OwnedWheels, Teeth
 
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Bools, Ints
     from geartrain.numerics.quantity import Quantity
-    from geartrain.search.constraints.count_conditions import CandidateColumns, WholeSum
+    from geartrain.search.constraints.count_conditions import CandidateColumns
     from geartrain.search.tooth_count_ranges import Counts
     from geartrain.train import Train
 
@@ -118,16 +118,17 @@ class _ConstraintBuilder:
             # the count of a worm is its number of starts, which does not determine its size
             if name not in self.fitting.free or wheel.kind == "worm":
                 continue
-            bounds = []
+            bounds: list[tuple[str, float, float]] = []
             if requested.minimum is not None:
-                bounds.append((f"at least {requested.minimum} teeth", requested.minimum, MOST_TEETH))
+                bounds.append((f"at least {requested.minimum} teeth", requested.minimum, inf))
             if requested.maximum_teeth is not None:
                 bounds.append((f"at most {requested.maximum_teeth} teeth", 0, requested.maximum_teeth))
             if requested.largest_radius is not None:
                 radius = f"{requested.largest_radius}{'' if requested.largest_radius.unit else ' modules'}"
                 bounds.append((f"a radius of at most {radius}", 0, self._most(name, requested.largest_radius)))
             for words, minimum, most in bounds:
-                yield Condition(f"'{name}' has {words}", (name,), partial(is_bounded, name, minimum, most))
+                count = WholeSum(((name, 1),), 0)
+                yield from _condition(f"'{name}' has {words}", is_between, count, minimum, most)
 
     def _most(self, wheel: str, radius: Quantity) -> int:
         """Return the maximum tooth count of a wheel for which its pitch radius does not exceed `radius`."""
@@ -186,7 +187,7 @@ class _ConstraintBuilder:
             return
         scaled, room = whole(total, LinearSum({}, Fraction(shift)))
         words = f"coaxial closure within {self.requested.shift} half modules: {equality(found)}"
-        yield Condition(words, scaled.wheels, partial(is_near_zero, scaled, room.constant))
+        yield from _condition(words, is_between, scaled, -room.constant, room.constant)
 
     def _is_broken(self, total: LinearSum, shift: Fraction | int) -> bool:
         """Return whether the declared tooth counts violate an equality of centre distances that was not requested
@@ -407,11 +408,6 @@ def can_pass(number: int, A: WholeSum, B: WholeSum, D: WholeSum, tips: WholeSum,
     return found
 
 
-def is_above_zero(gap: WholeSum, columns: CandidateColumns) -> Bools:
-    """Return whether the sum `gap`, which is the clearance of a planet, is positive for each candidate."""
-    return np.asarray(gap.of(columns) > 0)
-
-
 def clearance_conditions(found: PlanetSet, number: int, clearance: Fraction) -> Iterator[Condition]:
     """Yield the clearance conditions of one set of `number` equal planets: first of neighbouring equal wheels, then of
     planets that mesh with each other.
@@ -461,7 +457,7 @@ def _gap_conditions(planet: Planet, other: Planet, clearance: Fraction) -> Itera
         tips = LinearSum.of([(sign, mesh.parts[1 - other.side(mesh)]), (1, own.parts[planet.side(own)])])
         gap = reach.times(sign) - tips.plus(2 * (2 + clearance)).times(mesh.module)
         name = f"neighbours: '{planet.wheels[0]}' clears '{other.mate(mesh)}'"
-        yield from _condition(name, is_above_zero, *whole(gap))
+        yield from _condition(name, is_between, *whole(gap), 1, inf)
 
 
 def _is_plain(planet: Planet, external: bool) -> bool:
@@ -486,8 +482,9 @@ def _wheel_meshes(planet: Planet) -> list[AssemblyMesh]:
     return list({planet.own(mesh): mesh for mesh in meshes}.values())
 
 
-def _condition(name: str, test: Callable[..., Bools], *arguments: int | WholeSum) -> Iterator[Condition]:
-    sums = [one for one in arguments if not isinstance(one, int)]
+def _condition(name: str, test: Callable[..., Bools], *arguments: float | WholeSum) -> Iterator[Condition]:
+    """Yield the condition with the given test and all its arguments except the last; nothing if no wheel is varied."""
+    sums = [one for one in arguments if isinstance(one, WholeSum)]
     wheels = tuple(dict.fromkeys(wheel for one in sums for wheel in one.wheels))
     if wheels:
         yield Condition(name, wheels, partial(test, *arguments))

@@ -205,9 +205,10 @@ def equality(one: WholeSum) -> str:
 # ------------------------------------------------------------------------------------ conditions on counts and on sums
 
 
-def is_bounded(wheel: str, minimum: int, most: int, columns: CandidateColumns) -> Bools:
-    """Return whether the tooth count of a wheel is between `minimum` and `most`, both inclusive, for each candidate."""
-    return np.asarray((columns[wheel] >= minimum) & (columns[wheel] <= most))
+def is_between(total: WholeSum, minimum: float, maximum: float, columns: CandidateColumns) -> Bools:
+    """Return whether a sum of tooth counts is between two numbers, both inclusive, for each candidate."""
+    found = total.of(columns)
+    return np.asarray((found >= minimum) & (found <= maximum))
 
 
 def are_coprime(first: CountRef, second: CountRef, columns: CandidateColumns) -> Bools:
@@ -230,11 +231,6 @@ def are_owned(numbers: Sequence[tuple[int, int]], used: Mapping[str, int], colum
 def is_different(wheel: str, others: Sequence[CountRef], columns: CandidateColumns) -> Bools:
     """Return whether the tooth count of a wheel differs from all tooth counts in `others`, for each candidate."""
     return np.asarray(np.all([columns[wheel] != counts_of(columns, other) for other in others], axis=0))
-
-
-def is_near_zero(total: WholeSum, most: int, columns: CandidateColumns) -> Bools:
-    """Return whether the absolute value of a sum of tooth counts is at most `most`, for each candidate."""
-    return np.asarray(np.abs(total.of(columns)) <= most)
 
 
 def distance_of(mesh: AssemblyMesh) -> LinearSum:

@@ -5,6 +5,11 @@ set_search          enumeration of all sets of one type within bounds, in every 
 verb                command `geartrain teeth set`
 """
 
+from typing import TYPE_CHECKING
+
 from geartrain.numerics.lazy_names import public_names
 
-__getattr__, __all__ = public_names(__name__, {"epicyclic_sets": "EPICYCLIC_KINDS EpicyclicKind"})
+if TYPE_CHECKING:
+    from geartrain.search.epicyclic.epicyclic_sets import EPICYCLIC_KINDS as EPICYCLIC_KINDS
+
+__getattr__, __all__ = public_names(__name__, {"epicyclic_sets": "EPICYCLIC_KINDS"})

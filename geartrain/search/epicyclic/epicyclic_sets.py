@@ -138,23 +138,21 @@ class EpicyclicKind(Result):
         """Return the operating modes selected by "all" or by strings in the format `input:output:held`. `QuestionError`
         is raised if a string is not a mode of this type.
         """
-        if isinstance(modes, str):
-            if modes == "all":
-                return self.modes
-            modes = [modes]
-        return tuple(mode if isinstance(mode, EpicyclicMode) else self._mode(mode) for mode in modes)
-
-    def _mode(self, text: str) -> EpicyclicMode:
-        parts = [part.strip() for part in text.split(":")]
-        if len(parts) == 3 and len(set(parts)) == 3 and set(parts) <= set(self.links):
-            return EpicyclicMode(*parts)
-        raise QuestionError(
-            Problem(
-                f"'{text}' is not a mode of the kind '{self.name}'",
-                f"a mode is input:output:held with three different members of {', '.join(self.links)}",
-                f"for example, write {self.modes[0].key}, or all",
-            )
-        )
+        if modes == "all":
+            return self.modes
+        found = []
+        for mode in [modes] if isinstance(modes, str) else modes:
+            parts = [part.strip() for part in (mode if isinstance(mode, str) else mode.key).split(":")]
+            if len(parts) != 3 or len(set(parts)) < 3 or not set(parts) <= set(self.links):
+                raise QuestionError(
+                    Problem(
+                        f"'{mode}' is not a mode of the kind '{self.name}'",
+                        f"a mode is input:output:held with three different members of {', '.join(self.links)}",
+                        f"for example, write {self.modes[0].key}, or all",
+                    )
+                )
+            found.append(EpicyclicMode(*parts))
+        return tuple(found)
 
 
 _ORDER = ("s", "s1", "p", "ps", "pl", "p1", "r", "r1", "p2", "s2", "r2")

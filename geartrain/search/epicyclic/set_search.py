@@ -172,7 +172,7 @@ def find_sets(
         if _length(columns):
             for at, mode in enumerate(chosen):
                 search.judge(columns, at, mode)
-    return search.findings(bounds, chosen)
+    return search.findings(chosen)
 
 
 def _length(columns: Columns) -> int:
@@ -327,7 +327,7 @@ class _Search:
             float(room(self.kind, one, self.planets)[0]),
         )
 
-    def findings(self, bounds: SetBounds, modes: tuple[EpicyclicMode, ...]) -> SetFindings:
+    def findings(self, modes: tuple[EpicyclicMode, ...]) -> SetFindings:
         shortfall = Shortfall(self.considered, dict(self.removed), *self._miss())
         found = tuple(item for _, item in self.found)
         return SetFindings(

@@ -10,7 +10,7 @@ from math import prod
 
 from geartrain.errors import Problem, QuestionError, RangeError, suggest
 from geartrain.kinematics.formulas.output_formulas import Formulas, find_formulas
-from geartrain.kinematics.judged_outputs import RatioGoal, error_against, goal_of, in_plain_units, unit_seconds
+from geartrain.kinematics.judged_outputs import error_against, goal_of, in_plain_units, unit_seconds
 from geartrain.numerics.exact import decimal
 from geartrain.numerics.graphs import joined_groups
 from geartrain.numerics.quantity import Figure
@@ -44,18 +44,6 @@ class SpeedRequirement:
     graded: bool
     approached: bool = False
     target: bool = False
-
-    @classmethod
-    def of(cls, goal: RatioGoal, share: Fraction | None) -> SpeedRequirement:
-        """Return the speed requirement of a declared target.
-
-        share   relative tolerance of the speed; None if the error is minimised
-        """
-        said = "" if share is None else f" within {decimal(share, 3)}"
-        demand = cls(goal.words + said, goal.speed, goal.signed, None, True, True, True)
-        if share is None:
-            return demand.loosened()
-        return replace(demand, allowed=demand.within(share), approached=False)
 
     def loosened(self) -> SpeedRequirement:
         """Return the requirement without its tolerance, so that its error is minimised. Only the sense of rotation is
@@ -261,9 +249,11 @@ def _demands(
     if output.published is not None:
         yield _printed(train, output.published, drive, not requested)
     for target in requested:
-        yield SpeedRequirement.of(
-            goal_of(train, target), tolerance if target.tolerance is None else target.tolerance.base
-        )
+        goal = goal_of(train, target)
+        share = tolerance if target.tolerance is None else target.tolerance.base
+        words = goal.words if share is None else f"{goal.words} within {decimal(share, 3)}"
+        demand = SpeedRequirement(words, goal.speed, goal.signed, None, graded=True, target=True)
+        yield demand.loosened() if share is None else replace(demand, allowed=demand.within(share))
 
 
 def _half(value: Figure, tolerance: Figure | None) -> Fraction:
@@ -291,15 +281,11 @@ def _printed(train: Train, published: Published, drive: Fraction | None, graded:
     low, high = _around(printed.value, half)
     allowed = tuple(_inverse(low if signed else max(low, Fraction(0)), high, scale))
     if not signed:
-        wanted, allowed = abs(wanted), (*allowed, *map(_mirrored, allowed))
+        # also the speeds with opposite sign; None is an unbounded end
+        mirrored = ((None if high is None else -high, None if low is None else -low) for low, high in allowed)
+        wanted, allowed = abs(wanted), (*allowed, *mirrored)
     # a ratio of 0 corresponds to no finite speed, so no error can be computed
     return SpeedRequirement(label, wanted, signed, allowed, graded and bool(wanted))
-
-
-def _mirrored(interval: Interval) -> Interval:
-    """Return the interval of the speeds with opposite sign."""
-    low, high = interval
-    return None if high is None else -high, None if low is None else -low
 
 
 def _inverse(low: Fraction, high: Fraction, drive: Fraction) -> Iterator[Interval]:
@@ -338,18 +324,6 @@ class SearchPart:
         return prod(len(counts) for counts in self.domains.values())
 
 
-@dataclass(frozen=True, slots=True)
-class TrainRequirements:
-    """Requirements on the outputs of a train in one or several states."""
-
-    requirements: tuple[OutputRequirement, ...]
-    conditions: tuple[IntervalConstraint, ...]
-    remarks: tuple[str, ...]
-    """Remarks on outputs whose speeds are undetermined, and on outputs that depend on no varied wheel and violate their
-    requirements.
-    """
-
-
 def find_domains(train: Train, free: str | Sequence[str]) -> dict[str, tuple[int, ...]]:
     """Return the admissible tooth counts of each varied wheel in ascending order, keyed by wheel in the order of
     declaration.
@@ -357,45 +331,30 @@ def find_domains(train: Train, free: str | Sequence[str]) -> dict[str, tuple[int
     `free` has the same meaning as in `search_train`. `QuestionError` is raised if no wheel is varied, or if a wheel
     named in `free` has no range of tooth counts.
     """
-    if isinstance(free, str) and free not in ("search", "uncertain"):
-        free = [free]
-    if not isinstance(free, str):
-        unknown = [name for name in free if name not in train.wheels]
-        if unknown:
-            fix = suggest(unknown[0], train.wheels)
-            raise QuestionError(
-                Problem(f"'{train.name}' has no wheel '{unknown[0]}'", "only declared wheels can be varied", fix)
-            )
+    names = None if free in ("search", "uncertain") else [free] if isinstance(free, str) else free
+    for name in names or ():
+        if name not in train.wheels:
+            what, why = f"'{train.name}' has no wheel '{name}'", "only declared wheels can be varied"
+            raise QuestionError(Problem(what, why, suggest(name, train.wheels)))
     found = {}
     for wheel, (link, declared) in train.wheels.items():
         teeth = declared.teeth if isinstance(declared.teeth, Teeth) else Teeth(value=declared.teeth)
-        chosen = wheel in free if not isinstance(free, str) else teeth.search is not None or free == "uncertain"
+        chosen = teeth.search is not None or free == "uncertain" if names is None else wheel in names
         # the train cannot be solved without the count of a wheel, so wheels without a count are always varied
         counts = tuple(_counts(train, wheel, link, teeth)) if chosen or teeth.value is None else ()
         if counts:
             found[wheel] = counts
-        elif chosen and not isinstance(free, str):
+        elif names is not None and chosen:
+            what = f"the tooth count of wheel '{wheel}' cannot be varied"
             why = f"its count is declared as {teeth.value}, without search, range or choices"
-            fix = "declare it as {search: [15, 80]}"
-            raise QuestionError(
-                Problem(
-                    f"the tooth count of wheel '{wheel}' cannot be varied",
-                    why,
-                    fix,
-                    train.place("links", link, "wheels", wheel),
-                )
-            )
+            place = train.place("links", link, "wheels", wheel)
+            raise QuestionError(Problem(what, why, "declare it as {search: [15, 80]}", place))
     if not found:
+        what = f"'{train.name}' has no wheel whose tooth count is varied"
         fix = "declare `teeth: {search: [15, 80]}` for the wheels to search"
         if free == "search" and any(train.uncertain_wheels()):
             fix += ", or use --free uncertain"
-        raise QuestionError(
-            Problem(
-                f"'{train.name}' has no wheel whose tooth count is varied",
-                "no selected wheel has a range of tooth counts",
-                fix,
-            )
-        )
+        raise QuestionError(Problem(what, "no selected wheel has a range of tooth counts", fix))
     return found
 
 
@@ -413,10 +372,16 @@ def _counts(train: Train, wheel: str, link: str, teeth: Teeth) -> Iterable[int]:
     return counts
 
 
-def find_requirements(
-    train: Train, state: str | None, domains: Domains, tolerance: Fraction | None
-) -> TrainRequirements:
-    """Return all requirements on the outputs in one state; in all states if `state` is None."""
+def find_parts(
+    train: Train, state: str | None, domains: Domains, rules: Sequence[CountConstraint], tolerance: Fraction | None
+) -> tuple[list[SearchPart], tuple[str, ...]]:
+    """Return the connected components of the varied wheels in the order of declaration, with all requirements in one
+    state, or in all states if `state` is None. A wheel without connection to other varied wheels is a component by
+    itself.
+
+    The second result contains remarks on outputs whose speeds are undetermined, and on outputs that depend on no varied
+    wheel and violate their requirements.
+    """
     train.check_state(state)
     states: Sequence[str | None] = tuple(train.states) or (None,) if state is None else (state,)
     requirements: list[OutputRequirement] = []
@@ -427,41 +392,30 @@ def find_requirements(
         case, formulas = train.case(one), find_formulas(train, one, domains)
         conditions |= dict.fromkeys(find_turning_conditions(train, formulas))
         for requirement in find_output_requirements(train, case, formulas.outputs, tolerance):
-            requirement = OutputRequirement(prefix + requirement.name, requirement.function, requirement.demands)
+            requirement = replace(requirement, name=prefix + requirement.name)
             if requirement.function.wheels:
                 requirements.append(requirement)
-            else:
-                remarks.extend(_idle(requirement))
+            elif (speed := requirement.function.value({})) is not None and not requirement.fits(speed):
+                reached = requirement.reached(speed)
+                remarks.append(
+                    f"no varied wheel influences '{requirement.name}', which violates its requirement: its speed is "
+                    f"{speed}, with an error of {decimal(reached.error, 3)} ({reached.label})"
+                )
         remarks.extend(f"the inputs do not determine '{prefix}{name}'" for name in formulas.undetermined)
-    return TrainRequirements(tuple(requirements), tuple(conditions), tuple(remarks))
-
-
-def _idle(requirement: OutputRequirement) -> Iterator[str]:
-    """Yield a remark on an output that depends on no varied wheel, if its speed violates its requirements."""
-    speed = requirement.function.value({})
-    if speed is not None:
-        reached = requirement.reached(speed)
-        if not reached.met:
-            said = f"its speed is {speed}, with an error of {decimal(reached.error, 3)} ({reached.label})"
-            yield f"no varied wheel influences '{requirement.name}', which violates its requirement: {said}"
-
-
-def find_parts(demands: TrainRequirements, domains: Domains, rules: Sequence[CountConstraint]) -> Iterator[SearchPart]:
-    """Yield the connected components of the varied wheels in the order of declaration. A wheel without connection to
-    other varied wheels is a component by itself.
-    """
     scopes = chain(
-        (requirement.function.wheels for requirement in demands.requirements),
-        (condition.function.wheels for condition in demands.conditions),
+        (one.function.wheels for one in requirements),
+        (one.function.wheels for one in conditions),
         (rule.wheels for rule in rules),
     )
+    found = []
     for wheels in joined_groups(domains, scopes):
         group = set(wheels)
-        yield SearchPart(
-            {wheel: domains[wheel] for wheel in wheels},
-            tuple(
-                requirement for requirement in demands.requirements if not group.isdisjoint(requirement.function.wheels)
-            ),
-            tuple(one for one in demands.conditions if not group.isdisjoint(one.function.wheels)),
-            tuple(rule for rule in rules if not group.isdisjoint(rule.wheels)),
+        found.append(
+            SearchPart(
+                {wheel: domains[wheel] for wheel in wheels},
+                tuple(one for one in requirements if not group.isdisjoint(one.function.wheels)),
+                tuple(one for one in conditions if not group.isdisjoint(one.function.wheels)),
+                tuple(rule for rule in rules if not group.isdisjoint(rule.wheels)),
+            )
         )
+    return found, tuple(remarks)

@@ -27,7 +27,6 @@ from geartrain.search.integer_columns import distinct_quotients
 from geartrain.search.join.exact_join import AssignmentColumns, BudgetSpentError, ExactJoin
 from geartrain.search.join.join_plan import JoinProblem, PlanNode, SelectivitySample, find_join_problem
 from geartrain.search.join.product_lists import Domains, Tallies, forecast
-from geartrain.search.join.wheel_monomials import IntervalConstraint
 from geartrain.search.train.output_requirements import OutputRequirement, SearchPart
 from geartrain.search.train.train_findings import Assignment, By
 
@@ -279,7 +278,9 @@ class PartSearch:
         alone = []
         for rule in self.part.rules:
             if len(rule.wheels) == 1:
-                narrowed = narrow(domains, rule)
+                (wheel,) = rule.wheels
+                counts = np.array(domains[wheel], dtype=np.int64)
+                narrowed = {**domains, wheel: tuple(counts[rule.holds({wheel: counts})].tolist())}
                 alone.append((rule.name, size_of(domains) - size_of(narrowed)))
                 domains = narrowed  # later constraints are counted on what is left
         self.removed_first, self.domains = tuple(alone), domains
@@ -294,22 +295,7 @@ class PartSearch:
             rules=tuple(one for one in self.part.rules if one.name != rule),
             requirements=tuple(one for one in self.part.requirements if one is not requirement),
         )
-        return PartSearch(part, self.order, self.runner, self.limit)
-
-    def requested(self, share: Fraction | None, strict: bool = False) -> tuple[IntervalConstraint, ...]:
-        """Return all interval constraints of a pass with the relative tolerance `share`; None means that there is no
-        common tolerance.
-        """
-        found = [requirement.requested(share, strict) for requirement in self.part.requirements]
-        return (*self.part.conditions, *(one for one in found if one is not None))
-
-    def probabilities(self, requested: Sequence[IntervalConstraint]) -> dict[str, float]:
-        """Return an estimate of the fraction of assignments that satisfy each constraint or requirement, keyed by its
-        name.
-        """
-        sample = SelectivitySample.of(self.domains)
-        probabilities = {rule.name: sample.of_rule(rule) for rule in self.rules}
-        return probabilities | {one.name: sample.of_demand(one) for one in requested}
+        return replace(self, part=part)
 
     def run(self, share: Fraction | None, most: float, *, strict: bool = False) -> PassResult:
         """Run one pass. All solutions are counted, and the best solutions are listed if there are at most `most`
@@ -320,8 +306,12 @@ class PartSearch:
         """
         if not size_of(self.domains):
             return PassResult(share)
-        requested = self.requested(share, strict)
-        question = find_join_problem(self.domains, requested, self.rules, self.probabilities(requested))
+        constraints = (requirement.requested(share, strict) for requirement in self.part.requirements)
+        requested = (*self.part.conditions, *(one for one in constraints if one is not None))
+        sample = SelectivitySample.of(self.domains)
+        probabilities = {rule.name: sample.of_rule(rule) for rule in self.rules}
+        probabilities |= {one.name: sample.of_demand(one) for one in requested}
+        question = find_join_problem(self.domains, requested, self.rules, probabilities)
         tasks, searched = cut(question, self.limit)
         # `most` may be infinite
         packed = pickle.dumps((question, self.order, int(min(most, 1 << 62))))
@@ -346,16 +336,6 @@ def size_of(domains: Domains) -> int:
     of all wheels.
     """
     return prod(len(counts) for counts in domains.values())
-
-
-def narrow(domains: Domains, rule: CountConstraint) -> Domains:
-    """Return the admissible tooth counts of all wheels after application of a constraint on one wheel."""
-    (wheel,) = rule.wheels
-    counts = domains[wheel]
-    if not counts:
-        return domains
-    met = rule.holds({wheel: np.array(counts, dtype=np.int64)})
-    return {**domains, wheel: tuple(count for count, good in zip(counts, met.tolist(), strict=True) if good)}
 
 
 # --------------------------------------------------- the best of many assignments: bounds in floats, exact errors
@@ -420,21 +400,17 @@ class AssignmentOrder:
         found = np.zeros(len(next(iter(columns.values()))), dtype=np.int64)
         if self.level:
             return found
-        exact = [_exact_errors(requirement, columns) for requirement in self.requirements]
+        exact = []
+        for requirement in self.requirements:
+            function = requirement.function
+            terms = (_whole(function.wheels, each, columns) for each in (function.numerator, function.denominator))
+            # the error of each distinct speed, and the index of the speed of each assignment
+            speeds, which = distinct_quotients(*terms)
+            exact.append(([abs(requirement.reached(speed).error) for speed in speeds], which))
         rank = {error: at for at, error in enumerate(sorted({error for errors, _ in exact for error in errors}))}
         for errors, which in exact:
             found = np.maximum(found, np.array([rank[error] for error in errors], dtype=np.int64)[which])
         return found
-
-
-def _exact_errors(requirement: OutputRequirement, columns: AssignmentColumns) -> tuple[list[Fraction], Ints]:
-    """Return the exact absolute error for each distinct speed of an output, and the index of the speed of each
-    assignment.
-    """
-    function = requirement.function
-    above, below = (_whole(function.wheels, terms, columns) for terms in (function.numerator, function.denominator))
-    speeds, which = distinct_quotients(above, below)
-    return [abs(requirement.reached(speed).error) for speed in speeds], which
 
 
 def _whole(wheels: Sequence[str], terms: Sequence[WholeTerm], columns: AssignmentColumns) -> Tallies:

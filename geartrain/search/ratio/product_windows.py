@@ -205,8 +205,8 @@ def products_of(counts: tuple[int, ...], size: int) -> ProductWindows:
 def _rows(numbers: Ints, below: int) -> tuple[Ints, Ints, Ints]:
     """Return every combination of a number and a multiset of `below` numbers that do not exceed it.
 
-    The three arrays contain the product of the numbers, the numbers, and the index of the first-mentioned number, with
-    one row for each combination.
+    The three arrays have one row for each combination. They contain the product of all numbers, the numbers in
+    ascending order, and the index of the largest number.
     """
     parts = [_by_product(_chosen(numbers[: at + 1], below)) for at in range(len(numbers))]
     table = np.repeat(np.arange(len(numbers)), [len(part) for part in parts])

@@ -24,12 +24,12 @@ from geartrain.search.integer_columns import spread_in_blocks
 from geartrain.search.ratio.product_windows import (
     ProductWindows,
     cuts,
+    error_places,
     multisets,
     rounded_up,
     row_products,
 )
 from geartrain.search.ratio.stage_problem import (
-    BestStages,
     StageProblem,
     StageRank,
     first_of,
@@ -54,6 +54,7 @@ _WIDER = 16  # factor between tolerances; all passes before the last then cost l
 _ENOUGH = 2 * 10**9
 """Number of tested pairs of multisets at which a search without a given tolerance stops increasing its tolerance."""
 _SLACK = 1e-12  # relative margin of float comparisons
+_MARGIN = 1e-14  # relative bound of the rounding error of a ratio
 _MOST = 1e11
 """Maximum number of pairs of multisets that may be tested one by one."""
 
@@ -152,15 +153,16 @@ def pieces(products: ProductWindows, low: int, high: int, most: int) -> Iterator
 
 
 class StageFilter:
-    """Filter that tests pairs of multisets of tooth counts against the constraints, counts the solutions and keeps the
-    best solutions.
+    """Filter that tests pairs of multisets of tooth counts against the constraints, counts the solutions, and keeps the
+    best solutions in bounded memory.
     """
 
     def __init__(self, question: StageProblem) -> None:
         self.question = question
-        self.best = BestStages(question.best, question.value)
         self.removed: dict[str, int] = {}
         self.count = 0
+        # rows: primary criterion, products of numerator and denominator, tooth counts of numerator and denominator
+        self._rows: list[Ints] = []
 
     def see(self, tops: Ints, beneaths: Ints, over: Ints, under: Ints) -> None:
         """Test and rank n pairs of multisets. The arguments are the tooth counts of numerator and denominator, shape
@@ -180,16 +182,39 @@ class StageFilter:
         self.count += len(at)
         if len(at):
             first = first_of(self.question.by, tops[at], beneaths[at], fit)
-            self.best.add(np.column_stack([first, over[at], under[at], tops[at], beneaths[at]]))
+            self._rows.append(np.column_stack([first, over[at], under[at], tops[at], beneaths[at]]))
+            # several times the list length is stored between two sorts, which amortises their cost
+            if sum(map(len, self._rows)) > max(4 * self.question.best, 1 << 17):
+                self._rows = [self._best_rows()]
 
     def outcome(self) -> dict[str, Any]:
         """Return the number of solutions, the number of rejected pairs of multisets for each reason, and the best
         solutions as plain data.
         """
-        return {"count": self.count, "listed": self.count, "removed": self.removed, "rows": self.best.plain()}
+        rows, stages = self._best_rows().tolist() if self._rows else [], self.question.stages
+        best = [[row[0], row[3 : 3 + stages], row[3 + stages :]] for row in rows]
+        return {"count": self.count, "listed": self.count, "removed": self.removed, "rows": best}
+
+    def _best_rows(self) -> Ints:
+        """Sort all stored rows exactly, and return the requested number of best rows."""
+        rows, best, value = np.concatenate(self._rows), self.question.best, self.question.value
+        if len(rows) > best:
+            # errors in floats select slightly too many rows, which are then compared as Fractions
+            first, over, under = rows[:, 0], rows[:, 1], rows[:, 2]
+            error = np.abs(over.astype(np.float64) / under.astype(np.float64) / float(value) - 1)
+            last = np.lexsort((error, first))[best - 1]
+            near = error <= error[last] + _MARGIN * (1 + error[last])
+            rows = rows[(first < first[last]) | ((first == first[last]) & near)]
+        first, over, under, *counts = rows.T
+        sizes = np.max(counts, axis=0), np.sum(counts, axis=0)
+        # lexsort takes its last key first
+        order = np.lexsort((*counts[::-1], *sizes, error_places(over, under, value), first))
+        return rows[order[:best]]
 
     def _filter(self, at: Ints, good: NDArray[np.bool_], reason: str) -> Ints:
-        """Return the indices for which `good` is True. The other indices are counted as rejected under `reason`."""
+        """Return the indices in `at` for which `good` is True. The other pairs of multisets are counted as rejected for
+        `reason`.
+        """
         if not good.all():
             self.removed[reason] = self.removed.get(reason, 0) + int((~good).sum())
         return at[good]
@@ -225,8 +250,8 @@ class SweepOutcome:
 
 
 def solve(question: StageProblem, tolerance: Fraction | None, means: Execution) -> SweepOutcome:
-    """Count all solutions within a tolerance and keep the best. If the tolerance is None, find the solutions with the
-    smallest absolute errors.
+    """Count all solutions of a search problem within a tolerance, and keep the best solutions. If the tolerance is
+    None, find the solutions with the smallest absolute errors.
 
     `question.tolerance` is ignored. If there are many solutions, only solutions near the requested ratio are listed.
     The tolerance of the list is increased until it includes enough solutions, so all other solutions have larger
@@ -272,8 +297,8 @@ def _density(question: StageProblem) -> float:
 
 
 def _sweep(question: StageProblem, near: Fraction, means: Execution) -> SweepOutcome:
-    """Search all segments and merge their results. After a keyboard interrupt, return the results obtained until
-    then.
+    """Search all segments with the tolerance `near` of the list, and return their merged results. After a keyboard
+    interrupt, the results obtained until then are returned.
     """
     work, tasks = partial(search_segment, pickle.dumps((question, near))), _segments(question)
     # a single task runs in this process, without the overhead of an executor

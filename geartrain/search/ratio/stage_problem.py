@@ -19,7 +19,7 @@ import numpy as np
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.results import Result
-from geartrain.search.ratio.product_windows import ProductWindows, error_places, multisets, products_of
+from geartrain.search.ratio.product_windows import ProductWindows, multisets, products_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -31,7 +31,6 @@ if TYPE_CHECKING:
 
 Set = tuple[int, ...]
 Pairs = tuple[tuple[int, int], ...]
-_MARGIN = 1e-14  # relative bound of the rounding error of a ratio
 
 
 @dataclass(frozen=True, slots=True)
@@ -292,46 +291,3 @@ def key_of(first: int, top: Sequence[int], beneath: Sequence[int], value: Fracti
     """Return the sort key of one solution. `first` is the primary criterion of the order."""
     miss = abs(Fraction(prod(top), prod(beneath)) / value - 1)
     return first, miss, sum(top) + sum(beneath), max(*top, *beneath), tuple(top), tuple(beneath)
-
-
-class BestStages:
-    """List of the n best rows (solutions) among all rows that are added, in bounded memory.
-
-    The columns of a row are the primary criterion of the order (smaller is better), the products of numerator and
-    denominator, and the tooth counts of numerator and denominator, each in ascending order.
-    """
-
-    def __init__(self, best: int, value: Fraction) -> None:
-        self.best, self.value = best, value
-        self._parts: list[Ints] = []
-
-    def add(self, rows: Ints) -> None:
-        """Add rows, which are candidates for the list, to the list."""
-        self._parts.append(rows)
-        # several times the list length is stored between two sorts, which amortises their cost
-        if sum(map(len, self._parts)) > max(4 * self.best, 1 << 17):
-            self._parts = [self._sorted()]
-
-    def plain(self) -> list[list[Any]]:
-        """Return the n best rows in order as plain data: primary criterion, numerator counts, and denominator
-        counts.
-        """
-        rows = self._sorted().tolist() if self._parts else []
-        stages = (len(rows[0]) - 3) // 2 if rows else 0
-        return [[row[0], row[3 : 3 + stages], row[3 + stages :]] for row in rows]
-
-    def _sorted(self) -> Ints:
-        """Sort all stored rows exactly, and return the first `best` of them."""
-        rows = np.concatenate(self._parts)
-        if len(rows) > self.best:
-            # errors in floats select slightly too many rows, which are then compared as Fractions
-            first, over, under = rows[:, 0], rows[:, 1], rows[:, 2]
-            error = np.abs(over.astype(np.float64) / under.astype(np.float64) / float(self.value) - 1)
-            last = np.lexsort((error, first))[self.best - 1]
-            near = error <= error[last] + _MARGIN * (1 + error[last])
-            rows = rows[(first < first[last]) | ((first == first[last]) & near)]
-        first, over, under, *counts = rows.T
-        sizes = np.max(counts, axis=0), np.sum(counts, axis=0)
-        # lexsort takes its last key first
-        order = np.lexsort((*counts[::-1], *sizes, error_places(over, under, self.value), first))
-        return rows[order[: self.best]]

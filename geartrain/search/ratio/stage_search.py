@@ -321,8 +321,8 @@ def _findings(
 
 
 def _wrong_sense(question: StageProblem) -> Shortfall:
-    """Return the numbers of rejected candidates for a search whose external and internal meshes contradict the
-    requested sense of rotation.
+    """Return the numbers of rejected candidates, and suggestions, for a search in which the output turns in the wrong
+    sense for all tooth counts.
     """
     stages, internal = question.stages, question.fit.internal
     # one more or one less internal mesh reverses the sense

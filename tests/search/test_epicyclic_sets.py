@@ -26,10 +26,6 @@ FLAT = [name for name in NAMES if name != "bevel"]
 ALL = range(1, 121)
 
 
-def best(ratio: str, kind: str = "planetary", modes: str = "sun:carrier:ring", **requested: Any) -> EpicyclicSet:
-    return find_sets(F(ratio), kind, modes, **requested).solutions[0]
-
-
 def teeth(found: EpicyclicSet, *wheels: str) -> tuple[int, ...]:
     return tuple(found.teeth[wheel] for wheel in wheels)
 
@@ -111,8 +107,8 @@ def test_ten_thousand_to_one_needs_a_slack_of_two_half_modules() -> None:
 
 def test_humpages_bevels_fit_their_planet() -> None:
     counts = {"s1": (20,), "s2": (76,), "p": (56,)}
-    found = best("4.8", "bevel", "sun1:carrier:sun2", counts=counts, planets=2, spaced=False)
-    assert found.ratio == F(24, 5)
+    found = find_sets(F("4.8"), "bevel", "sun1:carrier:sun2", counts, planets=2, spaced=False)
+    assert found.solutions[0].ratio == F(24, 5)
 
 
 # whether it goes together

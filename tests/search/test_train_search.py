@@ -17,6 +17,7 @@ import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 from strategies import driven_trains, ordinary_trains
+from yaml import safe_load
 
 import geartrain.search.train.search_passes as passes
 from geartrain import GearTrain, GearTrainError, load
@@ -234,26 +235,6 @@ def test_outputs_without_wheels_in_common_are_parts_whose_counts_multiply() -> N
     assert set(whole[0].teeth) == set("abcd")
 
 
-def planetary(output: Data) -> Data:
-    return {
-        "name": "planetary",
-        "links": {
-            "frame": {"wheels": {"r": {**free(40, 90), "internal": True}}},
-            "sun": {"wheels": {"s": free(12, 40)}},
-            "planet": {"wheels": {"p": free(12, 40)}},
-            "arm": {},
-        },
-        "revolutes": [
-            {"pair": ["frame", "sun"], "axis": "main"},
-            {"pair": ["frame", "arm"], "axis": "main"},
-            {"pair": ["arm", "planet"], "axis": "planet"},
-        ],
-        "gears": [{"pair": ["s", "p"]}, {"pair": ["p", "r"]}],
-        "inputs": {"sun": 1},
-        "outputs": {"arm": output},
-    }
-
-
 def reverted(bounds: Sequence[tuple[int, int]], output: Data) -> Data:
     """Two stages whose last arbor is on the axis of the first."""
     data = chain(bounds, output)
@@ -339,12 +320,18 @@ def test_every_kind_of_demand_means_what_the_solver_means(output: Data, toleranc
 
 
 def test_all_states_are_requested_at_once_or_one_alone() -> None:
-    data = planetary({})
-    data["fixed"], data["outputs"] = [], {"sun": {}, "ring": {}}
-    data["links"]["ring"] = data["links"].pop("frame")
-    data["links"]["frame"] = {}
-    data["revolutes"].append({"pair": ["frame", "ring"], "axis": "main"})
-    data["inputs"] = {"arm": 1}
+    data = safe_load("""
+links:
+  frame: {}
+  sun: {wheels: {s: {teeth: {search: [12, 40]}}}}
+  ring: {wheels: {r: {teeth: {search: [40, 90]}, internal: true}}}
+  planet: {wheels: {p: {teeth: {search: [12, 40]}}}}
+  arm: {}
+revolutes: {main: [frame, sun, ring, arm], planet: [arm, planet]}
+gears: [s ~ p, p ~ r]
+inputs: {arm: 1}
+outputs: {sun: {}, ring: {}}
+""")
     data["states"] = {
         "low": {"fixed": ["sun"], "outputs": {"ring": target("1.35", "1/50")}},
         "high": {"fixed": ["ring"], "outputs": {"sun": target("3.8", "1/50")}},

@@ -30,7 +30,7 @@ def error_text(value: Fraction) -> str:
 
 
 def stage_rows(found: StageFindings) -> list[dict[str, Any]]:
-    """Return the rows of a table of the gear stages found for a ratio."""
+    """Return the rows of the table of gear stages that were found for a ratio, each as a dict keyed by column."""
     return [
         {
             "top": _product(one.top),
@@ -85,7 +85,7 @@ def _wanted(wanted: TargetRatio) -> str:
 
 
 def approximant_rows(found: Approximants) -> list[dict[str, Any]]:
-    """Return the rows of a table of the fractions that approximate a ratio."""
+    """Return the rows of the table of fractions that approximate a ratio, each as a dict keyed by column."""
     return [each.to_dict() for each in found.solutions]
 
 
@@ -115,7 +115,9 @@ def _shortfall(shortfall: Shortfall) -> list[Section]:
 
 
 def assignment_rows(found: TrainFindings) -> list[dict[str, Any]]:
-    """Return the rows of a table of the solutions for a train, with the tooth counts and the error of each output."""
+    """Return the rows of the table of solutions for a train, each as a dict with the tooth count of each wheel and the
+    error of each output.
+    """
     return [
         {**one.teeth, **{f"error of {name}": float(each.error) for name, each in one.outputs.items()}}
         for one in found.solutions
@@ -185,7 +187,7 @@ def _ranks(standings: Sequence[Standing]) -> Section:
 
 
 def set_rows(found: SetFindings) -> list[dict[str, Any]]:
-    """Return the rows of a table of the epicyclic sets found by a search."""
+    """Return the rows of the table of epicyclic sets that were found, each as a dict keyed by column."""
     return [
         {
             "mode": one.mode.key,
@@ -238,7 +240,7 @@ def describe_set_kinds(kinds: Mapping[str, EpicyclicKind]) -> Document:
 
 
 def orrery_rows(found: Orrery) -> list[dict[str, Any]]:
-    """Return the rows of a table of the gear pairs of an orrery."""
+    """Return the rows of the table of gear pairs of an orrery, each as a dict keyed by column."""
     return [pair.to_dict() for pair in found.pairs]
 
 

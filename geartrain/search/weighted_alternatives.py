@@ -26,7 +26,9 @@ Table = TypeVar("Table", bound=Hashable)
 
 @dataclass(frozen=True, slots=True, eq=False)
 class AlternativeRows(Generic[Table]):
-    """Alternatives of all rows of a table, stored as arrays with one entry for each of m alternatives."""
+    """Alternatives of all nodes of a table, stored as arrays with one entry for each of m alternatives. A row of the
+    table is a node, at which a derivation chooses one alternative.
+    """
 
     weight: Any
     """Weights of the alternatives, which may be negative: an array of shape (m,), or one number for all
@@ -100,7 +102,9 @@ class WeightedAlternatives(Generic[Table]):
 
 
 def sums_by(owners: Ints, values: NDArray[Any], size: int) -> NDArray[Any]:
-    """Return the sum of the values that belong to each owner, shape (size,). Python integers are added exactly."""
+    """Return the sums of the values that have the same owner, shape (size,). Entry i is the sum of `values` whose entry
+    in `owners` is i. Python integers are added exactly.
+    """
     found: NDArray[Any] = np.zeros(size, dtype=values.dtype)
     np.add.at(found, owners, values)
     return found

@@ -80,8 +80,8 @@ def find_constraints(
 
 @dataclass(frozen=True)
 class _ConstraintBuilder:
-    """Builder of the constraints of one train. In the train `fitting`, the varied wheels have placeholder tooth
-    counts.
+    """Builder of all constraints of one train. `fitting` is the train `declared`, in which every varied wheel has the
+    first of its admissible tooth counts.
     """
 
     declared: Train
@@ -97,8 +97,8 @@ class _ConstraintBuilder:
         yield from self._owned()
 
     def _owned(self) -> Iterator[CountConstraint]:
-        """Yield a condition for each collection of available wheels: no tooth count may be used for more wheels than
-        the collection contains.
+        """Yield, for each collection of wheels that the user owns, the condition that no tooth count is used for more
+        wheels than the collection contains.
         """
         wheels: dict[tuple[tuple[int, int], ...], dict[str, int]] = {}
         for name, (link, wheel) in self.declared.wheels.items():
@@ -190,8 +190,11 @@ class _ConstraintBuilder:
         yield from _condition(words, is_between, scaled, -room.constant, room.constant)
 
     def _is_broken(self, total: LinearSum, shift: Fraction | int) -> bool:
-        """Return whether the declared tooth counts violate an equality of centre distances that was not requested
-        explicitly. The wheels then have different modules or shifted profiles, so the constraint is not applied.
+        """Return whether the declared tooth counts violate the requirement of two equal centre distances, which was not
+        requested explicitly. The wheels then have different modules or shifted profiles, so the requirement is dropped.
+
+        total   difference of the two distances as a function of tooth counts
+        shift   maximum admissible magnitude of this difference
         """
         if self.requested.coaxial is not None:
             return False
@@ -217,8 +220,8 @@ class _ConstraintBuilder:
             yield from self._different()
 
     def _different(self) -> Iterator[CountConstraint]:
-        """Yield conditions that require different tooth counts: first of a varied wheel and all fixed wheels, then of
-        each pair of varied wheels.
+        """Yield the conditions that no varied wheel has the same tooth count as a fixed wheel, and that no two varied
+        wheels have the same tooth count. Copies of one planet are exempt.
         """
         words = "different counts: two wheels have equal counts"
         copied = (pair for one in self.fitting.sets for pair in self._copied(one))
@@ -243,8 +246,8 @@ class _ConstraintBuilder:
     # --------------------------------------------------------------------------------------------------------- planets
 
     def _planet_sets(self) -> Iterator[tuple[PlanetSet, int]]:
-        """Yield each set of planets and its number of equal planets, as requested or as declared by `copies`. Sets
-        without such a number are omitted.
+        """Yield each set of planets with its number of copies around the central axis, as requested or, by default, as
+        declared by `copies`. Sets without such a number are omitted.
         """
         requested = self.requested.planets
         if requested is None:
@@ -277,7 +280,7 @@ class _ConstraintBuilder:
             yield one, number
 
     def _equal(self) -> Iterator[CountConstraint]:
-        """Yield equations stating that the tooth counts of equal planets are equal, for planets that are declared
+        """Yield equations that require equal tooth counts of corresponding wheels of equal planets that are declared
         individually.
         """
         for one, _ in self._planet_sets():
@@ -326,8 +329,10 @@ def _wrong_planet_number(one: PlanetSet, number: int, declared: int) -> Problem:
 
 
 def can_mesh(number: int, first: Planet, columns: CandidateColumns) -> Bools:
-    """Return whether `number` equal sets of planets, equally spaced around the central axis, can mesh with the same
-    central wheels: `number` must divide every integer returned by `phase_numbers`, which derives this condition.
+    """Return, for each candidate, whether `number` equal sets of planets, equally spaced around the central axis, can
+    mesh with the same central wheels. `first` is the first planet of a set.
+
+    The condition is that `number` divides every integer returned by `phase_numbers`.
     """
     # b is only needed modulo n; reduced, so that products of counts fit int64
     kind = PhaseArithmetic(lambda part: counts_of(columns, part), np.gcd, bezout, lambda one: one % number)
@@ -354,10 +359,11 @@ def bezout(a: Ints, b: Ints) -> tuple[Ints, Ints, Ints]:
 
 
 def equal_planets(found: PlanetSet, number: int) -> Condition | None:
-    """Return the assembly condition of a set of equal, equally spaced planets.
+    """Return the condition on tooth counts under which `number` copies of a set of planets can be assembled with equal
+    spacing around the central axis.
 
     Return None if no wheel is varied, or if the planets mesh with fewer than two central wheels. In the latter case any
-    number of planets can be assembled.
+    number of copies can be assembled.
     """
     assert found.planets is not None
     planets = list(found.planets.walk())
@@ -382,22 +388,24 @@ def equal_planets(found: PlanetSet, number: int) -> Condition | None:
 
 
 def are_apart(number: int, reach: WholeSum, tips: WholeSum, columns: CandidateColumns) -> Bools:
-    """Return whether the clearance between the tip circles of neighbouring planets exceeds the required clearance, by
-    exact comparison.
+    """Return, for each candidate, whether the clearance between the tip circles of neighbouring planets exceeds the
+    required clearance, by exact comparison.
 
-    `reach` is twice the distance of the axis of a planet from the central axis, and `tips` is the tip diameter plus the
-    required clearance; see `neighbour_terms`.
+    number   number of equally spaced planets
+    reach    twice the distance of the axis of a planet from the central axis
+    tips     tip diameter of a planet plus the required clearance
     """
     chord = sine(Fraction(1, 2 * number))
     return is_positive(neighbour_terms, [reach.of(columns), tips.of(columns)], [chord], True)
 
 
 def can_pass(number: int, A: WholeSum, B: WholeSum, D: WholeSum, tips: WholeSum, columns: CandidateColumns) -> Bools:
-    """Return whether two meshing planets can be placed on the circles of their axes without overlap with the mates of
-    the other planets.
+    """Return, for each candidate, whether a planet and its mating planet can be assembled without overlap between the
+    planet and the mating planets of the other `number` - 1 equal sets.
 
-    A and B are twice the radii of the two circles, and D is twice the centre distance of the planets; see
-    `passing_terms`.
+    A, B   twice the distances of the axes of the planet and of its mating planet from the central axis
+    D      twice the centre distance of the planet and its mating planet
+    tips   sum of the tip diameters plus twice the required clearance
     """
     a, b, d, tip = (one.of(columns) for one in (A, B, D, tips))
     # the triangle of the central axis and the two planets must close
@@ -461,8 +469,8 @@ def _gap_conditions(planet: Planet, other: Planet, clearance: Fraction) -> Itera
 
 
 def _is_plain(planet: Planet, external: bool) -> bool:
-    """Return whether a planet consists of one wheel, is at the end of its planet set, and meshes only with external
-    central wheels (if `external` is True) or only with rings (if it is False).
+    """Return whether a planet consists of one wheel, meshes with exactly one other planet, and meshes only with
+    external central wheels (if `external` is True) or only with rings (if it is False).
     """
     alone = len(planet.wheels) == 1 and len(planet.outward) + (planet.inward is not None) == 1
     return alone and bool(planet.central) and all((mesh.ring is None) == external for mesh in planet.central)
@@ -470,7 +478,8 @@ def _is_plain(planet: Planet, external: bool) -> bool:
 
 def _reach(planet: Planet, wheel: str = "") -> LinearSum | None:
     """Return twice the distance of the axis of a planet from the central axis; None if the planet meshes with no
-    central wheel. Meshes of `wheel` are preferred, and then external meshes.
+    central wheel. The distance is computed from a mesh of `wheel` with a central wheel if there is one, and from an
+    external mesh if possible.
     """
     meshes = sorted(planet.central, key=lambda mesh: (planet.own(mesh) != wheel, mesh.ring is not None))
     return distance_of(meshes[0]) if meshes else None
@@ -483,7 +492,9 @@ def _wheel_meshes(planet: Planet) -> list[AssemblyMesh]:
 
 
 def _condition(name: str, test: Callable[..., Bools], *arguments: float | WholeSum) -> Iterator[Condition]:
-    """Yield the condition with the given test and all its arguments except the last; nothing if no wheel is varied."""
+    """Yield a condition with the given name, whose test is the function `test` with `arguments` as its first arguments.
+    Nothing is yielded if no sum in `arguments` contains a varied wheel.
+    """
     sums = [one for one in arguments if isinstance(one, WholeSum)]
     wheels = tuple(dict.fromkeys(wheel for one in sums for wheel in one.wheels))
     if wheels:

@@ -38,8 +38,8 @@ It returns whether each candidate passes, shape (candidates,).
 
 @dataclass(frozen=True, slots=True)
 class CountEquation:
-    """Linear equation of tooth counts: the sum of the products of coefficients and tooth counts, plus a constant, is
-    0.
+    """Linear equation of tooth counts: the sum of all tooth counts, each multiplied by its coefficient, plus a constant
+    is 0.
     """
 
     name: str
@@ -90,9 +90,8 @@ class Condition:
     """Predicate that returns whether each candidate satisfies the condition."""
 
     def holds(self, columns: CandidateColumns) -> Bools:
-        """Return whether each candidate satisfies the condition, shape (candidates,), read-only.
-
-        Columns of other wheels are ignored.
+        """Return whether each candidate satisfies the condition, as a read-only array of shape (candidates,). `columns`
+        may contain further wheels.
         """
         return np.broadcast_to(self.test(columns), columns[self.wheels[0]].shape)
 
@@ -102,15 +101,15 @@ CountConstraint = CountEquation | Condition
 
 
 def counts_of(columns: CandidateColumns, part: CountRef) -> Ints:
-    """Return the tooth counts of a wheel for all candidates: the column of a varied wheel, or the tooth count of a
-    fixed wheel.
+    """Return the tooth counts of one wheel for all candidates: its column if `part` is the id of a varied wheel, or
+    `part` itself if it is a fixed tooth count.
     """
     return columns[part] if isinstance(part, str) else np.asarray(part, dtype=np.int64)
 
 
 def free_of(*parts: CountRef) -> tuple[str, ...]:
-    """Return the distinct ids of varied wheels in a list of wheel ids and fixed tooth counts, in order of
-    occurrence.
+    """Return the distinct ids of varied wheels in `parts`, in order of occurrence. All other elements of `parts` are
+    fixed tooth counts.
     """
     return tuple(dict.fromkeys(part for part in parts if isinstance(part, str)))
 
@@ -120,14 +119,14 @@ def free_of(*parts: CountRef) -> tuple[str, ...]:
 
 @dataclass(frozen=True, slots=True)
 class LinearSum:
-    """Sum of weighted tooth counts of varied wheels, plus a constant. Weights are never 0."""
+    """Weighted sum of the tooth counts of varied wheels, plus a constant. No weight is 0."""
 
     terms: Mapping[str, Fraction]
     constant: Fraction = Fraction(0)
 
     @classmethod
     def of(cls, parts: Iterable[tuple[Fraction | int, CountRef]]) -> LinearSum:
-        """Build the sum from pairs (weight, part), where a part is the id of a varied wheel or a fixed tooth count."""
+        """Return the sum of pairs (weight, part), where a part is the id of a varied wheel or a fixed tooth count."""
         total = cls({})
         for weight, part in parts:
             total += cls({part: Fraction(weight)}) if isinstance(part, str) else cls({}, Fraction(weight * part))
@@ -153,7 +152,7 @@ class LinearSum:
 
 @dataclass(frozen=True, slots=True)
 class WholeSum:
-    """Sum of tooth counts of varied wheels with integer weights, plus an integer constant."""
+    """Weighted sum of the tooth counts of varied wheels, plus a constant. All weights and the constant are integers."""
 
     terms: tuple[tuple[str, int], ...]
     constant: int
@@ -174,7 +173,9 @@ class WholeSum:
 
 
 def whole(*sums: LinearSum) -> tuple[WholeSum, ...]:
-    """Multiply several sums by the smallest common positive factor for which all weights and constants are integers."""
+    """Return all sums, multiplied by the smallest common positive factor for which their weights and constants are
+    integers.
+    """
     scale = lcm(*(number.denominator for one in sums for number in (*one.terms.values(), one.constant)))
     return tuple(
         WholeSum(tuple((wheel, int(weight * scale)) for wheel, weight in one.terms.items()), int(one.constant * scale))
@@ -183,9 +184,7 @@ def whole(*sums: LinearSum) -> tuple[WholeSum, ...]:
 
 
 def plainest(one: LinearSum) -> WholeSum:
-    """Return a multiple of a sum. Its weights and its constant are coprime integers, and its first weight is
-    positive.
-    """
+    """Return the multiple of a sum whose weights and constant are coprime integers and whose first weight is positive."""
     (found,) = whole(one)
     # the greatest common divisor of a zero sum is 0
     common = gcd(*(weight for _, weight in found.terms), found.constant) or 1
@@ -206,14 +205,14 @@ def equality(one: WholeSum) -> str:
 
 
 def is_between(total: WholeSum, minimum: float, maximum: float, columns: CandidateColumns) -> Bools:
-    """Return whether a sum of tooth counts is between two numbers, both inclusive, for each candidate."""
+    """Return, for each candidate, whether a sum of tooth counts is at least `minimum` and at most `maximum`."""
     found = total.of(columns)
     return np.asarray((found >= minimum) & (found <= maximum))
 
 
 def are_coprime(first: CountRef, second: CountRef, columns: CandidateColumns) -> Bools:
-    """Return whether two tooth counts are coprime, so that every tooth of one wheel meets every tooth of the other
-    (hunting tooth).
+    """Return, for each candidate, whether two tooth counts are coprime, so that every tooth of one wheel meets every
+    tooth of the other (hunting tooth).
     """
     return np.asarray(np.gcd(counts_of(columns, first), counts_of(columns, second)) == 1)
 
@@ -229,7 +228,7 @@ def are_owned(numbers: Sequence[tuple[int, int]], used: Mapping[str, int], colum
 
 
 def is_different(wheel: str, others: Sequence[CountRef], columns: CandidateColumns) -> Bools:
-    """Return whether the tooth count of a wheel differs from all tooth counts in `others`, for each candidate."""
+    """Return, for each candidate, whether the tooth count of a wheel differs from all tooth counts in `others`."""
     return np.asarray(np.all([columns[wheel] != counts_of(columns, other) for other in others], axis=0))
 
 
@@ -253,13 +252,13 @@ The argument `root` is the square-root function for the number type; it returns 
 
 
 def decimal(number: Fraction | int) -> Decimal:
-    """Convert a fraction to a decimal that is correct to at least fifty digits."""
+    """Convert a fraction to a decimal that is correct to at least fifty significant digits."""
     with localcontext(prec=_DIGITS):
         return Decimal(Fraction(number).numerator) / Decimal(Fraction(number).denominator)
 
 
 def sine(turns: Fraction) -> Decimal:
-    """Return the sine of an angle from -1 to 1 turns to fifty digits, by its power series."""
+    """Return the sine of an angle [turn] from -1 to 1 to fifty digits, by its power series."""
     with localcontext(prec=_DIGITS):
         x = 2 * _PI * decimal(turns)
         term = total = x
@@ -273,7 +272,7 @@ def sine(turns: Fraction) -> Decimal:
 
 
 def cosine(turns: Fraction) -> Decimal:
-    """Return the cosine of an angle from -1 to 3/4 turns to fifty digits, computed as a sine."""
+    """Return the cosine of an angle [turn] from -1 to 3/4 to fifty digits, computed as a sine."""
     return sine(turns + Fraction(1, 4))
 
 

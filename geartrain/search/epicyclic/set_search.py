@@ -181,8 +181,8 @@ def _length(columns: Columns) -> int:
 
 @dataclass
 class _Search:
-    """State of the enumeration: the sets found, and the numbers of rejected sets. A rejected set is counted under the
-    first reason that applies.
+    """State of an enumeration of epicyclic sets: the best sets found so far, and the number of rejected sets for each
+    reason. A rejected set is counted under the first reason that applies.
     """
 
     kind: EpicyclicKind
@@ -246,8 +246,8 @@ class _Search:
             self.removed[reason] = self.removed.get(reason, 0) + number
 
     def assembled(self, columns: Columns, clearance: Fraction, modes: int) -> Columns:
-        """Return the sets whose planets can be assembled with equal spacing and at least the given clearance
-        [modules].
+        """Return the sets whose planets can be assembled with equal spacing and at least the given clearance [modules].
+        Each rejected set is counted once for each of the `modes` operating modes.
         """
         even = places(self.kind, columns) % self.planets == 0
         self.charge(NO_SPACING, int((~even).sum()) * modes)
@@ -258,7 +258,7 @@ class _Search:
 
     def judge(self, columns: Columns, at: int, mode: EpicyclicMode) -> None:
         """Compare the ratios of all sets of a block in one operating mode with the requested ratio, and keep the best
-        sets.
+        sets. `at` is the index of the mode.
         """
         top, beneath = ratio_terms(self.kind, mode, columns)
         runs = (top != 0) & (beneath != 0)
@@ -335,8 +335,8 @@ class _Search:
         )
 
     def _miss(self) -> tuple[str, str]:
-        """Return a description of the nearest miss and a description of suggested changes. Each of them is empty if
-        there is none.
+        """Return a description of the rejected set whose ratio is nearest to the requested ratio, and suggestions of
+        changes to the search, as two texts. A text is empty if there is nothing to report.
         """
         if self.count:
             return "", ""
@@ -456,8 +456,8 @@ def _add_coaxial_counts(
 
 
 def _is_stepped(kind: EpicyclicKind, columns: Columns) -> NDArray[np.bool_]:
-    """Return, for each set, False if it has a stepped planet that is equivalent to a planet with one wheel, and True if
-    it has not.
+    """Return, for each set, True if every stepped planet differs from a planet with a single wheel. Sets without
+    stepped planets give True.
     """
     # equal steps differ from one wheel only if they mesh with two suns, or two rings, of different tooth counts
     stepped = np.ones(len(columns[kind.free[0]]), dtype=bool)
@@ -473,8 +473,8 @@ def _is_stepped(kind: EpicyclicKind, columns: Columns) -> NDArray[np.bool_]:
 def _with_idle(
     kind: EpicyclicKind, bounds: SetBounds, columns: Columns, planets: int, clearance: Fraction | None
 ) -> dict[str, Ints]:
-    """Return the sets with the minimum tooth counts of the idle wheels that fit. Sets for which no tooth count fits are
-    removed.
+    """Return the sets in which every idle wheel has the minimum tooth count with which the planets fit. Sets for which
+    no such tooth count exists are removed.
     """
     # an idle wheel changes no ratio: the smallest count that fits represents all
     common = set[int].intersection(*(set(bounds[wheel]) for wheel in kind.idle))
@@ -629,8 +629,8 @@ def _distance(kind: EpicyclicKind, columns: Columns, link: tuple[str, ...]) -> I
 
 
 def _side_cosine(columns: Columns, own: str, other: str) -> Floats:
-    """Return the cosine of the pitch-cone angle of the side wheel `own`, if it and the side wheel `other` mesh with the
-    same bevel planet.
+    """Return, for each bevel set, the cosine of the pitch-cone angle of the side wheel `own`. The opposite side wheel
+    is `other`.
     """
     # the cone angles g of planet p and side wheels a, b have equal sin g / z and satisfy g_a + g_b + 2 g_p = pi, so
     # they are the angles of a triangle with the sides a, b and 2 p cos g_p, and cos^2 g_p = (a + b)^2 / 4(p^2 + ab)
@@ -644,8 +644,8 @@ def _planet_cosine(columns: Columns) -> Floats:
 
 
 def _bevel_clearance(columns: Columns, planets: int) -> Floats:
-    """Return the clearance of neighbouring bevel planets [modules]: the angle between their axes minus their pitch-cone
-    angles, multiplied by the cone radius, minus their addenda.
+    """Return, for each set, the clearance of neighbouring bevel planets [modules]: the angle between their axes minus
+    their pitch-cone angles, multiplied by the cone radius, minus their addenda.
     """
     cone = np.arccos(_planet_cosine(columns))
     # a cone angle of 0 gives an infinite radius, which is replaced below

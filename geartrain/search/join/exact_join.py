@@ -26,7 +26,7 @@ AssignmentColumns = dict[str, Ints]
 
 
 class BudgetSpentError(Exception):
-    """Exception raised if a join exceeds its maximum number of steps."""
+    """Exception raised if an exact join examines more partial assignments than its budget permits."""
 
 
 RefusalCounts = dict[int, Tallies]
@@ -36,9 +36,10 @@ them.
 
 
 class ExactJoin:
-    """Exact join of a problem by bucket elimination (Dechter 1999).
+    """Enumeration of the assignments of tooth counts that satisfy all constraints of a join problem, by bucket
+    elimination (Dechter 1999).
 
-    budget   maximum number of steps; `BudgetSpentError` is raised if it is exceeded
+    budget   maximum number of partial assignments to examine; `BudgetSpentError` is raised if it is exceeded
     """
 
     def __init__(self, question: JoinProblem, budget: float = np.inf) -> None:
@@ -55,7 +56,9 @@ class ExactJoin:
         self.cut({}, budget)
 
     def cut(self, slices: Slices, budget: float) -> None:
-        """Set the ranges of values and the maximum number of steps of the join, and reset the step counter to 0."""
+        """Restrict variables to the index ranges in `slices`, set the maximum number of partial assignments to examine,
+        and reset the counter of examined partial assignments to 0.
+        """
         self.slices, self.budget, self.steps = slices, budget, 0
         self._full: dict[int, int] = {}
 
@@ -64,7 +67,9 @@ class ExactJoin:
         return PartialAssignments(self.items, {}, 1)
 
     def full(self, node: PlanNode) -> int:
-        """Return the number of assignments of the variables of a node and its subtree without regard to constraints."""
+        """Return the number of assignments of tooth counts to the variables of a node and of all its descendants,
+        regardless of the constraints.
+        """
         if id(node) not in self._full:
             total = self._total(node.item)
             for child in node.children:
@@ -73,8 +78,8 @@ class ExactJoin:
         return self._full[id(node)]
 
     def count(self, node: PlanNode, rows: PartialAssignments) -> tuple[Tallies, RefusalCounts]:
-        """Return the number of accepted assignments that extend each row, and the number of assignments of each row
-        that each constraint rejects.
+        """Return, for each partial assignment in `rows`, the number of its extensions to the variables of a node and of
+        all its descendants that satisfy all constraints, and the number of extensions that each constraint rejects.
         """
         total = np.zeros(rows.size, dtype=self.dtype)
         removed: RefusalCounts = defaultdict(lambda: np.zeros(rows.size, dtype=self.dtype))
@@ -96,8 +101,8 @@ class ExactJoin:
         return total, removed
 
     def stream(self, nodes: Sequence[PlanNode], rows: PartialAssignments) -> Iterator[PartialAssignments]:
-        """Yield, block by block, all assignments that extend the rows by the variables of the given nodes and their
-        subtrees.
+        """Yield, block by block, all extensions of the partial assignments `rows` to the variables of the given nodes
+        and of all their descendants that satisfy the constraints.
         """
         if not nodes:
             yield rows
@@ -113,8 +118,8 @@ class ExactJoin:
             yield from self.stream((*node.children, *nodes[1:]), grown)
 
     def wheels(self, rows: PartialAssignments) -> Iterator[AssignmentColumns]:
-        """Yield, block by block, every assignment of tooth counts that is represented by the given rows of values of
-        variables.
+        """Yield, block by block, all assignments of tooth counts whose products are the values in `rows`, as an array
+        of tooth counts for each wheel.
         """
         sizes = np.ones(rows.size, dtype=self.dtype)
         for item, column in rows.columns.items():
@@ -137,8 +142,8 @@ class ExactJoin:
             yield {wheel: columns[wheel] for wheel in self.question.wheels}
 
     def spend(self, steps: int) -> None:
-        """Add a number of steps to the step counter of the join. `BudgetSpentError` is raised if the total exceeds the
-        budget.
+        """Add a number of examined partial assignments to the counter of the join. `BudgetSpentError` is raised if the
+        counter exceeds the budget.
         """
         self.steps += steps
         if self.steps > self.budget:
@@ -150,10 +155,9 @@ class ExactJoin:
     def pruned(
         self, node: PlanNode, rows: PartialAssignments, removed: RefusalCounts | None
     ) -> tuple[Ints, PartialAssignments]:
-        """Return the rows that can still satisfy all constraints, preceded by their indices in `rows`.
-
-        A row is removed, and counted in `removed`, if a constraint rejects the row for all values of the free
-        variables.
+        """Return the partial assignments that can still satisfy all constraints, preceded by their indices in `rows`.
+        The other partial assignments are counted in `removed` under the constraint that rejects them for all values of
+        the unassigned variables.
         """
         at = np.arange(rows.size)
         for number in node.prunes:
@@ -171,8 +175,9 @@ class ExactJoin:
     def grown(
         self, node: PlanNode, rows: PartialAssignments, at: Ints, removed: RefusalCounts | None
     ) -> Iterator[tuple[Ints, PartialAssignments]]:
-        """Yield, block by block, the extended rows and the indices of their original rows. Each row is extended by
-        every value of the variable of the node that satisfies the constraints of the node.
+        """Yield, block by block, the extensions of the partial assignments `rows` by all values of the variable of a
+        node that satisfy the constraints of this node. Each block is preceded by the entry of `at` for the original row
+        of each extension.
         """
         times, total = self.items[node.item].times, self._total(node.item)
         below = self.full(node) // total  # assignments of the subtree for each value of the variable
@@ -198,8 +203,8 @@ class ExactJoin:
                 yield at[parents], grown
 
     def _candidates(self, node: PlanNode, rows: PartialAssignments) -> Iterator[tuple[Ints, Ints]]:
-        """Yield, block by block, the index of a row and the index of a value for each pair that the guide constraint of
-        a node accepts.
+        """Yield, block by block, the pairs of a partial assignment and a value of the variable of a node that satisfy
+        the guide constraint of this node, as two arrays: indices of rows, and indices of values.
         """
         first, last = self._run(node.item)
         if node.guide < 0:
@@ -221,13 +226,15 @@ class ExactJoin:
         yield found, indices[found]
 
     def _counts(self, rule: CountConstraint, rows: PartialAssignments) -> AssignmentColumns:
-        """Return the tooth counts of those wheels in a constraint to which a tooth count is assigned."""
+        """Return, for each wheel in a constraint whose variable is assigned, its tooth counts in all partial
+        assignments.
+        """
         items = {wheel: self.wheel_of[wheel] for wheel in rule.wheels}
         return {wheel: rows.value(item) for wheel, item in items.items() if item in rows.columns}
 
     def _count_below(self, node: PlanNode, parents: Ints, grown: PartialAssignments, removed: RefusalCounts) -> Tallies:
-        """Count the assignments that extend each row of `grown`. The assignments that are rejected in the subtree are
-        counted in `removed` for the corresponding rows `parents`.
+        """Return, for each partial assignment in `grown`, the number of its extensions to the descendants of a node
+        that satisfy all constraints. Rejected extensions are counted in `removed` at the indices `parents`.
         """
         counts = self.items[node.item].times[grown.columns[node.item]]
         alive = np.arange(grown.size)

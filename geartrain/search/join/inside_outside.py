@@ -30,8 +30,8 @@ CountWeights = Mapping[str, Tallies]
 
 
 def _ways(last: ProductStep | None, row: int) -> Iterator[dict[str, int]]:
-    """Yield each assignment of tooth counts that produces the product with index `row`, as a dict that maps each wheel
-    to the index of its tooth count.
+    """Yield all assignments of tooth counts whose product has the index `row` among the products of the multiplication
+    step `last`, each as a dict from wheel to the index of its tooth count.
     """
     if last is None:
         yield {}
@@ -43,8 +43,8 @@ def _ways(last: ProductStep | None, row: int) -> Iterator[dict[str, int]]:
 
 @dataclass(frozen=True, eq=False)
 class RecordedNode:
-    """Node of a recorded join plan, with all transitions that lead to complete assignments. A transition assigns a
-    value to the variable of the node.
+    """Node of a recorded join with all its transitions. A transition assigns one value to the variable of the node, and
+    is part of at least one complete assignment.
     """
 
     size: int
@@ -64,17 +64,19 @@ class RecordedNode:
 
 
 def record_join(question: JoinProblem, limit: float, misfits: Misfits) -> tuple[RecordedNode, int]:
-    """Record the tree of a join problem, and return the root and the number of steps. The problem must not have
-    constraints that are evaluated last.
+    """Record all complete assignments of a join problem as a tree, and return its root and the number of examined
+    partial assignments. The problem must not have constraints that are evaluated last (`late`).
 
-    `BudgetSpentError` is raised if the number of steps exceeds `limit`.
+    `BudgetSpentError` is raised if the number of examined partial assignments exceeds `limit`.
     """
     join = ExactJoin(question, budget=limit)
     return _record_node(join, misfits, question.plan, join.start()), join.steps
 
 
 def _record_node(join: ExactJoin, misfits: Misfits, node: PlanNode, rows: PartialAssignments) -> RecordedNode:
-    """Return the recorded node of a plan node with its subtree, for the given rows."""
+    """Return the recorded node of a plan node and all its descendants, with the transitions that start from the partial
+    assignments `rows`.
+    """
     at, alive = join.pruned(node, rows, None)
     blocks = list(join.grown(node, alive, at, None))
     # rows without any block still need columns
@@ -103,7 +105,9 @@ def _record_node(join: ExactJoin, misfits: Misfits, node: PlanNode, rows: Partia
 
 
 def _added_misfit(join: ExactJoin, misfits: Misfits, node: PlanNode, rows: PartialAssignments) -> Floats:
-    """Return the misfit of each row from the graded constraints whose last variable is assigned at a node."""
+    """Return the misfit that a plan node adds to each partial assignment in `rows`. It is the sum over the graded
+    constraints whose last variable is assigned at this node.
+    """
     found = np.zeros(rows.size)
     for number in (node.guide, *node.checks):
         demand = number - len(join.question.rules)
@@ -132,7 +136,7 @@ class AssignmentSums:
         return self._sums(weights).total.sum()
 
     def marginals(self, weights: CountWeights) -> dict[str, Tallies]:
-        """Return the total weight of the assignments with each tooth count of each wheel, keyed by wheel."""
+        """Return, for each wheel, the total weight of the assignments with each of its tooth counts."""
         return {str(wheel): sums for wheel, sums in self._sums(weights).marginals.items()}
 
     def _sums(self, weights: CountWeights) -> WeightedAlternatives[_Table]:
@@ -194,8 +198,8 @@ class BestFirst:
         self._add(root)
 
     def _add(self, node: RecordedNode) -> int:
-        """Assign a number to a node and to each node of its subtree, compute the minimum remaining misfit of each row,
-        and return the number of the node.
+        """Number a node and all its descendants, compute the minimum misfit that each of their rows adds, and return
+        the number of the node.
         """
         at = len(self._nodes)
         self._nodes.append(node)
@@ -210,9 +214,8 @@ class BestFirst:
         return at
 
     def __iter__(self) -> Iterator[GradedAssignment]:
-        """Yield the assignments in ascending order of misfit. A heap entry contains pairs (node, row) for open rows and
-        pairs (node, index of the value) for assigned values.
-        """
+        """Yield the assignments in ascending order of misfit."""
+        # entry: bound, negative depth, misfit so far, open pairs (node, row), assigned pairs (node, value)
         heap: list[tuple[float, int, float, tuple[tuple[int, int], ...], tuple[tuple[int, int], ...]]] = []
         if np.isfinite(self._ahead[0][0]):
             heappush(heap, (float(self._ahead[0][0]), 0, 0.0, ((0, 0),), ()))
@@ -234,7 +237,9 @@ class BestFirst:
                 heappush(heap, (max(ahead, bound), depth - 1, so_far, then, (*taken, (number, int(node.places[at])))))
 
     def _teeth(self, taken: Sequence[tuple[int, int]]) -> Iterator[dict[str, int]]:
-        """Yield all assignments of tooth counts that produce the given values of the variables."""
+        """Yield all assignments of tooth counts that produce the given products. `taken` contains pairs of the number
+        of a node and the index of a product of its variable.
+        """
         if not taken:
             yield {}
             return

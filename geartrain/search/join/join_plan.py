@@ -75,7 +75,9 @@ class PlanNode:
 
 @dataclass(frozen=True)
 class JoinProblem:
-    """Complete description of a join. It can be pickled and sent to worker processes."""
+    """Complete description of a join: wheels with their admissible tooth counts, constraints, variables, and plan. It
+    can be pickled and sent to worker processes.
+    """
 
     domains: Domains
     """Admissible tooth counts of each wheel, in ascending order."""
@@ -174,7 +176,9 @@ def _planned(
 
 @dataclass
 class _Planner:
-    """Generator of a join plan and its expected cost, which is the expected number of partial assignments."""
+    """Search for the plan of a join and its expected cost, which is the expected number of examined partial
+    assignments.
+    """
 
     domains: Domains
     recipes: Sequence[Factors]
@@ -229,9 +233,9 @@ class _Planner:
         return node, cost
 
     def _next(self, open_: Items, active: Sequence[int]) -> int:
-        """Return the next variable to be assigned. This is a variable that an equation determines, if there is one. If
-        there is none, it is the variable that occurs in most constraints, among the variables of the constraint with
-        the lowest cost.
+        """Return the index of the variable that is assigned next: a variable that an equation determines, if there is
+        one, or the variable that occurs in most constraints, among the unassigned variables of the constraint with the
+        lowest cost.
         """
         for at in active:
             left = self.scopes[at] & open_
@@ -253,9 +257,7 @@ class _Planner:
 
     def _guide(self, item: int, complete: Sequence[int]) -> int:
         """Return the index of the equation that determines variable `item`. If there is none, return the index of the
-        most selective constraint for which the admissible values of the variable form index ranges.
-
-        Return -1 if there is no such equation or constraint.
+        most selective constraint that admits an index range of the values of the variable; -1 if there is none either.
         """
         for at in complete:
             if at < len(self.rules) and isinstance(self.rules[at], CountEquation):
@@ -278,7 +280,9 @@ _EXACT = 1e-7  # width of an exact value in logarithms
 
 @dataclass(frozen=True, slots=True)
 class SelectivitySample:
-    """Random sample of assignments, drawn with a fixed seed, from which the selectivity of constraints is estimated."""
+    """Random sample of assignments of tooth counts, from which the fraction of assignments that satisfy a constraint is
+    estimated. The random seed is fixed.
+    """
 
     domains: Domains
     columns: Mapping[str, Ints]

@@ -35,8 +35,8 @@ ROUNDING = 2 * UNIT_ROUNDOFF  # doubled, so that second-order terms are covered
 
 @dataclass(frozen=True)
 class SignPolynomial:
-    """Polynomial in the variables with integer coefficients, whose sign is computed exactly. All powers are at least
-    1.
+    """Polynomial in the variables of a join with integer coefficients, whose sign is computed exactly. All powers are
+    at least 1.
     """
 
     terms: tuple[tuple[int, Monomial], ...]
@@ -134,7 +134,7 @@ class PolynomialInequality:
     strict: bool = False
 
     def met(self, signs: Signs) -> Bools:
-        """Return whether the inequality is satisfied for each exact sign of the polynomial."""
+        """Return, for each given sign (-1, 0 or 1) of the polynomial, whether the inequality is satisfied."""
         found: Bools = (signs * self.sense > 0) if self.strict else (signs * self.sense >= 0)
         return found
 

@@ -63,7 +63,9 @@ def _forecast(factors: tuple[tuple[int, ...], ...]) -> tuple[int, int]:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ProductStep:
-    """Transitions from the products of some wheels to the products of these wheels and one more wheel."""
+    """Multiplication of all products of some wheels by the tooth counts of one more wheel, as a list of transitions
+    from one product to another.
+    """
 
     wheel: str
     choices: Ints
@@ -78,7 +80,7 @@ class ProductStep:
     """Step of the previous wheel; None if there is no previous wheel."""
 
     def chain(self) -> Iterator[ProductStep]:
-        """Yield this step, followed by the previous steps in reverse order."""
+        """Yield this step, and then the steps of all previous wheels, last wheel first."""
         yield self
         if self.before is not None:
             yield from self.before.chain()
@@ -166,8 +168,8 @@ def _distinct(values: Ints, times: Tallies) -> tuple[Ints, Tallies]:
 
 
 def _divided(rest: Ints, factors: Ints, shorter: Ints) -> tuple[Ints, Ints, Ints]:
-    """Return all exact divisions of products by factors as three arrays: index in `rest`, index of the factor, and
-    quotient.
+    """Return all divisions of a product in `rest` by a factor in `factors` whose quotient is an element of `shorter`,
+    as three arrays: index of the product, index of the factor, and quotient.
     """
     found = []
     step = max(1, _LONGEST // len(factors))
@@ -186,7 +188,7 @@ _ITEMS: OrderedDict[Hashable, Item] = OrderedDict()
 
 
 def find_item(recipe: Factors, domains: Domains, weights: Weights, dtype: Any) -> Item:
-    """Return the variable with the definition `recipe`, from the cache if it is available."""
+    """Return the variable whose values are the products of the wheels in `recipe`, from the cache if it is available."""
     key = recipe, tuple((domains[wheel], weights.get(wheel)) for wheel, _ in recipe), dtype is object
     if key not in _ITEMS:
         _ITEMS[key] = Item(recipe, domains, weights, dtype)
@@ -201,7 +203,7 @@ def find_item(recipe: Factors, domains: Domains, weights: Weights, dtype: Any) -
 
 
 class PartialAssignments:
-    """Partial assignments. Each row contains the index of the value of every assigned variable.
+    """Table of partial assignments. Each row contains, for every assigned variable, the index of its value.
 
     columns   index of the value for each row, shape (size,), keyed by assigned variable
     """
@@ -229,8 +231,8 @@ class PartialAssignments:
         return PartialAssignments(self.items, columns, size)
 
     def plus(self, parents: Ints, item: int, indices: Ints) -> PartialAssignments:
-        """Return rows extended by variable `item`. `parents` contains the indices of the original rows, and `indices`
-        the indices of the values of the variable.
+        """Return partial assignments extended by a value of variable `item`. `parents` contains the index of the
+        original row of each extension, and `indices` the index of its value.
         """
         columns = {known: column[parents] for known, column in self.columns.items()}
         return PartialAssignments(self.items, {**columns, item: indices}, len(parents))
@@ -253,8 +255,8 @@ class PartialAssignments:
         return PartialAssignments(self.items, {item: self.columns[item][first] for item in items}, len(first)), inverse
 
     def blocks(self, sizes: Tallies) -> Iterator[tuple[int, int]]:
-        """Yield half-open ranges of rows such that the sum of `sizes` in each range is at most about `BLOCK`. A row
-        with a larger size forms a range by itself.
+        """Yield half-open ranges of consecutive rows, in each of which the sum of `sizes` is at most about `BLOCK`. A
+        row with a larger size forms a range by itself.
         """
         ends = np.cumsum(sizes)
         at = 0

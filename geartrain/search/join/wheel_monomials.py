@@ -93,7 +93,7 @@ def find_wheel_monomials(
 
 
 def find_recipes(monomials: Sequence[WheelMonomial], domains: Domains) -> tuple[Factors, ...]:
-    """Return the definitions of the variables for the monomials. The numerator and the denominator of a monomial are
+    """Return the definitions of the variables of a join. The numerator and the denominator of each monomial are
     separate variables.
     """
     # a list of quotients would be longer, and `PartialAssignments.distinct` merges rows with equal quotients anyway
@@ -108,8 +108,8 @@ def find_recipes(monomials: Sequence[WheelMonomial], domains: Domains) -> tuple[
 
 
 def _listable_groups(wheels: Factors, domains: Domains) -> Iterator[Factors]:
-    """Yield groups of wheels whose products can be listed. A group whose products cannot be listed is divided into two
-    halves.
+    """Yield groups of wheels whose products are few enough to be listed in memory. A group with too many products is
+    divided into two halves.
     """
     if not wheels:
         return
@@ -162,7 +162,9 @@ def is_within(value: Fraction, intervals: Iterable[Interval]) -> bool:
 
 
 def _monomials(wheels: Sequence[str], terms: Sequence[WholeTerm], recipes: Sequence[Factors]) -> list[Monomial]:
-    """Return each term as a monomial in the variables. A factor common to all terms is divided out."""
+    """Return each term of a function as a monomial in the variables of a join. A factor common to all terms is divided
+    out.
+    """
     rows: list[list[tuple[int, int]]] = [[] for _ in terms]
     for item, recipe in enumerate(recipes):
         wheel, power = recipe[0]

@@ -63,8 +63,8 @@ class SpeedRequirement:
     def within(self, share: Fraction | None) -> tuple[Interval, ...] | None:
         """Return the intervals of admissible speeds; None if all speeds are admissible.
 
-        If `share` is not None, a requirement that grades speeds admits only speeds whose relative deviation from the
-        required speed is at most `share`.
+        If `share` is not None and `graded` is True, only speeds with a relative error of at most `share` are
+        admissible.
         """
         if share is None or not self.graded:
             return self.allowed

@@ -43,11 +43,11 @@ Task = dict[str, Any]
 
 
 def cut(question: JoinProblem, limit: float) -> tuple[list[Task], float]:
-    """Return the tasks of a pass, and the fraction of the pass that they cover. The fraction is below 1 if the limit of
-    steps is exceeded.
+    """Return the tasks into which the join of a pass is divided, and the fraction of the join that they cover. The
+    fraction is below 1 if the join needs more than `limit` steps.
 
-    A task covers an interval of the values of the first variable and, if this variable has few values, of its child in
-    the plan. If the limit is exceeded, the tasks are a random sample with a fixed seed.
+    A task covers an interval of the values of the first variable and, if this variable has few values, of the next
+    variable in the plan. If the limit is exceeded, the tasks are a random sample with a fixed seed.
     """
     if question.steps <= _SMALL <= limit:
         return [{"parts": [[question.plan.item, 0, 1]], "budget": limit, "pieces": 1}], 1.0
@@ -67,9 +67,7 @@ def cut(question: JoinProblem, limit: float) -> tuple[list[Task], float]:
 
 def _chain(question: JoinProblem, wanted: float) -> list[tuple[int, int]]:
     """Return variables from the root of the plan downwards, each with the number of intervals into which its values are
-    divided.
-
-    The product of these numbers is about `wanted`.
+    divided. The product of these numbers is about `wanted`.
     """
     node: PlanNode | None = question.plan
     found: list[tuple[int, int]] = []

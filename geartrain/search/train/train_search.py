@@ -40,8 +40,8 @@ _WIDEST = Fraction(10**6)
 
 
 def solve(search: PartSearch) -> tuple[PassResult, tuple[Assignment, ...], bool]:
-    """Return the pass that counts the solutions of a part, the best assignments, and whether these are proved to be the
-    best.
+    """Return the result of the pass that counts the solutions of a part of a train, the best assignments, and whether
+    these are proved to be the best.
     """
     if any(requirement.approached for requirement in search.part.requirements):
         passed = widened(search)
@@ -57,8 +57,8 @@ def solve(search: PartSearch) -> tuple[PassResult, tuple[Assignment, ...], bool]
 
 
 def widened(search: PartSearch) -> PassResult:
-    """Return a pass that lists all assignments within its tolerance. The tolerance includes at least the requested
-    number of assignments or, if there are fewer, all assignments.
+    """Return the result of a pass that lists all assignments within its tolerance. The tolerance includes at least the
+    requested number of assignments or, if there are fewer, all assignments.
 
     If no tolerance is suitable, because too many assignments have the same error, the pass lists the assignments that
     it can enumerate within its limit of steps.

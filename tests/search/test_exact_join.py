@@ -144,9 +144,8 @@ def test_sums_over_a_recorded_join_are_those_of_loops(largest: int, block: int) 
     @given(case=weighed(largest), guess=st.sampled_from([1.0, 1e-6]))
     def holds(case: tuple[Asked, Any], guess: float) -> None:
         (domains, requested, rules), some = case
-        problem = find_join_problem(
-            domains, requested, rules, dict.fromkeys([one.name for one in (*requested, *rules)], guess)
-        )
+        guesses = dict.fromkeys([one.name for one in (*requested, *rules)], guess)
+        problem = find_join_problem(domains, requested, rules, probabilities=guesses)
         assume(not problem.late)
         truth = solutions(domains, requested, rules)
         with pytest.MonkeyPatch.context() as patch:
@@ -187,7 +186,7 @@ def _check_covariances(sums: AssignmentSums, domains: Domains, truth: list[Row])
 def test_grades_multiply_weights_and_order_what_fits(case: Asked, wanted: list[Fraction]) -> None:
     domains, requested, rules = case
     graded = [IntervalConstraint(one.name, one.function, one.intervals, one.strict, graded=True) for one in requested]
-    problem = find_join_problem(domains, graded, rules, {})
+    problem = find_join_problem(domains, graded, rules, probabilities={})
     assume(not problem.late)
     truth = solutions(domains, requested, rules)
     ends = [float(one) for one in wanted]
@@ -255,7 +254,7 @@ def test_joins_are_exact_however_large_the_numbers_and_near_the_ends(
     question: tuple[Domains, list[IntervalConstraint]], guess: float
 ) -> None:
     domains, requested = question
-    problem = find_join_problem(domains, requested, [], {one.name: guess for one in requested})
+    problem = find_join_problem(domains, requested, [], probabilities={one.name: guess for one in requested})
     root, _ = record_join(problem, np.inf, {})
     found = sorted(tuple(one.teeth[wheel] for wheel in domains) for one in BestFirst(root, domains))
     assert found == solutions(domains, requested, [])

@@ -54,16 +54,10 @@ class CountEquation:
         """Ids of the varied wheels in the equation."""
         return tuple(self.coefficients)
 
-    def left(self, columns: CandidateColumns) -> Ints:
-        """Return the left-hand side of the equation for each candidate, shape (candidates,); 0 if the equation is
-        satisfied. Sums above 2^63 overflow.
-        """
-        terms = [factor * columns[wheel] for wheel, factor in self.coefficients.items()]
-        return np.asarray(reduce(np.add, terms) + self.constant, dtype=np.int64)
-
     def holds(self, columns: CandidateColumns) -> Bools:
-        """Return whether each candidate satisfies the equation, shape (candidates,)."""
-        return np.asarray(self.left(columns) == 0)
+        """Return whether each candidate satisfies the equation, shape (candidates,). Sums above 2^63 overflow."""
+        total = sum(factor * columns[wheel] for wheel, factor in self.coefficients.items())
+        return np.asarray(total == -self.constant)
 
     def solve_for(self, wheel: str, columns: CandidateColumns) -> tuple[Ints, Bools]:
         """Return the tooth count of one wheel, computed from the tooth counts of the other wheels, and whether the
@@ -184,7 +178,7 @@ def whole(*sums: LinearSum) -> tuple[WholeSum, ...]:
 
 
 def plainest(one: LinearSum) -> WholeSum:
-    """Return the multiple of a sum whose weights and constant are coprime integers and whose first weight is positive."""
+    """Return the multiple of a sum whose weights and constant are coprime integers, with a positive first weight."""
     (found,) = whole(one)
     # the greatest common divisor of a zero sum is 0
     common = gcd(*(weight for _, weight in found.terms), found.constant) or 1
@@ -194,7 +188,7 @@ def plainest(one: LinearSum) -> WholeSum:
 
 
 def equality(one: WholeSum) -> str:
-    """Format the equation "sum = 0" so that it contains no minus signs, such as `s + 2 p = r`."""
+    """Return the equation "sum = 0" as text without minus signs, such as `s + 2 p = r`."""
     pieces = [(one.constant, str(abs(one.constant)))] if one.constant else []
     pieces += [(weight, f"{abs(weight)} {wheel}" if abs(weight) != 1 else wheel) for wheel, weight in one.terms]
     left, right = ([text for weight, text in pieces if weight * side > 0] for side in (1, -1))

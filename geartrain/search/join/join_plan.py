@@ -16,7 +16,7 @@ from math import inf, isinf, log, prod
 
 import numpy as np
 
-from geartrain.numerics.arrays import Floats, Ints
+from geartrain.numerics.arrays import Floats
 from geartrain.numerics.bounded_polynomials import bounded_quotient, products_of
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.graphs import joined_groups
@@ -24,7 +24,6 @@ from geartrain.search.constraints.count_conditions import Condition, CountConstr
 from geartrain.search.join.polynomial_constraints import PolynomialConstraint
 from geartrain.search.join.product_lists import Domains, Factors, Weights, forecast
 from geartrain.search.join.wheel_monomials import (
-    Function,
     Interval,
     IntervalConstraint,
     find_polynomial_constraints,
@@ -59,8 +58,6 @@ class PlanNode:
     """
     children: tuple[PlanNode, ...]
     """Child nodes. No two of them have a common constraint."""
-    reach: tuple[int, ...]
-    """Indices of all constraints of this node and of its subtree."""
 
     def decided(self) -> Iterator[int]:
         """Yield the indices of the constraints whose last variable is assigned at this node, and then of those whose
@@ -131,16 +128,16 @@ def find_join_problem(
     domains: Domains,
     requested: Sequence[IntervalConstraint],
     rules: Sequence[CountConstraint],
-    probabilities: Mapping[str, float],
     weights: Weights | None = None,
+    probabilities: Mapping[str, float] | None = None,
 ) -> JoinProblem:
     """Return the join problem whose plan has the minimum expected cost.
 
     The plans that are compared differ in the constraints that are evaluated last.
 
-    probabilities   approximate fraction of the assignments that satisfy a constraint, keyed by the name of the
-                    constraint
     weights         integer weights of tooth counts, as in `JoinProblem`
+    probabilities   fraction of the assignments that satisfy a constraint, keyed by the name of the constraint; by
+                    default it is estimated
     """
     equations = tuple(rule for rule in rules if isinstance(rule, CountEquation))
     conditions = tuple(rule for rule in rules if isinstance(rule, Condition))
@@ -150,6 +147,8 @@ def find_join_problem(
         choices.append((equations, conditions))
     if equations:
         choices.append(((), tuple(rules)))
+    if probabilities is None:
+        probabilities = estimate_probabilities(domains, requested, rules)
     found = [_planned(domains, requested, early, late, probabilities) for early, late in choices]
     return replace(min(found, key=lambda question: question.steps), weights=weights or {})
 
@@ -201,7 +200,7 @@ class _Planner:
         node, cost = self._grow(frozenset(range(len(self.recipes))), frozenset(), 1.0)
         # constraints without variables are evaluated at the root
         constant = tuple(at for at, scope in enumerate(self.scopes) if not scope)
-        return replace(node, checks=constant + node.checks, reach=constant + node.reach), cost
+        return replace(node, checks=constant + node.checks), cost
 
     def _grow(self, open_: Items, known: Items, rows: float) -> tuple[PlanNode, float]:
         active = [at for at, scope in enumerate(self.scopes) if scope & open_]
@@ -219,18 +218,15 @@ class _Planner:
         kept = examined * prod((self.likely[at] for at in checks), start=1.0)
         rest = open_ - {item}
         children, cost = [], rows + (examined if rest or checks or guide < 0 else 0)
-        for part in joined_groups(sorted(rest), (self.scopes[at] for at in active)):
+        parts = map(frozenset, joined_groups(sorted(rest), (self.scopes[at] for at in active)))
+        # subtrees with few constraints first, because they are cheap and may reject rows early
+        for part in sorted(parts, key=lambda part: sum(bool(self.scopes[at] & part) for at in active)):
             # a lower limit of the expected rows, because rough estimates would make later nodes appear free
-            child, more = self._grow(frozenset(part), known | {item}, max(kept, 1e-3))
+            child, more = self._grow(part, known | {item}, max(kept, 1e-3))
             children.append(child)
             cost += more
-        # subtrees with few constraints first, because they are cheap and may reject rows early
-        children.sort(key=lambda child: len(child.reach))
         prunes = [at for at in active if len(self.scopes[at] & open_) > 1 and at >= len(self.rules)]
-        node = PlanNode(
-            item, tuple(interface), guide, tuple(checks), tuple(prunes), tuple(children), tuple(sorted(active))
-        )
-        return node, cost
+        return PlanNode(item, tuple(interface), guide, tuple(checks), tuple(prunes), tuple(children)), cost
 
     def _next(self, open_: Items, active: Sequence[int]) -> int:
         """Return the index of the variable that is assigned next: a variable that an equation determines, if there is
@@ -278,47 +274,31 @@ _NEIGHBOURS = 40  # number of nearest values for a density; fewer hits give too 
 _EXACT = 1e-7  # width of an exact value in logarithms
 
 
-@dataclass(frozen=True, slots=True)
-class SelectivitySample:
-    """Random sample of assignments of tooth counts, from which the fraction of assignments that satisfy a constraint is
-    estimated. The random seed is fixed.
+def estimate_probabilities(
+    domains: Domains, requested: Sequence[IntervalConstraint], rules: Sequence[CountConstraint]
+) -> dict[str, float]:
+    """Return an estimate of the fraction of assignments that satisfy each constraint, keyed by the name of the
+    constraint. The estimates are based on a random sample of assignments.
     """
-
-    domains: Domains
-    columns: Mapping[str, Ints]
-    """Sampled tooth counts of each wheel, shape (drawn,), where `drawn` is the sample size."""
-
-    @classmethod
-    def of(cls, domains: Domains) -> SelectivitySample:
-        """Draw a sample of assignments uniformly from the admissible tooth counts."""
-        # fixed seed, so that a plan and its tasks are reproducible
-        draw = np.random.default_rng(0)
-        return cls(domains, {wheel: draw.choice(np.array(counts), _DRAWN) for wheel, counts in domains.items()})
-
-    def of_rule(self, rule: CountConstraint) -> float:
-        """Return an estimate of the fraction of assignments that satisfy a constraint on tooth counts."""
+    # fixed seed, so that a plan and its tasks are reproducible
+    draw = np.random.default_rng(0)
+    columns = {wheel: draw.choice(np.array(counts), _DRAWN) for wheel, counts in domains.items()}
+    found = {}
+    for rule in rules:
         if isinstance(rule, CountEquation):
             # an equation fixes one count; a sample would contain too few solutions
-            return 1 / max(len(self.domains[wheel]) for wheel in rule.wheels)
-        return max(float(rule.holds(self.columns).mean()), 1 / _DRAWN)
-
-    def of_demand(self, requested: IntervalConstraint) -> float:
-        """Return an estimate of the fraction of assignments that satisfy an interval constraint.
-
-        If few sampled assignments satisfy the constraint, the estimate is based on the density of nearby values.
-        """
-        speeds = self.speeds(requested.function)
-        minimum = 1 / prod(len(self.domains[wheel]) for wheel in requested.function.wheels)
-        return min(1.0, max(minimum, sum(_interval_share(speeds, interval) for interval in requested.intervals)))
-
-    def speeds(self, function: Function) -> Floats:
-        """Return the values of a function of tooth counts for the sampled assignments. Values that are not finite are
-        omitted.
-        """
-        product = products_of([self.columns[wheel].astype(np.float64) for wheel in function.wheels])
+            found[rule.name] = 1 / max(len(domains[wheel]) for wheel in rule.wheels)
+        else:
+            found[rule.name] = max(float(rule.holds(columns).mean()), 1 / _DRAWN)
+    for one in requested:
+        function = one.function
+        product = products_of([columns[wheel].astype(np.float64) for wheel in function.wheels])
         values, _ = bounded_quotient(function.numerator, function.denominator, [1] * len(function.wheels), product)
         values = np.broadcast_to(values, _DRAWN)
-        return np.asarray(values[np.isfinite(values)])
+        speeds = np.asarray(values[np.isfinite(values)])
+        minimum = 1 / prod(len(domains[wheel]) for wheel in function.wheels)
+        found[one.name] = min(1.0, max(minimum, sum(_interval_share(speeds, each) for each in one.intervals)))
+    return found
 
 
 def _as_float64(value: Fraction) -> float:

@@ -61,7 +61,9 @@ class SignPolynomial:
 
     @cached_property
     def rounding(self) -> float:
-        """Upper bound of the rounding error of `values`, divided by the sum of the magnitudes of the terms."""
+        """Upper bound of the rounding error of the value that `values` returns, divided by the sum of the magnitudes of
+        the terms.
+        """
         degree = max((sum(power for _, power in monomial) for _, monomial in self.terms), default=0)
         # each variable and each product has one rounding; the remaining terms cover squares and the bound itself
         return (4 * degree + len(self.terms) + 8) * ROUNDING
@@ -83,8 +85,8 @@ class SignPolynomial:
         return SignPolynomial.of((*mine, *theirs))
 
     def values(self, rows: PartialAssignments, scale: int | None = None) -> tuple[Floats, Floats]:
-        """Return, for each row, the value of the polynomial divided by `scale`, and the sum of the magnitudes of its
-        terms divided by `scale`.
+        """Return, for each row, the value of the polynomial and the sum of the magnitudes of its terms, both divided by
+        `scale`. If `scale` is None, the attribute `scale` is used.
         """
         # scaled, so that large coefficients do not overflow float64
         over = scale or self.scale

@@ -38,8 +38,8 @@ _REMEMBERED = 20_000_000  # maximum number of values of all cached variables
 
 
 def forecast(wheels: Sequence[tuple[str, int]], domains: Mapping[str, Sequence[int]]) -> tuple[int, int]:
-    """Return the number of distinct products of tooth counts, and the number of products that must be formed to list
-    them. Large numbers are estimates.
+    """Return the number of distinct products of tooth counts, and the number of multiplications that are needed to list
+    them. `wheels` contains pairs (wheel, power). Large numbers are estimates.
     """
     return _forecast(tuple(tuple(count**power for count in domains[wheel]) for wheel, power in wheels))
 
@@ -142,8 +142,8 @@ class Item:
 
 
 def _multiplied(values: Ints, times: Tallies, factors: Ints, weights: Tallies) -> tuple[Ints, Tallies]:
-    """Return the distinct products of two lists and their weights. The products are computed block by block to save
-    memory.
+    """Return the distinct products of an element of `values` and an element of `factors`, and the total weight of each
+    product. The products are computed block by block to save memory.
     """
     step = max(1, _LONGEST // len(values))
     found: list[tuple[Ints, Tallies]] = []
@@ -188,7 +188,7 @@ _ITEMS: OrderedDict[Hashable, Item] = OrderedDict()
 
 
 def find_item(recipe: Factors, domains: Domains, weights: Weights, dtype: Any) -> Item:
-    """Return the variable whose values are the products of the wheels in `recipe`, from the cache if it is available."""
+    """Return the variable whose values are the products of the wheels in `recipe`, from the cache if possible."""
     key = recipe, tuple((domains[wheel], weights.get(wheel)) for wheel, _ in recipe), dtype is object
     if key not in _ITEMS:
         _ITEMS[key] = Item(recipe, domains, weights, dtype)

@@ -25,7 +25,7 @@ from geartrain.numerics.work import Journal, run
 from geartrain.search.constraints.count_conditions import CountConstraint
 from geartrain.search.integer_columns import distinct_quotients
 from geartrain.search.join.exact_join import AssignmentColumns, BudgetSpentError, ExactJoin
-from geartrain.search.join.join_plan import JoinProblem, PlanNode, SelectivitySample, find_join_problem
+from geartrain.search.join.join_plan import JoinProblem, PlanNode, find_join_problem
 from geartrain.search.join.product_lists import Domains, Tallies, forecast
 from geartrain.search.train.output_requirements import OutputRequirement, SearchPart
 from geartrain.search.train.train_findings import Assignment, By
@@ -128,8 +128,8 @@ def do_task(packed: bytes, task: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _slices(join: ExactJoin, parts: Sequence[Sequence[int]], pieces: int) -> Iterator[dict[int, tuple[int, int]]]:
-    """Yield, for each piece of a task, the half-open range of values of each variable. The range of the first variable
-    is divided into pieces.
+    """Yield, for each piece of a task, the half-open index range of the values of each variable in `parts`. The range
+    of the first variable is divided into pieces.
     """
     runs = {item: (len(join.items[item]) * at // of, len(join.items[item]) * (at + 1) // of) for item, at, of in parts}
     item = parts[0][0]
@@ -226,7 +226,9 @@ class _Section:
 
 @dataclass(slots=True)
 class PassResult:
-    """Result of one pass of a search: sums over its tasks, and the best assignments of tooth counts."""
+    """Result of one pass, which searches a part of a train with a fixed tolerance: sums over its tasks, and the best
+    assignments of tooth counts.
+    """
 
     share: Fraction | None = None
     """Common relative tolerance of the outputs in this pass; None if there is no common tolerance."""
@@ -259,7 +261,9 @@ class PassResult:
 
 @dataclass
 class PartSearch:
-    """Search of one part of a train in several passes."""
+    """Search of one part of a train in several passes with different tolerances. A part consists of varied wheels that
+    are connected by outputs or constraints.
+    """
 
     part: SearchPart
     order: AssignmentOrder
@@ -306,10 +310,7 @@ class PartSearch:
             return PassResult(share)
         constraints = (requirement.requested(share, strict) for requirement in self.part.requirements)
         requested = (*self.part.conditions, *(one for one in constraints if one is not None))
-        sample = SelectivitySample.of(self.domains)
-        probabilities = {rule.name: sample.of_rule(rule) for rule in self.rules}
-        probabilities |= {one.name: sample.of_demand(one) for one in requested}
-        question = find_join_problem(self.domains, requested, self.rules, probabilities)
+        question = find_join_problem(self.domains, requested, self.rules)
         tasks, searched = cut(question, self.limit)
         # `most` may be infinite
         packed = pickle.dumps((question, self.order, int(min(most, 1 << 62))))
@@ -412,8 +413,8 @@ class AssignmentOrder:
 
 
 def _whole(wheels: Sequence[str], terms: Sequence[WholeTerm], columns: AssignmentColumns) -> Tallies:
-    """Return the exact sum of some terms for each assignment, as int64 if all sums fit, or as Python integers if they
-    do not.
+    """Return the sum of some terms for each assignment, as int64 if all sums fit, or as Python integers if they do not.
+    A term is a coefficient with the power of each wheel.
     """
     most = {wheel: int(columns[wheel].max()) for wheel in wheels}
     bound = sum(

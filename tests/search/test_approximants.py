@@ -107,8 +107,9 @@ def test_a_list_of_convergents_or_best_ones_is_the_whole_list_without_the_others
         # leap years
         (Fraction("0.2422"), 130, "convergent", "1/4 7/29 8/33 31/128"),
         (Fraction("365.2422"), 46752, "convergent", "365 1461/4 10592/29 12053/33 46751/128"),
-        # the Metonic cycle: 254 sidereal months are 235 synodic months
+        # the Metonic cycle: 254 sidereal months are 235 synodic months, and 19 years
         (read_ratio("29.53059 d / 27.32166 d").value, 300, "convergent", "1 13/12 27/25 40/37 107/99 254/235"),
+        (read_ratio("365.2422 d / 29.53059 d").value, 300, "convergent", "12 25/2 37/3 99/8 136/11 235/19"),
         (Fraction(1, 10**9), 10**12, "convergent", "1/1000000000"),
     ],
 )

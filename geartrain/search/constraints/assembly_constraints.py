@@ -176,7 +176,8 @@ class _ConstraintBuilder:
                 raise QuestionError(
                     Problem(
                         f"'{before.name}' and '{mesh.name}' cannot have equal centre distances",
-                        "they connect the same two axes, and the counts of varied wheels cancel",
+                        "they connect the same two axes, and the varied tooth counts do not affect the difference of "
+                        "their centre distances",
                         "correct a fixed count, allow a `shift`, or do not require `coaxial`",
                     )
                 )

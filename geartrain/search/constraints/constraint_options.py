@@ -113,7 +113,9 @@ def _planets(text: str) -> int | dict[str, int]:
         name, _, number = piece.rpartition("=")
         if not number.strip().isascii() or not number.strip().isdigit() or ("," in text and not name):
             raise PydanticCustomError(
-                "planets", "'{text}' is not a number of planets", {"text": text, "fix": "write 3, or arm=3,inner=4"}
+                "planets",
+                "'{text}' is not a number of planets",
+                {"text": text, "why": "a number of planets is a positive integer", "fix": "write 3, or arm=3,inner=4"},
             )
         names.append(name.strip())
         found.append(int(number))

@@ -15,7 +15,7 @@ from itertools import permutations
 from types import MappingProxyType
 from typing import Any, ClassVar, Literal
 
-from geartrain.errors import Problem, QuestionError
+from geartrain.errors import Problem, QuestionError, suggest
 from geartrain.numerics.exact import abridged_text, as_float, decimal
 from geartrain.numerics.results import Key, Result, Tabular, brief, finite
 from geartrain.search.search_outcome import CountSizes, Shortfall
@@ -25,7 +25,7 @@ CARRIER = "carrier"
 
 @dataclass(frozen=True, slots=True)
 class CentralWheel:
-    """Sun or ring of an epicyclic set, with the planet wheel with which it meshes and its signed factor in the speed
+    """Sun or ring of an epicyclic set, with the planet wheel with which it meshes, and its contribution to the speed
     ratios.
     """
 
@@ -258,8 +258,8 @@ EPICYCLIC_KINDS: Mapping[str, EpicyclicKind] = MappingProxyType({kind.name: kind
 def epicyclic_kind(name: str) -> EpicyclicKind:
     """Return the type of epicyclic set with a given name. `QuestionError` is raised if there is no such type."""
     if name not in EPICYCLIC_KINDS:
-        fix = f"use one of {', '.join(EPICYCLIC_KINDS)}"
-        raise QuestionError(Problem(f"'{name}' is not a kind of epicyclic set", "the kinds are predefined", fix))
+        why = "only the kinds that `geartrain teeth set --kind list` prints can be searched"
+        raise QuestionError(Problem(f"'{name}' is not a kind of epicyclic set", why, suggest(name, EPICYCLIC_KINDS)))
     return EPICYCLIC_KINDS[name]
 
 

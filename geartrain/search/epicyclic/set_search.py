@@ -201,12 +201,10 @@ class _Search:
 
     def check(self, clearance: Fraction | float, slack: int) -> None:
         """Raise `QuestionError` if an argument of the search is invalid."""
-        predefined = "only predefined names are accepted"
-        orders, ratios = (" or ".join(get_args(names)) for names in (SetOrder, RatioIs))
         for valid, what, why, fix in (
             (
                 1 / _FARTHEST < self.wanted < _FARTHEST,
-                "the ratio is out of range",
+                f"the ratio is {decimal(self.wanted, 6)}",
                 "a ratio must be from 1e-18 to 1e18",
                 "give a ratio in this range",
             ),
@@ -224,12 +222,17 @@ class _Search:
                 "slack is the magnitude of a difference of centre distances",
                 "give slack >= 0",
             ),
-            (self.by in get_args(SetOrder), f"'{self.by}' is not a valid order of sets", predefined, f"use {orders}"),
+            (
+                self.by in get_args(SetOrder),
+                f"sets cannot be sorted by '{self.by}'",
+                "a set has a ratio error, a sum of tooth counts (total) and a largest tooth count",
+                "use error, total or largest",
+            ),
             (
                 self.ratio_is in get_args(RatioIs),
-                f"'{self.ratio_is}' is not a valid kind of ratio",
-                predefined,
-                f"use {ratios}",
+                f"'{self.ratio_is}' does not define a ratio",
+                "a ratio is input speed divided by output speed, or its reciprocal",
+                "use input/output or output/input",
             ),
             (
                 isfinite(clearance),
@@ -311,7 +314,7 @@ class _Search:
         return inside
 
     def _set(self, columns: Columns, row: int, mode: EpicyclicMode) -> EpicyclicSet:
-        """Return the result for one set, with its exact ratio and its exact error."""
+        """Return the result for the set in one row of the columns, with its exact ratio and its exact error."""
         one = {wheel: columns[wheel][row : row + 1] for wheel in self.kind.wheels}
         top, beneath = (int(term[0]) for term in ratio_terms(self.kind, mode, one))
         ratio = Fraction(top, beneath)

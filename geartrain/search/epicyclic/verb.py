@@ -79,7 +79,9 @@ def run(
     if ratio is None:
         raise option_error("RATIO", "the ratio is missing", "give a ratio, or list the kinds with --kind list")
     if clearance is not None and planets is None:
-        raise option_error("--clearance", "the number of planets is missing", "give --planets too")
+        raise option_error(
+            "--clearance", "--planets is missing", "add --planets 3", "the clearance depends on the number of planets"
+        )
     room = decimal("--clearance", clearance or "0", "number of modules", "0.5")
     chosen: Any = "all" if mode == "all" else tuple(mode.split(","))
     found = find_sets(

@@ -251,4 +251,4 @@ def check_products(counts: tuple[int, ...], size: int) -> None:
         raise RangeError(Problem(what, "the products of the counts must be below 2^52", fix))
     if rows > _MOST_ROWS:
         what = f"{number} counts are too many for {size} stages"
-        raise RangeError(Problem(what, "the tables would not fit in memory", fix))
+        raise RangeError(Problem(what, "the tables of products of counts would not fit in memory", fix))

@@ -189,7 +189,7 @@ class StageFilter:
 
     def outcome(self) -> dict[str, Any]:
         """Return the number of solutions, the number of rejected pairs of multisets for each reason, and the best
-        solutions as plain data.
+        solutions, as plain data with the keys that are described in `search_segment`.
         """
         rows, stages = self._best_rows().tolist() if self._rows else [], self.question.stages
         best = [[row[0], row[3 : 3 + stages], row[3 + stages :]] for row in rows]

@@ -16,7 +16,7 @@ from fractions import Fraction
 from math import prod
 from typing import Any, ClassVar, Literal, get_args
 
-from geartrain.errors import Problem, QuestionError, RangeError
+from geartrain.errors import Problem, QuestionError, RangeError, suggest
 from geartrain.numerics.exact import decimal, plural
 from geartrain.numerics.results import Key, Result, Tabular
 from geartrain.numerics.work import Execution, Journal
@@ -261,13 +261,15 @@ def _question(
     by: str,
     fit: StageConstraints,
 ) -> tuple[StageProblem, str]:
-    """Return the search problem, and a note on assumptions; the note is empty if there are none."""
+    """Return the search problem, and a note on the tolerance that is used if none is given; the note is empty if it is
+    not needed.
+    """
     for valid, what, why, fix in (
         (
             by in get_args(StageOrder),
             f"solutions cannot be sorted by '{by}'",
-            "solutions are sorted by one of the predefined criteria",
-            f"use one of {', '.join(get_args(StageOrder))}",
+            "no such criterion is computed for a solution",
+            suggest(by, get_args(StageOrder)),
         ),
         (
             1 <= stages <= MOST_STAGES,
@@ -386,8 +388,8 @@ def explain(question: StageProblem, outcome: SweepOutcome, sense: int, means: Ex
 
 
 def _nearest(question: StageProblem, miss: SweepOutcome, plain: SweepOutcome) -> str:
-    """Return a description of the nearest miss. If the best solution without constraints differs from the nearest miss,
-    it is described too.
+    """Return a description of the nearest miss, the first solution in `miss`. If the best solution without constraints,
+    the first in `plain`, differs from it, it is described too.
     """
     parts = []
     if miss.keys and miss.complete:

@@ -175,9 +175,7 @@ class OutputRequirement:
         return None if common == ((None, None),) else IntervalConstraint(self.text, self.function, common, strict)
 
     def reached(self, speed: Fraction) -> ReachedSpeed:
-        """Return a speed with its error. The error is that with respect to the graded requirement with the largest
-        absolute error.
-        """
+        """Return a speed with its error, which refers to the graded requirement with the largest absolute error."""
         graded = [demand for demand in self.demands if demand.graded] or self.demands
         worst = max(graded, key=lambda demand: abs(demand.error(speed)))
         return ReachedSpeed(speed, worst.label, worst.error(speed), self.fits(speed))
@@ -368,7 +366,9 @@ def _counts(train: Train, wheel: str, link: str, teeth: Teeth) -> Iterable[int]:
     if len(counts) > _MOST_COUNTS:
         why = f"{counts[0]} to {counts[-1]} has more than {_MOST_COUNTS} counts"
         place = train.place("links", link, "wheels", wheel)
-        raise RangeError(Problem(f"the range of wheel '{wheel}' is too wide", why, "narrow the range", place))
+        raise RangeError(
+            Problem(f"the range of wheel '{wheel}' is too wide", why, "give a narrower range, such as [15, 80]", place)
+        )
     return counts
 
 

@@ -292,8 +292,7 @@ def search_train(
     """
     if by not in get_args(By):
         what = f"solutions cannot be sorted by '{by}'"
-        why = "solutions are sorted by one of the predefined criteria"
-        raise QuestionError(Problem(what, why, suggest(by, get_args(By))))
+        raise QuestionError(Problem(what, "no such criterion is computed for a solution", suggest(by, get_args(By))))
     domains = find_domains(train, free)
     if rules is None or isinstance(rules, ConstraintOptions):
         rules = find_constraints(train, domains, rules or ConstraintOptions())

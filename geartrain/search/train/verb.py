@@ -88,7 +88,9 @@ def run(
     out_path = answer.out.path
     # the solution extends the declaration in the input file
     if out_path is not None and out_path.exists() and Path(file).exists() and out_path.samefile(file):
-        raise option_error("-o", f"'{out_path}' is the input file", "write to another file")
+        raise option_error(
+            "-o", f"'{out_path}' is the input file", "write to another file", "the solution extends this file"
+        )
     varied = free if free in ("search", "uncertain") else tuple(name.strip() for name in free.split(","))
     rules = read_constraint_options(
         planets=planets,

@@ -1,4 +1,4 @@
-"""Conversion of ranges of integers to arrays, at once or in blocks, and distinct quotients of two integer arrays."""
+"""Ranges of integers as arrays, at once or in blocks, distinct quotients of two arrays, and sums by owner."""
 
 from __future__ import annotations
 
@@ -66,3 +66,12 @@ def distinct_quotients(above: Integers, below: Integers) -> tuple[list[Fraction]
     which = np.empty(len(order), dtype=np.int64)
     which[order] = np.cumsum(fresh) - 1
     return [Fraction(int(n), int(d)) for n, d in zip(above[fresh], below[fresh], strict=True)], which
+
+
+def sums_by(owners: Ints, values: NDArray[Any], size: int) -> NDArray[Any]:
+    """Return the sums of the values that have the same owner, shape (size,). Entry i is the sum of `values` whose entry
+    in `owners` is i. Python integers are added exactly.
+    """
+    found: NDArray[Any] = np.zeros(size, dtype=values.dtype)
+    np.add.at(found, owners, values)
+    return found

@@ -1,7 +1,8 @@
 """Sums over all assignments of a recorded join: total weight, and weight for each tooth count of each wheel.
 
-The sums are inside and outside sums over tables of `search.weighted_alternatives`, which are exact for integer weights.
-All sums are linear in the weights of each wheel. If the weights w(z) of the tooth counts z of one wheel are replaced by
+Inside-outside algorithm (Baker 1979): the inside sum of a row is the total weight of all ways to complete it, and its
+outside sum is the total weight of all contexts in which it occurs. Sums of integer weights are exact. All sums are
+linear in the weights of each wheel. If the weights w(z) of the tooth counts z of one wheel are replaced by
 w(z) (z - mean), the sums for another wheel give the covariance of the two tooth counts.
 """
 
@@ -10,16 +11,17 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from heapq import heappop, heappush
+from math import prod
 from typing import Any
 
 import numpy as np
 
 from geartrain.numerics.arrays import Floats, Ints
+from geartrain.search.integer_columns import sums_by
 from geartrain.search.join.exact_join import ExactJoin
 from geartrain.search.join.join_plan import JoinProblem, PlanNode
 from geartrain.search.join.polynomial_constraints import PolynomialConstraint
 from geartrain.search.join.product_lists import PartialAssignments, ProductStep, Tallies
-from geartrain.search.weighted_alternatives import AlternativeRows, WeightedAlternatives
 
 Misfits = Mapping[int, Callable[[Floats], Floats]]
 """Functions that convert values of a constrained function to misfits, keyed by the index of the constraint in
@@ -119,6 +121,22 @@ def _added_misfit(join: ExactJoin, misfits: Misfits, node: PlanNode, rows: Parti
 
 
 _Table = RecordedNode | ProductStep
+_Sums = dict[_Table, Any]
+"""Array of numbers for each table, with one number for each row or for each transition."""
+
+
+def _parts(table: _Table) -> tuple[tuple[_Table, Ints], ...]:
+    """Return the tables to which the transitions of a table refer, each with the row to which each transition refers:
+    for a recorded node, the value of its variable and a row of each child; for a product step, the previous product.
+    """
+    if isinstance(table, RecordedNode):
+        return (table.values, table.places), *table.children
+    return () if table.before is None else ((table.before, table.parents),)
+
+
+def _owners(table: _Table) -> Ints:
+    """Return the row of a table to which each transition belongs."""
+    return table.parents if isinstance(table, RecordedNode) else table.children
 
 
 class AssignmentSums:
@@ -130,31 +148,52 @@ class AssignmentSums:
 
     def __init__(self, root: RecordedNode, graded: bool) -> None:
         self.root, self.graded = root, graded
+        self._tables: dict[_Table, None] = {}
+        self._add(root)
+
+    def _add(self, table: _Table) -> None:
+        """Add a table to the list of tables, after all tables to which it refers."""
+        for part, _ in reversed(_parts(table)):
+            self._add(part)
+        self._tables[table] = None
 
     def total(self, weights: CountWeights) -> Any:
         """Return the total weight of all assignments of tooth counts."""
-        return self._sums(weights).total.sum()
+        inside, _, _ = self._inside(weights)
+        return inside[self.root].sum()
+
+    def _inside(self, weights: CountWeights) -> tuple[_Sums, _Sums, _Sums]:
+        """Return, for each table, the inside sum of each row, the weight of each transition, and the total weight of
+        all ways to continue with each transition.
+        """
+        inside: _Sums = {}
+        own: _Sums = {}
+        onward: _Sums = {}
+        for table in self._tables:
+            if isinstance(table, RecordedNode):
+                own[table] = np.exp(-table.misfit / 2) if self.graded else 1
+            else:
+                own[table] = weights[table.wheel][table.choices]
+            onward[table] = prod((inside[part][rows] for part, rows in _parts(table)), start=own[table])
+            inside[table] = sums_by(_owners(table), onward[table], table.size)
+        return inside, own, onward
 
     def marginals(self, weights: CountWeights) -> dict[str, Tallies]:
         """Return, for each wheel, the total weight of the assignments with each of its tooth counts."""
-        return {str(wheel): sums for wheel, sums in self._sums(weights).marginals.items()}
-
-    def _sums(self, weights: CountWeights) -> WeightedAlternatives[_Table]:
-        return WeightedAlternatives(self.root, lambda table: self._alternatives(table, weights))
-
-    def _alternatives(self, table: _Table, weights: CountWeights) -> AlternativeRows[_Table]:
-        """Return the weighted alternatives of the rows of a table. A table is a recorded node or a product step.
-
-        An alternative of a node refers to a value of its variable and to a row of each child node. An alternative of a
-        product selects one tooth count and refers to the product of the other factors.
-        """
-        if isinstance(table, RecordedNode):
-            grade = np.exp(-table.misfit / 2) if self.graded else 1
-            return AlternativeRows(grade, table.size, table.parents, ((table.values, table.places), *table.children))
-        own = weights[table.wheel]
-        facts = ((table.wheel, len(own), table.choices),)
-        before = () if table.before is None else ((table.before, table.parents),)
-        return AlternativeRows(own[table.choices], table.size, table.children, before, facts)
+        inside, own, onward = self._inside(weights)
+        outside: _Sums = dict.fromkeys(self._tables, 0)
+        outside[self.root] = inside[self.root] ** 0  # 1 for each row
+        found: dict[str, Tallies] = {}
+        for table in reversed(self._tables):
+            around = outside[table][_owners(table)]
+            if isinstance(table, ProductStep):
+                found[table.wheel] = sums_by(table.choices, around * onward[table], len(weights[table.wheel]))
+            parts = [(part, rows, inside[part][rows]) for part, rows in _parts(table)]
+            for at, (part, rows, _) in enumerate(parts):
+                # not total / inside sum of the part, which may be 0
+                others = (sums for _, _, sums in parts[:at] + parts[at + 1 :])
+                outside[part] = outside[part] + sums_by(rows, prod(others, start=around * own[table]), part.size)
+        return found
 
     def covariances(self, weights: CountWeights, counts: Mapping[str, Sequence[int]]) -> dict[tuple[str, str], float]:
         """Return the covariance of the tooth counts of each pair of wheels, keyed by pair in the order of `counts`.

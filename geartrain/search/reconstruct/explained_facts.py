@@ -14,6 +14,7 @@ from typing import Literal, NamedTuple, get_args
 
 from geartrain.numerics.exact import whole_multiple
 from geartrain.numerics.results import Key, Result
+from geartrain.search.information import entropy
 from geartrain.search.reconstruct.candidate_names import NamedArbor, NamedWheel
 from geartrain.search.reconstruct.dropped_facts import ChangedCount, MissingExplanation
 from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem, SurvivingArbor
@@ -21,7 +22,6 @@ from geartrain.search.reconstruct.reconstruction_search import Reconstructions, 
 from geartrain.search.reconstruct.search_tasks import TopologyTrains
 from geartrain.search.reconstruct.train_construction import named_candidate
 from geartrain.search.reconstruct.train_topology import Topology
-from geartrain.search.weighted_alternatives import entropy
 from geartrain.train import Train
 
 FactKind = Literal["mesh", "pair", "driver", "pointer", "count", "added", "needed", "used"]

@@ -149,60 +149,52 @@ def find_join_problem(
         choices.append(((), tuple(rules)))
     if probabilities is None:
         probabilities = estimate_probabilities(domains, requested, rules)
-    found = [_planned(domains, requested, early, late, probabilities) for early, late in choices]
+    found = [_Planner(domains, requested, early, late, probabilities).problem() for early, late in choices]
     return replace(min(found, key=lambda question: question.steps), weights=weights or {})
 
 
-def _planned(
-    domains: Domains,
-    requested: Sequence[IntervalConstraint],
-    early: tuple[CountConstraint, ...],
-    late: tuple[CountConstraint, ...],
-    probabilities: Mapping[str, float],
-) -> JoinProblem:
-    alone = frozenset(wheel for rule in early for wheel in rule.wheels)
-    recipes = find_recipes(find_wheel_monomials(tuple(domains), requested, alone), domains)
-    polynomials = find_polynomial_constraints(requested, recipes, domains)
-    planner = _Planner(domains, recipes, early, polynomials, probabilities)
-    node, steps = planner.plan()
-    steps += sum(planner.sizes)
-    steps += sum(forecast(recipe, domains)[1] / 4 for recipe in recipes)
-    if late:
-        left = prod(len(counts) for counts in domains.values())
-        steps += 3 * left * prod(probabilities.get(one.name, 1.0) for one in (*early, *polynomials))
-    return JoinProblem(domains, tuple(requested), early, late, recipes, node, steps)
-
-
-@dataclass
 class _Planner:
-    """Search for the plan of a join and its expected cost, which is the expected number of examined partial
-    assignments.
+    """Search for the plan of a join. The constraints `early` are evaluated as soon as their variables are assigned, and
+    the constraints `late` at the end.
     """
 
-    domains: Domains
-    recipes: Sequence[Factors]
-    rules: Sequence[CountConstraint]
-    polynomial_constraints: Sequence[PolynomialConstraint]
-    probabilities: Mapping[str, float]
-    sizes: list[int] = field(init=False)
-    scopes: list[Items] = field(init=False)
-    likely: list[float] = field(init=False)
-
-    def __post_init__(self) -> None:
-        self.sizes = [forecast(recipe, self.domains)[0] for recipe in self.recipes]
+    def __init__(
+        self,
+        domains: Domains,
+        requested: Sequence[IntervalConstraint],
+        early: tuple[CountConstraint, ...],
+        late: tuple[CountConstraint, ...],
+        probabilities: Mapping[str, float],
+    ) -> None:
+        self.domains, self.requested, self.rules, self.late = domains, requested, early, late
+        alone = frozenset(wheel for rule in early for wheel in rule.wheels)
+        self.recipes = find_recipes(find_wheel_monomials(tuple(domains), requested, alone), domains)
+        self.polynomial_constraints = find_polynomial_constraints(requested, self.recipes, domains)
+        self.sizes = [forecast(recipe, domains)[0] for recipe in self.recipes]
         at = {wheel: item for item, recipe in enumerate(self.recipes) for wheel, _ in recipe}
-        self.scopes = [frozenset(at[wheel] for wheel in rule.wheels) for rule in self.rules]
+        self.scopes: list[Items] = [frozenset(at[wheel] for wheel in rule.wheels) for rule in early]
         self.scopes += [frozenset(one.items) for one in self.polynomial_constraints]
-        self.likely = [self.probabilities.get(one.name, 1.0) for one in (*self.rules, *self.polynomial_constraints)]
+        self.likely = [probabilities.get(one.name, 1.0) for one in (*early, *self.polynomial_constraints)]
 
-    def plan(self) -> tuple[PlanNode, float]:
-        """Return the root of the plan and its expected cost."""
-        node, cost = self._grow(frozenset(range(len(self.recipes))), frozenset(), 1.0)
+    def problem(self) -> JoinProblem:
+        """Return the join problem with the plan and its expected number of steps."""
+        plan, steps = self._grow(frozenset(range(len(self.recipes))), frozenset(), 1.0)
         # constraints without variables are evaluated at the root
         constant = tuple(at for at, scope in enumerate(self.scopes) if not scope)
-        return replace(node, checks=constant + node.checks), cost
+        plan = replace(plan, checks=constant + plan.checks)
+        steps += sum(self.sizes)
+        steps += sum(forecast(recipe, self.domains)[1] / 4 for recipe in self.recipes)
+        if self.late:
+            left = prod(len(counts) for counts in self.domains.values())
+            steps += 3 * left * prod(self.likely)
+        return JoinProblem(self.domains, tuple(self.requested), self.rules, self.late, self.recipes, plan, steps)
 
     def _grow(self, open_: Items, known: Items, rows: float) -> tuple[PlanNode, float]:
+        """Return the plan of the unassigned variables `open_` and its expected number of examined partial assignments.
+
+        known   variables that are already assigned
+        rows    expected number of partial assignments of these variables
+        """
         active = [at for at, scope in enumerate(self.scopes) if scope & open_]
         item = self._next(open_, active)
         complete = [at for at in active if self.scopes[at] & open_ == {item}]

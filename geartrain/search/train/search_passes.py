@@ -347,9 +347,7 @@ class AssignmentOrder:
     """
 
     by: By
-    """Primary criterion. Ties are broken by error, sum of tooth counts, largest tooth count, and the tooth counts in
-    the order of the wheels.
-    """
+    """Name of the primary criterion."""
     best: int
     """Number of assignments to be kept."""
     requirements: tuple[OutputRequirement, ...]

@@ -191,11 +191,9 @@ class _ConstraintBuilder:
         yield from _condition(words, is_between, scaled, -room.constant, room.constant)
 
     def _is_broken(self, total: LinearSum, shift: Fraction | int) -> bool:
-        """Return whether the declared tooth counts violate the requirement of two equal centre distances, which was not
-        requested explicitly. The wheels then have different modules or shifted profiles, so the requirement is dropped.
-
-        total   difference of the two distances as a function of tooth counts
-        shift   maximum admissible magnitude of this difference
+        """Return whether the declared tooth counts contradict the requirement that `total`, the difference of two
+        centre distances, has a magnitude of at most `shift`. False if this requirement is explicit; otherwise it is
+        dropped, because the modules or the profile shifts of the wheels differ.
         """
         if self.requested.coaxial is not None:
             return False

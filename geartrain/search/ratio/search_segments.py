@@ -318,13 +318,12 @@ def _sweep(question: StageProblem, near: Fraction, means: Execution) -> SweepOut
 
 
 def _segments(question: StageProblem) -> list[Sequence[int]]:
-    """Divide the search into segments. Every pair of products within the tolerance is in exactly one segment.
-
-    If all stages must have equal sums of tooth counts, a segment is a range of sums. It contains eight sums if there
-    are four or more stages, because this search is slow, and all sums if there are fewer stages.
+    """Return the segments into which the search is divided. Every pair of products within the tolerance is in exactly
+    one segment.
     """
     size = question.stages
     if question.of_equal_sums:
+        # eight sums a segment for four or more stages, because this search is slow
         low, high = question.top[0] + question.beneath[0], question.top[-1] + question.beneath[-1] + 1
         return [(at, min(at + 8, high)) for at in range(low, high, 8)] if size > 3 else [(low, high)]
     if not question.reachable:

@@ -176,8 +176,8 @@ class ExactJoin:
         self, node: PlanNode, rows: PartialAssignments, at: Ints, removed: RefusalCounts | None
     ) -> Iterator[tuple[Ints, PartialAssignments]]:
         """Yield, block by block, the extensions of the partial assignments `rows` by all values of the variable of a
-        node that satisfy the constraints of this node. Each block is preceded by the entry of `at` for the original row
-        of each extension.
+        node that satisfy the constraints of this node. Each block is preceded by an array that contains, for each
+        extension, the entry of `at` for its original row.
         """
         times, total = self.items[node.item].times, self._total(node.item)
         below = self.full(node) // total  # assignments of the subtree for each value of the variable
@@ -204,7 +204,8 @@ class ExactJoin:
 
     def _candidates(self, node: PlanNode, rows: PartialAssignments) -> Iterator[tuple[Ints, Ints]]:
         """Yield, block by block, the pairs of a partial assignment and a value of the variable of a node that satisfy
-        the guide constraint of this node, as two arrays: indices of rows, and indices of values.
+        the constraint `node.guide`, as two arrays: indices of rows, and indices of values. Without such a constraint,
+        all pairs are yielded.
         """
         first, last = self._run(node.item)
         if node.guide < 0:

@@ -126,8 +126,9 @@ _Sums = dict[_Table, Any]
 
 
 def _parts(table: _Table) -> tuple[tuple[_Table, Ints], ...]:
-    """Return the tables to which the transitions of a table refer, each with the row to which each transition refers:
-    for a recorded node, the value of its variable and a row of each child; for a product step, the previous product.
+    """Return the product steps and recorded nodes to which the transitions of a table lead, each with the row to which
+    each transition leads. A recorded node leads to the values of its variable and to its children; a product step leads
+    to the step of the previous wheel.
     """
     if isinstance(table, RecordedNode):
         return (table.values, table.places), *table.children
@@ -135,7 +136,7 @@ def _parts(table: _Table) -> tuple[tuple[_Table, Ints], ...]:
 
 
 def _owners(table: _Table) -> Ints:
-    """Return the row of a table to which each transition belongs."""
+    """Return, for each transition of a table, the row of the table from which the transition starts."""
     return table.parents if isinstance(table, RecordedNode) else table.children
 
 
@@ -152,7 +153,7 @@ class AssignmentSums:
         self._add(root)
 
     def _add(self, table: _Table) -> None:
-        """Add a table to the list of tables, after all tables to which it refers."""
+        """Add a table to the list of tables, after all tables to which its transitions lead."""
         for part, _ in reversed(_parts(table)):
             self._add(part)
         self._tables[table] = None
@@ -163,8 +164,8 @@ class AssignmentSums:
         return inside[self.root].sum()
 
     def _inside(self, weights: CountWeights) -> tuple[_Sums, _Sums, _Sums]:
-        """Return, for each table, the inside sum of each row, the weight of each transition, and the total weight of
-        all ways to continue with each transition.
+        """Return three results for each table: the inside sum of each row, the weight of each transition, and the
+        product of this weight and the inside sums of the rows to which the transition leads.
         """
         inside: _Sums = {}
         own: _Sums = {}

@@ -239,7 +239,8 @@ class PolynomialConstraint:
         return np.asarray(above / below)
 
     def windows(self, rows: PartialAssignments, item: int) -> list[tuple[Ints, Ints]]:
-        """Return, for each case, the half-open index range of the admissible values of variable `item` in each row.
+        """Return, for each case of the constraint, the half-open index range of the admissible values of variable
+        `item` in each row.
 
         The two arrays of a case contain the starts and the ends of the ranges, indices into `rows.items[item]`, shape
         (rows,).

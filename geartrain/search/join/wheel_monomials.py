@@ -71,8 +71,9 @@ WheelMonomial = Mapping[str, int]
 def find_wheel_monomials(
     wheels: Sequence[str], requested: Sequence[IntervalConstraint], alone: frozenset[str]
 ) -> list[WheelMonomial]:
-    """Return the monomials that combine as many wheels as possible. Each wheel in `alone` forms a monomial by itself
-    with power 1.
+    """Return the monomials of tooth counts through which all functions in `requested` depend on the wheels. Each
+    monomial combines as many wheels as possible, except that each wheel in `alone` is a monomial by itself with power
+    1.
 
     Wheels are combined if their powers, relative to the first term of each function and listed over all terms of all
     functions, are proportional.

@@ -288,6 +288,8 @@ def first_of(by: str, tops: Ints, beneaths: Ints, fit: StageConstraints) -> Ints
 
 
 def key_of(first: int, top: Sequence[int], beneath: Sequence[int], value: Fraction) -> StageRank:
-    """Return the sort key of one solution. `first` is the primary criterion of the order."""
+    """Return the sort key of a solution: the primary criterion `first`, absolute error, sum of tooth counts, largest
+    tooth count, and tooth counts. `value` is the requested ratio.
+    """
     miss = abs(Fraction(prod(top), prod(beneath)) / value - 1)
     return first, miss, sum(top) + sum(beneath), max(*top, *beneath), tuple(top), tuple(beneath)

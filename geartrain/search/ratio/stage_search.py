@@ -402,7 +402,9 @@ def _nearest(question: StageProblem, miss: SweepOutcome, plain: SweepOutcome) ->
 
 
 def in_words(key: StageRank, value: Fraction) -> str:
-    """Format the tooth counts, the ratio and the error of one solution."""
+    """Format the tooth counts of one solution, their ratio, and the error of this ratio with respect to the requested
+    ratio `value`.
+    """
     top, beneath = key[4:]
     ratio = Fraction(prod(top), prod(beneath))
     counts = f"{' x '.join(map(str, top))} / {' x '.join(map(str, beneath))}"

@@ -165,7 +165,7 @@ class OutputRequirement:
     def requested(self, share: Fraction | None, strict: bool = False) -> IntervalConstraint | None:
         """Return the interval constraint on the speed of the output; None if every speed is admissible.
 
-        share    relative tolerance of graded requirements; None if there is no common tolerance
+        share    common relative tolerance of all requirements from which an error is computed; None if there is none
         strict   True to exclude the end points of the intervals
         """
         common: tuple[Interval, ...] = ((None, None),)  # all speeds
@@ -175,7 +175,9 @@ class OutputRequirement:
         return None if common == ((None, None),) else IntervalConstraint(self.text, self.function, common, strict)
 
     def reached(self, speed: Fraction) -> ReachedSpeed:
-        """Return a speed with its error, which refers to the graded requirement with the largest absolute error."""
+        """Return a speed with its error, which refers to the requirement with the largest absolute error, among the
+        requirements from which errors are computed.
+        """
         graded = [demand for demand in self.demands if demand.graded] or self.demands
         worst = max(graded, key=lambda demand: abs(demand.error(speed)))
         return ReachedSpeed(speed, worst.label, worst.error(speed), self.fits(speed))
@@ -261,7 +263,8 @@ def _half(value: Figure, tolerance: Figure | None) -> Fraction:
 def _printed(train: Train, published: Published, drive: Fraction | None, graded: bool) -> SpeedRequirement:
     """Return the speed requirement that corresponds to a published value.
 
-    drive   speed of the only turning input, with which a published ratio is compared; None if there is no such input
+    drive    speed of the only turning input, with which a published ratio is compared; None if there is no such input
+    graded   True if the error of the output is computed from this requirement
     """
     label, unit, signed = f"published {published.value} {published.as_}", unit_seconds(train), not published.unsigned
     printed = in_plain_units(published.value, unit)

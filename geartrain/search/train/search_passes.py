@@ -142,9 +142,10 @@ def _slices(join: ExactJoin, parts: Sequence[Sequence[int]], pieces: int) -> Ite
 
 def _do_piece(join: ExactJoin, pool: BestAssignments, most: int) -> tuple[int, Counter[str], bool]:
     """Return the number of assignments in a piece of a task that satisfy all constraints, the number rejected by each
-    constraint, and whether the assignments were added to the pool.
+    constraint, and whether the assignments were added to the list `pool` of the best assignments.
 
-    The assignments are enumerated only if there are at most `most`, or if they must be tested against late constraints.
+    The assignments are enumerated only if there are at most `most`, or if the join has constraints that are evaluated
+    last.
     """
     question = join.question
     counts, gone = join.count(question.plan, join.start())
@@ -303,8 +304,8 @@ class PartSearch:
         """Run one pass. All solutions are counted, and the best solutions are listed if there are at most `most`
         solutions.
 
-        share    common relative tolerance of graded requirements; None if there is no common tolerance
-        strict   True to exclude the end points of intervals
+        share    common relative tolerance of the outputs; None if there is no common tolerance
+        strict   True to exclude the end points of the admissible intervals of speeds
         """
         if not size_of(self.domains):
             return PassResult(share)

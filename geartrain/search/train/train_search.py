@@ -374,7 +374,9 @@ def _standing(searches: Sequence[PartSearch], part: int, teeth: Mapping[str, int
 
 
 def _refusals(part: SearchPart, teeth: Mapping[str, int], assignment: Assignment | None) -> list[str]:
-    """Return the descriptions of all constraints and requirements that an assignment violates."""
+    """Return the descriptions of all constraints and requirements that the tooth counts `teeth` violate. `assignment`
+    contains the resulting speeds; it is None if the train is locked or free.
+    """
     import numpy as np
 
     columns = {wheel: np.array([count], dtype=np.int64) for wheel, count in teeth.items()}

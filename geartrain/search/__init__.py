@@ -17,8 +17,8 @@ constraints    further conditions on tooth counts: assembly, planets, limits of 
 target_ratio, tooth_count_ranges   parsers for ratios and for ranges of tooth counts (`read_ratio`, `read_counts`)
 search_outcome          results common to all searches: tooth counts of stages, numbers of rejected candidates
 stern_brocot            fractions near a number: the Stern-Brocot tree (`approximants`)
-weighted_alternatives   totals and marginals by the inside-outside algorithm; information in bits
-integer_columns         ranges of integers as arrays
+information             entropy and relative entropy in bits
+integer_columns         ranges of integers as arrays, distinct quotients, and sums by owner
 teeth_verb, approximants_verb      the command `teeth`, and the options that its searches share
 tooth_numbers_report    tooth counts as documents and tables
 answers                 result types that commands print as JSON

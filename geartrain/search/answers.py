@@ -6,7 +6,8 @@ from typing import Any
 
 
 def answers() -> dict[str, Any]:
-    """Return the result type of each search command, keyed by the words of the command.
+    """Return the result type of each search command that prints JSON, keyed by the command without the word
+    `geartrain`.
 
     An option that changes the result type has its own entry, such as `teeth set --kind list`.
     """

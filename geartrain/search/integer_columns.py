@@ -1,4 +1,4 @@
-"""Conversion of ranges of integers to arrays, at once or in blocks, and distinct quotients of two integer arrays."""
+"""Ranges of integers as arrays, at once or in blocks, distinct quotients of two arrays, and sums by owner."""
 
 from __future__ import annotations
 
@@ -16,10 +16,8 @@ Integers = NDArray[Any]
 
 
 def spread(starts: Ints, ends: Ints) -> tuple[Ints, Ints]:
-    """Return all integers of several half-open ranges as two arrays: the index of the range to which each integer
-    belongs, and the integer.
-
-    The end of a range must not be below its start.
+    """Return all integers of several half-open ranges [start, end) as two arrays: the index of the range of each
+    integer, and the integers themselves. No end may be below its start.
     """
     sizes = ends - starts
     owner = np.repeat(np.arange(len(sizes)), sizes)
@@ -29,7 +27,9 @@ def spread(starts: Ints, ends: Ints) -> tuple[Ints, Ints]:
 
 
 def spread_in_blocks(starts: Ints, ends: Ints, most: int) -> Iterator[tuple[Ints, Ints]]:
-    """Yield the arrays returned by `spread` in blocks of at most `most` integers."""
+    """Yield all integers of several half-open ranges, in blocks of at most `most` integers. Each block consists of the
+    two arrays that `spread` returns.
+    """
     upto = np.cumsum(ends - starts)
     total = int(upto[-1]) if len(upto) else 0
     for begin in range(0, total, most):
@@ -66,3 +66,12 @@ def distinct_quotients(above: Integers, below: Integers) -> tuple[list[Fraction]
     which = np.empty(len(order), dtype=np.int64)
     which[order] = np.cumsum(fresh) - 1
     return [Fraction(int(n), int(d)) for n, d in zip(above[fresh], below[fresh], strict=True)], which
+
+
+def sums_by(owners: Ints, values: NDArray[Any], size: int) -> NDArray[Any]:
+    """Return the sums of the values that have the same owner, shape (size,). Entry i is the sum of `values` whose entry
+    in `owners` is i. Python integers are added exactly.
+    """
+    found: NDArray[Any] = np.zeros(size, dtype=values.dtype)
+    np.add.at(found, owners, values)
+    return found

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 
 from geartrain.numerics.exact import as_float
@@ -17,13 +17,11 @@ class Shortfall(Result):
     solutions.
     """
 
-    KEYS = ("considered", Key("removed", "removals"), "nearest", "advice")
-
     considered: int = 0
     """Number of candidates before any constraint is applied."""
-    removed: Mapping[str, int] | None = None
+    removed: Mapping[str, int] = field(default_factory=dict)
     """Number of rejected candidates, keyed by reason. A candidate is counted under the first constraint that rejected
-    it. None if rejected candidates were not counted.
+    it.
     """
     nearest: str = ""
     """Description of the nearest miss: the rejected candidate with the smallest violation of a constraint, with its
@@ -32,13 +30,6 @@ class Shortfall(Result):
     """
     advice: str = ""
     """Suggestions of constraints to be relaxed, with the effect of each suggestion; empty if there is a solution."""
-
-    @property
-    def removals(self) -> Mapping[str, int]:
-        """Number of rejected candidates, keyed by reason, as in `removed`; empty if rejected candidates were not
-        counted.
-        """
-        return self.removed or {}  # None means that rejected candidates were not counted
 
 
 class CountSizes(ABC):
@@ -105,14 +96,9 @@ class GearStages(CountSizes, Result):
         return f"{teeth} = {brief(self.ratio)}, error {float(self.error):.3g}"
 
     @property
-    def teeth(self) -> tuple[int, ...]:
-        """Tooth counts of the numerator, followed by the tooth counts of the denominator."""
-        return self.top + self.beneath
-
-    @property
     def counts(self) -> tuple[int, ...]:
         """Tooth counts of the numerator, followed by the tooth counts of the denominator."""
-        return self.teeth
+        return self.top + self.beneath
 
     @property
     def sides(self) -> tuple[tuple[int, ...], tuple[int, ...]]:

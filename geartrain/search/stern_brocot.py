@@ -2,9 +2,8 @@
 
 Sources: M. A. Stern, Ueber eine zahlentheoretische Funktion, J. reine angew. Math. 55 (1858); A. Brocot, Calcul des
 rouages par approximation, Revue chronometrique 3 (1861). The tree contains every positive reduced fraction once, as the
-mediant (a + c)/(b + d) of two neighbours a/b < c/d with bc - ad = 1. The path from the root of the tree to a number
-consists of straight runs of steps to the left or to the right. The lengths of these runs are the terms of the continued
-fraction of the number, so a run is processed in one step.
+mediant (a + c)/(b + d) of two neighbours a/b < c/d with bc - ad = 1. The lengths of the straight runs of the path to a
+number are the terms of its continued fraction, so a run is processed in one step.
 """
 
 from __future__ import annotations
@@ -206,13 +205,9 @@ def farey_neighbours(value: Fraction, most: int) -> tuple[Fraction, Fraction]:
 def _first_best(value: Fraction, near: IntegerPair, far: IntegerPair, length: int) -> int:
     """Return the minimum index k for which (p + k P)/(q + k Q) is nearer to `value` than P/Q, where `near` is (p, q)
     and `far` is (P, Q). The result is at most `length` + 1.
-
-    The fractions in a run approach `value` monotonically, and all fractions between them and `value` have larger
-    denominators. It is therefore sufficient to compare each of them with P/Q, which is on the opposite side. Zero and
-    infinity are excluded, because they are not gear ratios. An integer is compared with the next integer, which has the
-    same denominator.
     """
-    # towards infinity the fractions are the integers up to `value`, of which only the last can be nearest
+    # the fractions approach `value`, and all fractions between them and `value` have larger denominators, so each is
+    # only compared with P/Q on the opposite side; towards infinity, the integers are compared with the next integer
     if not far[1]:
         return length if value - length < Fraction(1, 2) else length + 1
     # the opposite end is 0, which is not a gear ratio

@@ -184,7 +184,10 @@ def _term(text: str, label: str) -> _Term:
     if match is not None:
         term = _with_word(match[1], match[2].strip())
     elif text in period_table():
-        term = _of_table(text)
+        row = period_table()[text]
+        unit = {"period": "d", "speed": f"{row.what} per year", "count": row.what}[row.kind]
+        note = f"{text} = {' '.join((decimal(row.value, 12), *unit.split()))} ({row.source})"
+        term = _Term("time" if row.kind == "period" else row.kind, abs(row.value), text, note)
     else:
         term = _Term("number", _figure(text), "", "")
     if not term.value:
@@ -219,13 +222,6 @@ def _with_word(number: str, word: str) -> _Term:
     )
 
 
-def _of_table(name: str) -> _Term:
-    row = period_table()[name]
-    kind: TargetKind = "time" if row.kind == "period" else row.kind
-    unit = {"period": " d", "speed": f" {row.what} per year".replace("  ", " "), "count": f" {row.what}"}[row.kind]
-    return _Term(kind, abs(row.value), name, f"{name} = {decimal(row.value, 12)}{unit.rstrip()} ({row.source})")
-
-
 def _figure(text: str) -> Fraction:
     try:
         return Figure.parse(text).value
@@ -243,6 +239,9 @@ def _figure(text: str) -> Fraction:
 
 
 def _single_term(term: _Term, label: str, per: str | None) -> tuple[Fraction, str]:
+    """Return the ratio that is given by one term, and by the second period `per` if it is not None, with a note on its
+    origin.
+    """
     if term.kind == "time":
         if per is None:
             period = label.lstrip("+- ")
@@ -253,7 +252,11 @@ def _single_term(term: _Term, label: str, per: str | None) -> tuple[Fraction, st
                 "a ratio needs two periods",
                 f"for example, write '{pair}'",
             )
-        return _per_period(per, term)
+        whole = _term(" ".join(per.split()), per)
+        if whole.kind != "time":
+            fix = "give a time or a name, such as year_tropical_J2000"
+            raise _problem(f"`per` is '{_short(per)}'", "`per` must be a period", fix)
+        return whole.value / term.value, f"{whole.note} over {term.note}"
     if term.kind == "things":
         raise _problem(
             f"'{_short(label)}' is only one count",
@@ -265,22 +268,17 @@ def _single_term(term: _Term, label: str, per: str | None) -> tuple[Fraction, st
     return term.value, term.note or "as given"
 
 
-def _per_period(per: str, term: _Term) -> tuple[Fraction, str]:
-    """Return the exact number of periods `term` in one period `per`, and a note on the origin of both periods."""
-    whole = _term(" ".join(per.split()), per)
-    if whole.kind != "time":
-        raise _problem(
-            f"`per` is '{_short(per)}'", "`per` must be a period", "give a time or a name, such as year_tropical_J2000"
-        )
-    return whole.value / term.value, f"{whole.note} over {term.note}"
-
-
 def _quotient(first: _Term, second: _Term, label: str) -> tuple[Fraction, str]:
-    kinds = {first.kind, second.kind}
+    """Return the quotient of two terms of the same kind, and a note on its origin."""
+    kinds, both = {first.kind, second.kind}, (first, second)
     if kinds == {"number"}:
         return first.value / second.value, "as given"
-    if kinds == {"things"} or (kinds == {"things", "time"} and _counted(first) and _counted(second)):
-        return _figure_of(first) / _figure_of(second), f"{first.note} in the time of {second.note}"
+    # a unit of time may also be the name of counted objects, as in '27759 days / 940 months'
+    if "things" in kinds and all(term.kind == "things" or term.word in _COUNTED_TIMES for term in both):
+        top, beneath = (
+            _figure(term.note.removesuffix(term.word)) if term.kind == "time" else term.value for term in both
+        )
+        return top / beneath, f"{first.note} in the time of {second.note}"
     if len(kinds) == 1:
         # such as '24 h / 1 d', which is 1 as periods and 24 as counts
         same = first.kind == "time" and first.value == second.value and first.word != second.word
@@ -291,25 +289,15 @@ def _quotient(first: _Term, second: _Term, label: str) -> tuple[Fraction, str]:
                 f"write '{first.note.split()[0]}/{second.note.split()[0]}' for counts",
             )
         return first.value / second.value, f"{first.note} over {second.note}"
+    words = {"number": "a number without a unit", "things": "a count", "time": "a period"}
+    quantities = " divided by ".join(
+        words.get(term.kind, f"a {term.kind}") + (f" ({_short(term.note)})" if term.note else "") for term in both
+    )
     raise _problem(
         f"'{_short(label)}' is a quotient of different quantities",
-        f"{_describe(first)} divided by {_describe(second)} is not a ratio of speeds",
+        f"{quantities} is not a ratio of speeds",
         "write two numbers, two counts of things, two times (d, h, min, s), or two names of one kind",
     )
-
-
-def _counted(term: _Term) -> bool:
-    """Return whether the word of a term may be the name of counted objects, as in '27759 days / 940 months'."""
-    return term.kind == "things" or term.word in _COUNTED_TIMES
-
-
-def _figure_of(term: _Term) -> Fraction:
-    return _figure(term.note.removesuffix(term.word)) if term.kind == "time" else term.value
-
-
-def _describe(term: _Term) -> str:
-    words = {"number": "a number without a unit", "things": "a count", "time": "a period"}
-    return words.get(term.kind, f"a {term.kind}") + (f" ({_short(term.note)})" if term.note else "")
 
 
 def _ratio_already(label: str, per: str) -> QuestionError:

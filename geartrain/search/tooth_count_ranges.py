@@ -174,24 +174,19 @@ def read_counts(text: str) -> CountRuns:
     return CountRuns.joined(span for part in text.split(",") for span in _spans(part))
 
 
-def _spans(part: str) -> Iterator[tuple[int, int]]:
-    """Yield the first and the last tooth count of each span in `part`, which is a single tooth count, a range, or the
+def _spans(part: str) -> list[tuple[int, int]]:
+    """Return the first and the last tooth count of each span in `part`, which is a single tooth count, a range, or the
     name of a construction set.
     """
+    name = part.strip()
+    shown = name if len(name) <= 40 else f"{name[:37]}..."
     if any(letter.isalpha() for letter in part):
         from geartrain.train.mechanism import wheel_sets
 
-        name = part.strip()
         if name not in wheel_sets():
             why = f"a count is an integer, a range is first:last, and the sets of wheels are {', '.join(wheel_sets())}"
-            raise _problem(f"'{name[:40]}' is not a tooth count", why)
-        yield from ((count, count) for count in wheel_sets()[name])
-    else:
-        yield _span(part)
-
-
-def _span(part: str) -> tuple[int, int]:
-    shown = part.strip() if len(part) <= 40 else f"{part.strip()[:37]}..."
+            raise _problem(f"'{shown}' is not a tooth count", why)
+        return [(count, count) for count in wheel_sets()[name]]
     # longer texts cannot be counts up to 10^12
     match = _PART.fullmatch(part) if len(part) <= 100 else None
     if match is None:
@@ -199,7 +194,7 @@ def _span(part: str) -> tuple[int, int]:
     first, last = int(match[1]), int(match[2] or match[1])
     if first > last:
         raise _problem(f"the range {shown} is reversed", "the first count must not exceed the last", f"{last}:{first}")
-    return first, last
+    return [(first, last)]
 
 
 def _problem(what: str, why: str, better: str = "'15:120', '30,36,48' or '12:40,48,60'") -> QuestionError:

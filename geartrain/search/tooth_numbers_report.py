@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from geartrain.search.epicyclic.epicyclic_sets import EpicyclicKind, SetFindings
     from geartrain.search.orrery.orrery_search import Orrery
     from geartrain.search.ratio.stage_search import StageFindings
-    from geartrain.search.search_outcome import GearStages, Shortfall
+    from geartrain.search.search_outcome import Shortfall
     from geartrain.search.stern_brocot import Approximants
     from geartrain.search.target_ratio import TargetRatio
     from geartrain.search.train.train_findings import Assignment, PartFindings, Standing, TrainFindings
@@ -30,7 +30,7 @@ def error_text(value: Fraction) -> str:
 
 
 def stage_rows(found: StageFindings) -> list[dict[str, Any]]:
-    """Return the rows of a table of the gear stages found for a ratio."""
+    """Return the rows of the table of gear stages that were found for a ratio, each as a dict keyed by column."""
     return [
         {
             "top": _product(one.top),
@@ -59,16 +59,6 @@ def describe_stages(found: StageFindings) -> Document:
     summary.append(
         f"{found.count} solutions ({within}) among {figure(float(found.considered), 4)} combinations; {search}."
     )
-    sections = [_solutions(found.solutions)] if found.solutions else []
-    return Document(f"Tooth numbers for {found.wanted.label}", summary, [*sections, *_shortfall(found.shortfall)])
-
-
-def _wanted(wanted: TargetRatio) -> str:
-    note = f" ({wanted.note})" if wanted.note else ""
-    return f"Wanted: {exact(wanted.value)} = {figure(wanted.value, 12)}{note}."
-
-
-def _solutions(solutions: Sequence[GearStages]) -> Section:
     rows = [
         (
             f"{_product(one.top)} / {_product(one.beneath)}",
@@ -78,17 +68,24 @@ def _solutions(solutions: Sequence[GearStages]) -> Section:
             "  ".join(f"{a}/{b}" for a, b in one.pairs),
             str(one.total),
         )
-        for one in solutions
+        for one in found.solutions
     ]
     lines = [
         "The ratio is output speed / input speed if the numerator wheels drive, input speed / output speed if they are "
         "driven."
     ]
-    return Section("Solutions", lines, [Table(("teeth", "ratio", "decimal", "error", "stages", "sum"), cut(rows))])
+    table = Table(("teeth", "ratio", "decimal", "error", "stages", "sum"), cut(rows))
+    sections = [Section("Solutions", lines, [table])] if rows else []
+    return Document(f"Tooth numbers for {found.wanted.label}", summary, [*sections, *_shortfall(found.shortfall)])
+
+
+def _wanted(wanted: TargetRatio) -> str:
+    note = f" ({wanted.note})" if wanted.note else ""
+    return f"Wanted: {exact(wanted.value)} = {figure(wanted.value, 12)}{note}."
 
 
 def approximant_rows(found: Approximants) -> list[dict[str, Any]]:
-    """Return the rows of a table of the fractions that approximate a ratio."""
+    """Return the rows of the table of fractions that approximate a ratio, each as a dict keyed by column."""
     return [each.to_dict() for each in found.solutions]
 
 
@@ -107,7 +104,7 @@ def _shortfall(shortfall: Shortfall) -> list[Section]:
     """
     lines = [f"Nearest: {shortfall.nearest}."] if shortfall.nearest else []
     lines += [f"Suggestions: {shortfall.advice}."] if shortfall.advice else []
-    removed = {reason: count for reason, count in (shortfall.removed or {}).items() if count}
+    removed = {reason: count for reason, count in shortfall.removed.items() if count}
     rows = [(reason, figure(float(count), 6) if count > 10**9 else str(count)) for reason, count in removed.items()]
     if not lines and not rows:
         return []
@@ -118,7 +115,9 @@ def _shortfall(shortfall: Shortfall) -> list[Section]:
 
 
 def assignment_rows(found: TrainFindings) -> list[dict[str, Any]]:
-    """Return the rows of a table of the solutions for a train, with the tooth counts and the error of each output."""
+    """Return the rows of the table of solutions for a train, each as a dict with the tooth count of each wheel and the
+    error of each output.
+    """
     return [
         {**one.teeth, **{f"error of {name}": float(each.error) for name, each in one.outputs.items()}}
         for one in found.solutions
@@ -188,7 +187,7 @@ def _ranks(standings: Sequence[Standing]) -> Section:
 
 
 def set_rows(found: SetFindings) -> list[dict[str, Any]]:
-    """Return the rows of a table of the epicyclic sets found by a search."""
+    """Return the rows of the table of epicyclic sets that were found, each as a dict keyed by column."""
     return [
         {
             "mode": one.mode.key,
@@ -241,7 +240,7 @@ def describe_set_kinds(kinds: Mapping[str, EpicyclicKind]) -> Document:
 
 
 def orrery_rows(found: Orrery) -> list[dict[str, Any]]:
-    """Return the rows of a table of the gear pairs of an orrery."""
+    """Return the rows of the table of gear pairs of an orrery, each as a dict keyed by column."""
     return [pair.to_dict() for pair in found.pairs]
 
 

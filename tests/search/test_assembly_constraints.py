@@ -28,12 +28,12 @@ from geartrain.search import ConstraintOptions, search_train
 Data = dict[str, Any]
 
 
-def equations(rules: Sequence[Any]) -> list[Any]:
-    return [rule for rule in rules if is_equation(rule)]
-
-
 def is_equation(rule: object) -> bool:
     return hasattr(rule, "coefficients")
+
+
+def equations(rules: Sequence[Any]) -> list[Any]:
+    return list(filter(is_equation, rules))
 
 
 def length(text: str) -> Quantity:
@@ -65,6 +65,10 @@ def reverted(modules: Sequence[str | None]) -> Data:
 def test_a_planetary_has_a_ring_of_the_sun_and_two_planets() -> None:
     rules = rules_of(epicyclic(*SIMPLE))
     assert [rule.name for rule in rules] == ["coaxial closure: s + 2 p = r"]
+    # a module belongs to all wheels that mesh on from one
+    data = epicyclic(*SIMPLE)
+    data["links"]["Ls"]["wheels"]["s"]["module"] = "2 mm"
+    assert [rule.name for rule in rules_of(data)] == ["coaxial closure: s + 2 p = r"]
     assert passed(rules, s=24, p=18, r=60)
     assert not passed(rules, s=30, p=23, r=78)
     assert not passed(rules, s=21, p=43, r=108)
@@ -97,12 +101,6 @@ def test_declared_modules_weigh_the_counts_and_one_of_a_pair_speaks_for_both() -
     assert rules_of(reverted(["1.25 mm", None, None, None]), coaxial=True) == ()
     assert rules_of(reverted(["1.25 mm", None, None, "1.5"]), coaxial=True) == ()
     assert rules_of(reverted(["1 mm", "2 mm", "1 mm", "1 mm"]), coaxial=True) == ()
-
-
-def test_a_module_belongs_to_all_wheels_that_mesh_on_from_one() -> None:
-    data = epicyclic(*SIMPLE)
-    data["links"]["Ls"]["wheels"]["s"]["module"] = "2 mm"
-    assert [rule.name for rule in rules_of(data)] == ["coaxial closure: s + 2 p = r"]
 
 
 def test_shift_is_counted_in_half_modules_of_the_finer_pair() -> None:
@@ -165,12 +163,6 @@ def test_two_wheels_of_one_axis_on_one_mate_cannot_differ() -> None:
     assert rule.name == "coaxial closure: a = 30"
 
 
-def test_bevel_wheels_have_no_sums() -> None:
-    found = rules_of(load("bevel-differential").declaration, coaxial=True)
-    assert equations(found) == []
-    assert [rule.name for rule in found] == ["2 equal planets on 'crown': 2 divides l16 + r16"]
-
-
 # ------------------------------------------------------------------------------------------------------- equal planets
 
 
@@ -200,22 +192,26 @@ def stepped(s: int, p: int, q: int, r: int, first_ring: bool = False) -> tuple[A
     return {"s": (s, first_ring), "r": (r, True)}, [{"p": p, "q": q}], [("s", "p"), ("q", "r")]
 
 
-@pytest.mark.parametrize("number", [2, 3, 4, 5])
-def test_stepped_planets_fit_as_in_every_engagement_tried(number: int) -> None:
-    rule = planet_rule(epicyclic(*stepped(20, 15, 12, 60)), number)
-    assert rule.name == f"{number} equal planets on 'arm': {number} gcd(q, p) divides r p + s q"
-    grid = box(s=range(12, 20), p=range(9, 17), q=range(8, 15), r=range(40, 48))
+SUNS: Any = ({"s": (20, False), "r": (22, False)}, [{"p": 15, "q": 12}], [("s", "p"), ("q", "r")])
+
+
+@pytest.mark.parametrize(
+    ("parts", "signs", "number", "formula"),
+    [
+        *((stepped(20, 15, 12, 60), (1, -1), number, "r p + s q") for number in (2, 3, 4, 5)),
+        (SUNS, (1, 1), 3, "r p - s q"),
+        (stepped(60, 15, 12, 62, True), (-1, -1), 3, "r p - s q"),
+    ],
+)
+def test_stepped_planets_fit_as_in_every_engagement_tried(
+    parts: Any, signs: tuple[int, int], number: int, formula: str
+) -> None:
+    rule = planet_rule(epicyclic(*parts), number)
+    assert rule.name == f"{number} equal planets on 'arm': {number} gcd(q, p) divides {formula}"
+    grid = box(s=range(30, 36), p=range(9, 17), q=range(8, 15), r=range(36, 44))
     rows = zip(*(grid[name].tolist() for name in "spqr"), strict=True)
-    assert rule.holds(grid).tolist() == [put_in([(p, s), (-q, r)], number) for s, p, q, r in rows]
-
-
-def test_stepped_planets_between_two_suns_and_between_two_rings_fit_as_tried() -> None:
-    suns: Any = ({"s": (20, False), "r": (22, False)}, [{"p": 15, "q": 12}], [("s", "p"), ("q", "r")])
-    for parts, sign in ((suns, 1), (stepped(60, 15, 12, 62, True), -1)):
-        rule = planet_rule(epicyclic(*parts), 3)
-        grid = box(s=range(30, 36), p=range(9, 15), q=range(8, 14), r=range(36, 42))
-        rows = zip(*(grid[name].tolist() for name in "spqr"), strict=True)
-        assert rule.holds(grid).tolist() == [put_in([(sign * p, s), (sign * q, r)], 3) for s, p, q, r in rows]
+    first, second = signs
+    assert rule.holds(grid).tolist() == [put_in([(first * p, s), (second * q, r)], number) for s, p, q, r in rows]
 
 
 SETS: dict[str, tuple[Any, ...]] = {
@@ -299,7 +295,8 @@ def test_bevel_planets_fit_as_their_loops_close(number: int) -> None:
             data["revolutes"].append({"pair": ["crown", f"spider{at}"], "axis": f"S{at}"})
             data["gears"] += [{"pair": ["l16", f"p{at}"]}, {"pair": ["r16", f"p{at}"]}]
         train = GearTrain.declare(data)
-        rules = rules_of(train.declaration, ["l16", "r16"], planets=number)
+        # bevel wheels have no sums
+        rules = rules_of(train.declaration, ["l16", "r16"], planets=number, coaxial=True)
         assert [rule.name for rule in rules] == [f"{number} equal planets on 'crown': {number} divides l16 + r16"]
         assert passed(rules, l16=left, r16=right) == bool(train.closure)
         assert train.closure.loops

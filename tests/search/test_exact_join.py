@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise, product
 from math import exp, prod
+from operator import le, lt
 from typing import Any
 
 import numpy as np
@@ -18,12 +19,14 @@ from sampling import few_or_many
 
 import geartrain.search.join.exact_join as joining
 import geartrain.search.join.product_lists as lists
-from geartrain.search.constraints.count_conditions import CountEquation
-from geartrain.search.join.inside_outside import AssignmentSums, BestFirst, record_join
-from geartrain.search.join.join_plan import find_join_problem
-from geartrain.search.join.wheel_monomials import IntervalConstraint
+from geartrain.search.constraints import CountEquation
+from geartrain.search.join import AssignmentSums, BestFirst, IntervalConstraint, find_join_problem, record_join
 
-Terms = tuple[tuple[int, tuple[int, ...]], ...]
+Row = tuple[int, ...]
+Domains = dict[str, Row]
+Terms = tuple[tuple[int, Row], ...]
+Asked = tuple[Domains, list[IntervalConstraint], list[CountEquation]]
+LONG = 10**30
 
 
 @dataclass(frozen=True)
@@ -49,7 +52,7 @@ def value(terms: Terms, point: Sequence[int]) -> int:
 
 
 @st.composite
-def joins(draw: st.DrawFn) -> tuple[dict[str, tuple[int, ...]], list[IntervalConstraint], list[CountEquation]]:
+def joins(draw: st.DrawFn) -> Asked:
     """Functions of any shape that share wheels, asked for values they have; and rules."""
     names = tuple("abcdef"[: draw(st.integers(2, 6))])
     domains = {name: tuple(sorted(draw(st.sets(st.integers(1, 9), min_size=1, max_size=3)))) for name in names}
@@ -77,8 +80,8 @@ def joins(draw: st.DrawFn) -> tuple[dict[str, tuple[int, ...]], list[IntervalCon
     return domains, requested, rules
 
 
-def merge(terms: list[tuple[int, tuple[int, ...]]]) -> Terms:
-    total: Counter[tuple[int, ...]] = Counter()
+def merge(terms: list[tuple[int, Row]]) -> Terms:
+    total: Counter[Row] = Counter()
     for coefficient, powers in terms:
         total[powers] += coefficient
     return tuple((coefficient, powers) for powers, coefficient in total.items() if coefficient)
@@ -95,9 +98,7 @@ def used(function: Quotient) -> Quotient:
     return Quotient(tuple(function.wheels[at] for at in kept), cut(function.numerator), cut(function.denominator))
 
 
-def solutions(
-    domains: dict[str, tuple[int, ...]], requested: list[IntervalConstraint], rules: list[CountEquation]
-) -> list[tuple[int, ...]]:
+def solutions(domains: Domains, requested: list[IntervalConstraint], rules: list[CountEquation]) -> list[Row]:
     found = []
     for counts in product(*domains.values()):
         teeth = dict(zip(domains, counts, strict=True))
@@ -110,21 +111,18 @@ def fits(requested: IntervalConstraint, teeth: dict[str, int]) -> bool:
     speed = requested.function.value(teeth)
     if speed is None:
         return False
-    if requested.strict:
-        return any((low is None or speed > low) and (high is None or speed < high) for low, high in requested.intervals)
-    return any((low is None or speed >= low) and (high is None or speed <= high) for low, high in requested.intervals)
+    below = lt if requested.strict else le
+    return any(
+        (low is None or below(low, speed)) and (high is None or below(speed, high)) for low, high in requested.intervals
+    )
 
 
 def keeps(rule: CountEquation, teeth: dict[str, int]) -> bool:
     return sum(factor * teeth[wheel] for wheel, factor in rule.coefficients.items()) + rule.constant == 0
 
 
-Asked = tuple[dict[str, tuple[int, ...]], list[IntervalConstraint], list[CountEquation]]
-LONG = 10**30
-
-
 @st.composite
-def weighed(draw: st.DrawFn, largest: int) -> tuple[Asked, dict[str, tuple[int, ...]]]:
+def weighed(draw: st.DrawFn, largest: int) -> tuple[Asked, Domains]:
     """A question, and whole weights of the counts of some wheels."""
     requested = draw(joins())
     some = draw(st.sets(st.sampled_from(sorted(requested[0]))))
@@ -134,7 +132,7 @@ def weighed(draw: st.DrawFn, largest: int) -> tuple[Asked, dict[str, tuple[int, 
     return requested, weights
 
 
-def weight_of(counts: tuple[int, ...], domains: dict[str, tuple[int, ...]], weights: dict[str, tuple[int, ...]]) -> int:
+def weight_of(counts: Row, domains: Domains, weights: Domains) -> int:
     places = {wheel: at for at, wheel in enumerate(domains)}
     return prod(own[domains[wheel].index(counts[places[wheel]])] for wheel, own in weights.items())
 
@@ -146,9 +144,8 @@ def test_sums_over_a_recorded_join_are_those_of_loops(largest: int, block: int) 
     @given(case=weighed(largest), guess=st.sampled_from([1.0, 1e-6]))
     def holds(case: tuple[Asked, Any], guess: float) -> None:
         (domains, requested, rules), some = case
-        problem = find_join_problem(
-            domains, requested, rules, dict.fromkeys([one.name for one in (*requested, *rules)], guess)
-        )
+        guesses = dict.fromkeys([one.name for one in (*requested, *rules)], guess)
+        problem = find_join_problem(domains, requested, rules, probabilities=guesses)
         assume(not problem.late)
         truth = solutions(domains, requested, rules)
         with pytest.MonkeyPatch.context() as patch:
@@ -176,7 +173,7 @@ def test_sums_over_a_recorded_join_are_those_of_loops(largest: int, block: int) 
     holds()
 
 
-def _check_covariances(sums: AssignmentSums, domains: dict[str, tuple[int, ...]], truth: list[tuple[int, ...]]) -> None:
+def _check_covariances(sums: AssignmentSums, domains: Domains, truth: list[Row]) -> None:
     floats = {wheel: np.full(len(counts), 1 / len(counts)) for wheel, counts in domains.items()}
     names = list(domains)
     for (first, second), value in sums.covariances(floats, domains).items():
@@ -189,7 +186,7 @@ def _check_covariances(sums: AssignmentSums, domains: dict[str, tuple[int, ...]]
 def test_grades_multiply_weights_and_order_what_fits(case: Asked, wanted: list[Fraction]) -> None:
     domains, requested, rules = case
     graded = [IntervalConstraint(one.name, one.function, one.intervals, one.strict, graded=True) for one in requested]
-    problem = find_join_problem(domains, graded, rules, {})
+    problem = find_join_problem(domains, graded, rules, probabilities={})
     assume(not problem.late)
     truth = solutions(domains, requested, rules)
     ends = [float(one) for one in wanted]
@@ -197,7 +194,7 @@ def test_grades_multiply_weights_and_order_what_fits(case: Asked, wanted: list[F
         problem, np.inf, {at: lambda values, end=end: (values - end) ** 2 for at, end in enumerate(ends)}
     )  # type: ignore[misc]
 
-    def misfit(row: tuple[int, ...]) -> float:
+    def misfit(row: Row) -> float:
         teeth = dict(zip(domains, row, strict=True))
         speeds = [one.function.value(teeth) for one in requested if isinstance(one.function, Quotient)]
         return sum((float(speed or 0) - end) ** 2 for speed, end in zip(speeds, ends, strict=False))
@@ -218,7 +215,7 @@ coefficients = st.one_of(st.integers(-50, 50), st.integers(-(10**40), 10**40)).f
 
 
 @st.composite
-def long_joins(draw: st.DrawFn) -> tuple[dict[str, tuple[int, ...]], list[IntervalConstraint]]:
+def long_joins(draw: st.DrawFn) -> tuple[Domains, list[IntervalConstraint]]:
     """Polynomials whose terms cancel at one assignment, up to what floats cannot see, or nothing."""
     names = "abc"[: draw(st.integers(1, 3))]
     domains = {name: tuple(sorted(draw(st.sets(sizes, min_size=1, max_size=4)))) for name in names}
@@ -254,10 +251,10 @@ BESIDE_THE_GAP = IntervalConstraint(
 @given(long_joins(), st.sampled_from([1.0, 1e-6]))
 @example((COUNTS_BY_A_GAP, [BESIDE_THE_GAP]), 1.0)
 def test_joins_are_exact_however_large_the_numbers_and_near_the_ends(
-    question: tuple[dict[str, tuple[int, ...]], list[IntervalConstraint]], guess: float
+    question: tuple[Domains, list[IntervalConstraint]], guess: float
 ) -> None:
     domains, requested = question
-    problem = find_join_problem(domains, requested, [], {one.name: guess for one in requested})
+    problem = find_join_problem(domains, requested, [], probabilities={one.name: guess for one in requested})
     root, _ = record_join(problem, np.inf, {})
     found = sorted(tuple(one.teeth[wheel] for wheel in domains) for one in BestFirst(root, domains))
     assert found == solutions(domains, requested, [])

@@ -19,6 +19,7 @@ from reference_solver import solve_naively
 from sampling import few_or_many
 from shipped import every_train
 from strategies import Data, driven_trains, overdriven_trains, requested_trains
+from yaml import safe_load
 
 from geartrain import GearTrain, load
 from geartrain.errors import QuestionError
@@ -154,24 +155,22 @@ def check_against_naive(data: Data, found: Formulas, counts: Mapping[str, int]) 
         assert held or known.kind != "determined"
 
 
-STEPPED = {
-    "links": {
-        "frame": {"wheels": {"ring": {"teeth": 80, "internal": True}}},
-        "sun": {"wheels": {"s": 20}},
-        "arm": {},
-        "one": {"wheels": {"p1": 20, "q1": 30}},
-        "two": {"wheels": {"p2": 20, "q2": 30}},
-    },
-    "revolutes": [
-        {"pair": ["frame", "sun"], "axis": "main"},
-        {"pair": ["frame", "arm"], "axis": "main"},
-        {"pair": ["arm", "one"], "axis": "a"},
-        {"pair": ["arm", "two"], "axis": "b"},
-    ],
-    "gears": [{"pair": pair} for pair in (["s", "p1"], ["s", "p2"], ["q1", "ring"], ["q2", "ring"])],
-    "inputs": {"sun": 1},
-    "outputs": {"arm": {}},
-}
+STEPPED = safe_load("""
+links:
+  frame: {wheels: {ring: {teeth: 80, internal: true}}}
+  sun: {wheels: {s: 20}}
+  arm: {}
+  one: {wheels: {p1: 20, q1: 30}}
+  two: {wheels: {p2: 20, q2: 30}}
+revolutes:
+  - {pair: [frame, sun], axis: main}
+  - {pair: [frame, arm], axis: main}
+  - {pair: [arm, one], axis: a}
+  - {pair: [arm, two], axis: b}
+gears: [{pair: [s, p1]}, {pair: [s, p2]}, {pair: [q1, ring]}, {pair: [q2, ring]}]
+inputs: {sun: 1}
+outputs: {arm: {}}
+""")
 
 
 def test_two_stepped_planets_turn_if_their_counts_are_in_one_proportion() -> None:
@@ -202,25 +201,23 @@ def test_a_loop_of_counts_that_are_not_free_holds_its_wheels_as_ever() -> None:
     assert find_formulas(declare(free), None, {"s": ANY})["sun"].constant == 0
 
 
-TWO_SUNS = {
-    "links": {
-        "frame": {"wheels": {"r": {"teeth": 60, "internal": True}, "f": 30}},
-        "one": {"wheels": {"s": 24}},
-        "two": {"wheels": {"e": 30}},
-        "arm": {},
-        "planet": {"wheels": {"p": 18}},
-        "other": {"wheels": {"q": 20}},
-    },
-    "revolutes": [
-        {"pair": ["frame", "one"], "axis": "main"},
-        {"pair": ["frame", "two"], "axis": "main"},
-        {"pair": ["frame", "arm"], "axis": "main"},
-        {"pair": ["arm", "planet"], "axis": "a"},
-        {"pair": ["arm", "other"], "axis": "b"},
-    ],
-    "gears": [{"pair": pair} for pair in (["s", "p"], ["p", "r"], ["q", "f"], ["q", "e"])],
-    "outputs": {"arm": {}},
-}
+TWO_SUNS = safe_load("""
+links:
+  frame: {wheels: {r: {teeth: 60, internal: true}, f: 30}}
+  one: {wheels: {s: 24}}
+  two: {wheels: {e: 30}}
+  arm: {}
+  planet: {wheels: {p: 18}}
+  other: {wheels: {q: 20}}
+revolutes:
+  - {pair: [frame, one], axis: main}
+  - {pair: [frame, two], axis: main}
+  - {pair: [frame, arm], axis: main}
+  - {pair: [arm, planet], axis: a}
+  - {pair: [arm, other], axis: b}
+gears: [{pair: [s, p]}, {pair: [p, r]}, {pair: [q, f]}, {pair: [q, e]}]
+outputs: {arm: {}}
+""")
 
 
 @pytest.mark.parametrize(
@@ -287,34 +284,20 @@ def test_a_train_held_whatever_its_counts_never_turns() -> None:
 
 
 def test_a_difference_of_axes_that_point_apart_has_the_signs_of_the_solver() -> None:
-    data: Data = {
-        "links": {
-            "frame": {},
-            "a": {"wheels": {"x": {"teeth": 20, "kind": "bevel"}}},
-            "b": {
-                "wheels": {
-                    "y": {"teeth": 30, "kind": "bevel", "facing": -1},
-                    "w": {"teeth": 11, "hand": "left", "kind": "worm"},
-                }
-            },
-            "c": {"wheels": {"z": 50}},
-        },
-        "axes": {
-            "A": {"direction": [0, 0, -1]},
-            "B": {"direction": [1, 0, 0]},
-            "C": {"direction": [0, 0, 1]},
-        },
-        "revolutes": [{"pair": ["frame", link], "axis": link.upper()} for link in "abc"],
-        "gears": [{"pair": ["x", "y"]}, {"pair": ["w", "z"]}],
-        "inputs": {"a": 1},
-        "outputs": {
-            "b": {},
-            "c": {},
-            "apart": {"of": "c", "relative_to": "a"},
-            "other": {"of": "a", "relative_to": "c"},
-        },
-    }
-    train = declare(data)
+    train = declare(
+        safe_load("""
+        links:
+          frame: {}
+          a: {wheels: {x: {teeth: 20, kind: bevel}}}
+          b: {wheels: {y: {teeth: 30, kind: bevel, facing: -1}, w: {teeth: 11, hand: left, kind: worm}}}
+          c: {wheels: {z: 50}}
+        axes: {A: {direction: [0, 0, -1]}, B: {direction: [1, 0, 0]}, C: {direction: [0, 0, 1]}}
+        revolutes: {A: [frame, a], B: [frame, b], C: [frame, c]}
+        gears: [x ~ y, w ~ z]
+        inputs: {a: 1}
+        outputs: {b: {}, c: {}, apart: {of: c, relative_to: a}, other: {of: a, relative_to: c}}
+        """)
+    )
     found = find_formulas(train, None, all_free(train))
     for counts in ({"x": 20, "y": 30, "w": 11, "z": 50}, {"x": 7, "y": 9, "w": 2, "z": 31}):
         answer = GearTrain(with_counts(train, counts)).solve()

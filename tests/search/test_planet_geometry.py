@@ -21,10 +21,10 @@ from geartrain.kinematics.buildability.pitch_distances import tip_margin
 # ---------------------------------------------------------------------------------------------------------------- ties
 
 
-def neighbours(planets: int) -> Any:
-    rules = rules_of(epicyclic(*SIMPLE), ["s", "p"], coaxial=False, planets=planets, clearance=Fraction(0))
-    (rule,) = [rule for rule in rules if "neighbours" in rule.name]
-    return rule
+def neighbours(train: Any, planets: int, clearance: Any = 0, **more: Any) -> list[Any]:
+    """The conditions on clearance."""
+    rules = rules_of(train, planets=planets, clearance=Fraction(clearance), **more)
+    return [rule for rule in rules if "neighbours" in rule.name]
 
 
 def test_near_ties_are_decided_by_digits_that_floats_do_not_have() -> None:
@@ -34,13 +34,15 @@ def test_near_ties_are_decided_by_digits_that_floats_do_not_have() -> None:
         p, q = [*p, p[-1] + 2 * q[-1]], [*q, p[-1] + q[-1]]
     tops, beneath = np.array(p[3:]), np.array(q[3:])
     # four planets: s + p is more than the square root of 2 times p + 2
-    found = neighbours(4).holds(columns(s=tops - beneath + 2, p=beneath - 2))
+    (rule,) = neighbours(epicyclic(*SIMPLE), 4, coaxial=False)
+    found = rule.holds(columns(s=tops - beneath + 2, p=beneath - 2))
     assert found.tolist() == [at % 2 == 1 for at in range(3, len(p))]
 
 
 def test_a_tie_is_no_room() -> None:
     # six planets: half of s + p is p + 2 where s = p + 4
-    found = neighbours(6).holds(columns(s=[22, 23, 24, 23], p=[18, 19, 20, 18]))
+    (rule,) = neighbours(epicyclic(*SIMPLE), 6, coaxial=False)
+    found = rule.holds(columns(s=[22, 23, 24, 23], p=[18, 19, 20, 18]))
     assert found.tolist() == [False, False, False, True]
 
 
@@ -65,8 +67,7 @@ def gap(planets: Sequence[tuple[float, float, float]], number: int, own: Sequenc
 @pytest.mark.parametrize("number", [2, 3, 4, 5, 6, 7])
 @pytest.mark.parametrize("clearance", ["0", "0.5", "-1/3"])
 def test_neighbouring_planets_clear_each_other_as_circles_do(number: int, clearance: str) -> None:
-    rules = rules_of(epicyclic(*SIMPLE), planets=number, clearance=Fraction(clearance), coaxial=False)
-    (rule,) = [rule for rule in rules if "neighbours" in rule.name]
+    (rule,) = neighbours(epicyclic(*SIMPLE), number, clearance, coaxial=False)
     grid = box(s=range(12, 60, 5), p=range(12, 60, 7))
     for s, p, held in zip(grid["s"].tolist(), grid["p"].tolist(), rule.holds(grid), strict=True):
         room = gap([((s + p) / 2, 0, p / 2 + 1)], number, []) - float(Fraction(clearance))
@@ -78,7 +79,7 @@ def test_modules_weigh_the_tips_of_stepped_planets() -> None:
     data = epicyclic({"s": (20, False), "r": (60, True)}, [{"p": 15, "q": 12}], [("s", "p"), ("q", "r")])
     data["links"]["Ls"]["wheels"]["s"]["module"] = "1 mm"
     data["links"]["Lr"]["wheels"]["r"]["module"] = "1.5 mm"
-    rules = [rule for rule in rules_of(data, planets=3, clearance=Fraction(0)) if "neighbours" in rule.name]
+    rules = neighbours(data, 3)
     for s, p, q in product(range(12, 40, 5), range(10, 40, 4), range(10, 40, 4)):
         r = q + Fraction(2 * (s + p), 3)
         if r.denominator == 1:
@@ -98,11 +99,7 @@ PAIRED: tuple[Any, ...] = (
 
 @pytest.mark.parametrize("number", [2, 3, 4])
 def test_planets_one_after_the_other_clear_each_other_and_the_central_wheels_as_circles_do(number: int) -> None:
-    rules = [
-        rule
-        for rule in rules_of(epicyclic(*PAIRED), planets=number, clearance=Fraction(1, 4))
-        if "neighbours" in rule.name
-    ]
+    rules = neighbours(epicyclic(*PAIRED), number, "1/4")
     assert len(rules) == 5
     held = 0
     for s, p, q, r in product(range(14, 40, 6), range(12, 30, 5), range(12, 30, 5), range(50, 100, 7)):
@@ -121,8 +118,7 @@ def test_planets_one_after_the_other_clear_each_other_and_the_central_wheels_as_
 
 
 def test_planets_of_a_ravigneaux_set_reach_each_other() -> None:
-    train = load("ravigneaux-set").declaration
-    rules = [rule for rule in rules_of(train, planets=3, clearance=Fraction(0)) if "neighbours" in rule.name]
+    rules = neighbours(load("ravigneaux-set").declaration, 3)
     assert len(rules) == 3
     for a, ps, pl, b in product(range(18, 40, 4), range(14, 30, 4), range(14, 30, 4), range(24, 50, 6)):
         A, B, D = (a + ps) / 2, (b + pl) / 2, (ps + pl) / 2

@@ -15,10 +15,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from sampling import few_or_many
 
+import geartrain.search.ratio.search_segments as stages_work
 from geartrain.errors import QuestionError, RangeError
 from geartrain.numerics import Journal, open_executor
 from geartrain.search import StageConstraints, StageFindings, TargetRatio, find_stages
-from geartrain.search.ratio import search_segments as stages_work
 
 Set = tuple[int, ...]
 MONTH = Fraction("13.368267")
@@ -88,7 +88,7 @@ def check_account(found: StageFindings, top: Sequence[int], beneath: Sequence[in
     """Every pair of sets is a solution, or charged to one reason."""
     size = found.stages
     assert found.considered == comb(len(top) + size - 1, size) * comb(len(beneath) + size - 1, size)
-    assert found.considered == found.count + sum((found.shortfall.removed or {}).values())
+    assert found.considered == found.count + sum(found.shortfall.removed.values())
 
 
 @st.composite
@@ -188,9 +188,19 @@ def cut_into(patch: pytest.MonkeyPatch, block: int) -> None:
 # printed numbers ------------------------------------------------------------------------------------------------------
 
 
-def test_two_stages_for_the_month_have_nine_solutions() -> None:
-    found = find_stages(TargetRatio(MONTH), 2, range(30, 131), range(12, 41), tolerance=Fraction(1, 10**5))
-    assert (found.count, len(found), found.complete) == (9, 9, True)
+def of_the_month(ratio: Fraction = MONTH, sense: Any = 0, internal: int = 0) -> StageFindings:
+    """Two stages for the month."""
+    fit = StageConstraints(internal=internal)
+    return find_stages(
+        TargetRatio(ratio, sense), 2, range(30, 131), range(12, 41), tolerance=Fraction(1, 10**5), fit=fit
+    )
+
+
+def test_two_stages_for_the_month_have_nine_solutions_and_its_inverse_has_the_pinions_on_top() -> None:
+    fast, slow = of_the_month(), of_the_month(1 / MONTH)
+    assert (fast.count, len(fast), fast.complete) == (9, 9, True)
+    assert slow.top == tuple(range(12, 41))
+    assert {(s.beneath, s.top) for s in slow} == {(s.top, s.beneath) for s in fast}
 
 
 def test_three_stages_for_the_month_have_eighty_five_solutions() -> None:
@@ -234,13 +244,6 @@ def test_an_exact_ratio_is_met_exactly_with_the_fewest_teeth_first() -> None:
     assert all(solution.error == 0 for solution in found)
 
 
-def test_a_ratio_below_one_has_pinions_over_wheels() -> None:
-    fast = find_stages(TargetRatio(MONTH), 2, range(30, 131), range(12, 41), tolerance=Fraction(1, 10**5))
-    slow = find_stages(TargetRatio(1 / MONTH), 2, range(30, 131), range(12, 41), tolerance=Fraction(1, 10**5))
-    assert slow.top == tuple(range(12, 41))
-    assert {(s.beneath, s.top) for s in slow} == {(s.top, s.beneath) for s in fast}
-
-
 def test_many_solutions_are_listed_as_well_as_few() -> None:
     question = (TargetRatio(MONTH), 3, range(30, 101), range(15, 41))
     all_of_them = find_stages(*question, tolerance=Fraction(1, 20000), best=20000)
@@ -269,39 +272,25 @@ def test_products_of_fifteen_digits_are_found_exactly() -> None:
 
 
 def test_a_sense_that_no_counts_can_give_is_named() -> None:
-    found = find_stages(TargetRatio(MONTH, -1), 2, range(30, 131), range(12, 41), tolerance=Fraction(1, 10**5))
+    found = of_the_month(sense=-1)
     assert (found.count, found.complete) == (0, True)
     assert found.shortfall.removed == {"opposite sense of rotation": found.considered}
     for word in ("idler", "stage", "internal=1"):
         assert word in found.shortfall.advice
-    turned = find_stages(
-        TargetRatio(MONTH, -1),
-        2,
-        range(30, 131),
-        range(12, 41),
-        tolerance=Fraction(1, 10**5),
-        fit=StageConstraints(internal=1),
-    )
-    assert turned.count == 9
-    assert find_stages(TargetRatio(MONTH, 1), 2, range(30, 131), range(12, 41), tolerance=Fraction(1, 10**5)).count == 9
+    assert of_the_month(sense=-1, internal=1).count == of_the_month(sense=1).count == 9
 
 
-def test_an_empty_answer_names_the_nearest_miss_and_a_tolerance_that_gives_it() -> None:
+def test_an_empty_answer_names_the_nearest_miss_a_tolerance_that_gives_it_and_one_more_stage() -> None:
     question = (TargetRatio(Fraction("13.36838")), 2, range(12, 101), range(12, 101))
-    found = find_stages(*question, tolerance=Fraction(1, 10**8))
+    found = find_stages(*question, tolerance=Fraction(1, 10**7))
     best = find_stages(*question, best=1)[0]
+    three = find_stages(question[0], 3, *question[2:], tolerance=Fraction(1, 10**7))
     assert found.count == 0
     assert found.shortfall.removed == {"outside the tolerance": found.considered}
     assert "73 x 89 / 18 x 27" in found.shortfall.nearest
     assert (best.top, best.beneath) == ((73, 89), (18, 27))
     told = Fraction(found.shortfall.advice.split("tolerance of ")[1].split(" gives")[0])
     assert find_stages(*question, tolerance=told).count == 1
-
-
-def test_an_empty_answer_says_what_one_more_stage_gives() -> None:
-    question = (TargetRatio(Fraction("13.36838")), range(12, 101), range(12, 101))
-    found = find_stages(question[0], 2, *question[1:], tolerance=Fraction(1, 10**7))
-    three = find_stages(question[0], 3, *question[1:], tolerance=Fraction(1, 10**7))
     assert f"one more stage gives {three.count} solutions" in found.shortfall.advice
 
 
@@ -309,9 +298,7 @@ def test_a_condition_that_removes_everything_is_charged() -> None:
     found = find_stages(
         TargetRatio(Fraction(16)), 2, (40, 80), (10, 20), tolerance=Fraction(0), fit=StageConstraints(hunting=True)
     )
-    removed = found.shortfall.removed
-    assert removed is not None
-    assert removed["no pairing with coprime counts in every stage"] == 3
+    assert found.shortfall.removed["no pairing with coprime counts in every stage"] == 3
     assert "no counts satisfy the constraints" in found.shortfall.nearest
     assert "without constraints" in found.shortfall.nearest
 
@@ -345,11 +332,19 @@ def test_questions_without_sense_are_refused(change: dict[str, Any], said: str) 
     assert all(problem.fix for problem in caught.value.problems)
 
 
-def test_tables_that_would_not_fit_in_memory_are_refused() -> None:
-    with pytest.raises(RangeError, match="too many"):
-        find_stages(TargetRatio(MONTH), 5, range(12, 1200), range(12, 1200))
-    with pytest.raises(RangeError, match="too large"):
-        find_stages(TargetRatio(MONTH), 2, range(10**9, 10**9 + 10000), range(12, 2000))
+@pytest.mark.parametrize(
+    ("stages", "wheels", "pinions", "fit", "said"),
+    [
+        (5, range(12, 1200), range(12, 1200), StageConstraints(), "too many"),
+        (2, range(10**9, 10**9 + 10000), range(12, 2000), StageConstraints(), "too large"),
+        (4, range(12, 212), range(12, 212), StageConstraints(hunting=True), "reduce the tolerance"),
+    ],
+)
+def test_what_would_need_too_much_memory_or_time_is_refused(
+    stages: int, wheels: range, pinions: range, fit: StageConstraints, said: str
+) -> None:
+    with pytest.raises(RangeError, match=said):
+        find_stages(TargetRatio(MONTH), stages, wheels, pinions, tolerance=Fraction(1, 1000), fit=fit)
 
 
 def test_a_ratio_beyond_all_counts_is_refused_or_missed_by_the_nearest() -> None:
@@ -357,16 +352,11 @@ def test_a_ratio_beyond_all_counts_is_refused_or_missed_by_the_nearest() -> None
         find_stages(TargetRatio(Fraction(10**29)), 3, range(12, 101), range(12, 101))
     with pytest.raises(QuestionError, match="from 1e-30 to 1e30"):
         TargetRatio(Fraction(10**999))
-    found = find_stages(TargetRatio(Fraction(10**6)), 3, range(12, 101), range(12, 101), tolerance=Fraction(1, 100))
+    question = (TargetRatio(Fraction(10**6)), 3, range(12, 101), range(12, 101))
+    found = find_stages(*question, tolerance=Fraction(1, 100))
     assert "100 x 100 x 100 / 12 x 12 x 12" in found.shortfall.nearest
-    best = find_stages(TargetRatio(Fraction(10**6)), 3, range(12, 101), range(12, 101), best=2)
+    best = find_stages(*question, best=2)
     assert listed(best) == [((100, 100, 100), (12, 12, 12)), ((99, 100, 100), (12, 12, 12))]
-
-
-def test_a_look_at_too_many_pairs_is_refused_with_a_tolerance_that_will_do() -> None:
-    question = (TargetRatio(MONTH), 4, range(12, 212), range(12, 212))
-    with pytest.raises(RangeError, match="reduce the tolerance"):
-        find_stages(*question, tolerance=Fraction(1, 1000), fit=StageConstraints(hunting=True))
 
 
 # many workers, and work cut short -------------------------------------------------------------------------------------

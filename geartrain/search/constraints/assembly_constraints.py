@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
 from itertools import combinations
+from math import inf
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -35,6 +36,7 @@ from geartrain.search.constraints.count_conditions import (
     CountConstraint,
     CountEquation,
     LinearSum,
+    WholeSum,
     are_coprime,
     are_owned,
     cosine,
@@ -42,23 +44,19 @@ from geartrain.search.constraints.count_conditions import (
     distance_of,
     equality,
     free_of,
-    is_bounded,
+    is_between,
     is_different,
-    is_near_zero,
     is_positive,
     plainest,
     sine,
-    teeth_of,
     whole,
 )
-from geartrain.search.tooth_count_ranges import MOST_TEETH
 from geartrain.train.mechanism import OwnedWheels, Teeth
 
 if TYPE_CHECKING:
-    from geartrain.kinematics.buildability.equal_planets import AssemblyMesh, PlanetSet, TrainAssembly
     from geartrain.numerics.arrays import Bools, Ints
     from geartrain.numerics.quantity import Quantity
-    from geartrain.search.constraints.count_conditions import CandidateColumns, WholeSum
+    from geartrain.search.constraints.count_conditions import CandidateColumns
     from geartrain.search.tooth_count_ranges import Counts
     from geartrain.train import Train
 
@@ -82,8 +80,8 @@ def find_constraints(
 
 @dataclass(frozen=True)
 class _ConstraintBuilder:
-    """Builder of the constraints of one train. In the train `fitting`, the varied wheels have placeholder tooth
-    counts.
+    """Builder of all constraints of one train. `fitting` is the train `declared`, in which every varied wheel has the
+    first of its admissible tooth counts.
     """
 
     declared: Train
@@ -99,8 +97,8 @@ class _ConstraintBuilder:
         yield from self._owned()
 
     def _owned(self) -> Iterator[CountConstraint]:
-        """Yield a condition for each collection of available wheels: no tooth count may be used for more wheels than
-        the collection contains.
+        """Yield, for each collection of wheels that the user owns, the condition that no tooth count is used for more
+        wheels than the collection contains.
         """
         wheels: dict[tuple[tuple[int, int], ...], dict[str, int]] = {}
         for name, (link, wheel) in self.declared.wheels.items():
@@ -120,15 +118,17 @@ class _ConstraintBuilder:
             # the count of a worm is its number of starts, which does not determine its size
             if name not in self.fitting.free or wheel.kind == "worm":
                 continue
+            bounds: list[tuple[str, float, float]] = []
             if requested.minimum is not None:
-                yield _bounds(f"'{name}' has at least {requested.minimum} teeth", name, minimum=requested.minimum)
+                bounds.append((f"at least {requested.minimum} teeth", requested.minimum, inf))
             if requested.maximum_teeth is not None:
-                what = f"'{name}' has at most {requested.maximum_teeth} teeth"
-                yield _bounds(what, name, most=requested.maximum_teeth)
+                bounds.append((f"at most {requested.maximum_teeth} teeth", 0, requested.maximum_teeth))
             if requested.largest_radius is not None:
-                plain = "" if requested.largest_radius.unit else " modules"
-                what = f"'{name}' has a radius of at most {requested.largest_radius}{plain}"
-                yield _bounds(what, name, most=self._most(name, requested.largest_radius))
+                radius = f"{requested.largest_radius}{'' if requested.largest_radius.unit else ' modules'}"
+                bounds.append((f"a radius of at most {radius}", 0, self._most(name, requested.largest_radius)))
+            for words, minimum, most in bounds:
+                count = WholeSum(((name, 1),), 0)
+                yield from _condition(f"'{name}' has {words}", is_between, count, minimum, most)
 
     def _most(self, wheel: str, radius: Quantity) -> int:
         """Return the maximum tooth count of a wheel for which its pitch radius does not exceed `radius`."""
@@ -173,7 +173,14 @@ class _ConstraintBuilder:
         # the varied counts cancel, so the constraint depends on fixed counts only
         if not total.terms:
             if abs(total.constant) > shift:
-                raise QuestionError(_unequal_distances(before, mesh))
+                raise QuestionError(
+                    Problem(
+                        f"'{before.name}' and '{mesh.name}' cannot have equal centre distances",
+                        "they connect the same two axes, and the varied tooth counts do not affect the difference of "
+                        "their centre distances",
+                        "correct a fixed count, allow a `shift`, or do not require `coaxial`",
+                    )
+                )
             return
         found = plainest(total)
         if not shift:
@@ -181,28 +188,23 @@ class _ConstraintBuilder:
             return
         scaled, room = whole(total, LinearSum({}, Fraction(shift)))
         words = f"coaxial closure within {self.requested.shift} half modules: {equality(found)}"
-        yield Condition(words, scaled.wheels, partial(is_near_zero, scaled, room.constant))
+        yield from _condition(words, is_between, scaled, -room.constant, room.constant)
 
     def _is_broken(self, total: LinearSum, shift: Fraction | int) -> bool:
-        """Return whether the declared tooth counts violate an equality of centre distances that was not requested
-        explicitly.
-
-        In that case the wheels have different modules or shifted profiles, so the constraint is not applied.
+        """Return whether the declared tooth counts contradict the requirement that `total`, the difference of two
+        centre distances, has a magnitude of at most `shift`. False if this requirement is explicit; otherwise it is
+        dropped, because the modules or the profile shifts of the wheels differ.
         """
-        counts = {wheel: self._declared_count(wheel) for wheel in total.terms}
-        known = [weight * (counts[wheel] or 0) for wheel, weight in total.terms.items()]
-        return (
-            self.requested.coaxial is None and None not in counts.values() and abs(sum(known) + total.constant) > shift
-        )
-
-    def _declared_count(self, wheel: str) -> int | None:
-        """Return the declared tooth count of a wheel; None if the search varies the count, so that the declared value
-        is only a placeholder.
-        """
-        teeth = self.declared.wheels[wheel][1].teeth
-        if isinstance(teeth, int):
-            return teeth
-        return None if teeth.search else teeth.value
+        if self.requested.coaxial is not None:
+            return False
+        for wheel, weight in total.terms.items():
+            teeth = self.declared.wheels[wheel][1].teeth
+            # a value besides a `search` is only a placeholder
+            count = teeth if isinstance(teeth, int) else None if teeth.search else teeth.value
+            if count is None:
+                return False
+            total = total.plus(weight * count)
+        return abs(total.constant) > shift
 
     # ----------------------------------------------------------------------------------------------------------- pairs
 
@@ -217,8 +219,8 @@ class _ConstraintBuilder:
             yield from self._different()
 
     def _different(self) -> Iterator[CountConstraint]:
-        """Yield conditions that require different tooth counts: first of a varied wheel and all fixed wheels, then of
-        each pair of varied wheels.
+        """Yield the conditions that no varied wheel has the same tooth count as a fixed wheel, and that no two varied
+        wheels have the same tooth count. Copies of one planet are exempt.
         """
         words = "different counts: two wheels have equal counts"
         copied = (pair for one in self.fitting.sets for pair in self._copied(one))
@@ -243,8 +245,8 @@ class _ConstraintBuilder:
     # --------------------------------------------------------------------------------------------------------- planets
 
     def _planet_sets(self) -> Iterator[tuple[PlanetSet, int]]:
-        """Yield each set of planets and its number of equal planets, as requested or as declared by `copies`. Sets
-        without such a number are omitted.
+        """Yield each set of planets with its number of copies around the central axis, as requested or, by default, as
+        declared by `copies`. Sets without such a number are omitted.
         """
         requested = self.requested.planets
         if requested is None:
@@ -253,26 +255,31 @@ class _ConstraintBuilder:
                 if copies > 1 and one.planets is not None:
                     yield one, copies
             return
-        known = dict.fromkeys(one.carrier for one in self.fitting.sets)
-        unknown = [carrier for carrier in requested if carrier not in known] if isinstance(requested, Mapping) else []
-        if unknown or not known:
-            raise QuestionError(_no_planets(unknown, list(known)))
+        carriers = list(dict.fromkeys(one.carrier for one in self.fitting.sets))
+        numbers = requested if isinstance(requested, Mapping) else dict.fromkeys(carriers, requested)
+        unknown = [carrier for carrier in numbers if carrier not in carriers]
+        if unknown or not carriers:
+            raise QuestionError(
+                Problem(
+                    f"'{unknown[0]}' carries no planets" if unknown else "no link carries planets",
+                    "the axes of planets must be on a link other than the frame",
+                    f"give a number for one of these carriers: {', '.join(carriers)}"
+                    if carriers
+                    else "omit the number of planets",
+                )
+            )
         for one in self.fitting.sets:
-            number = requested.get(one.carrier) if isinstance(requested, Mapping) else requested
-            if number is None:
+            if one.carrier not in numbers:
                 continue
-            if number < 1 or self._declared_sets(one) not in (1, number) or one.planets is None:
-                raise QuestionError(_wrong_planet_number(one, number, self._declared_sets(one)))
+            number = numbers[one.carrier]
+            # equal sets are declared by `copies` or individually
+            declared = max(len(one.copies) + 1, *(self.declared.links[link].copies for link in one.links))
+            if number < 1 or declared not in (1, number) or one.planets is None:
+                raise QuestionError(_wrong_planet_number(one, number, declared))
             yield one, number
 
-    def _declared_sets(self, one: PlanetSet) -> int:
-        """Return the declared number of planet sets equal to the given one. Equal sets are declared by `copies` or
-        individually.
-        """
-        return max(len(one.copies) + 1, *(self.declared.links[link].copies for link in one.links))
-
     def _equal(self) -> Iterator[CountConstraint]:
-        """Yield equations stating that the tooth counts of equal planets are equal, for planets that are declared
+        """Yield equations that require equal tooth counts of corresponding wheels of equal planets that are declared
         individually.
         """
         for one, _ in self._planet_sets():
@@ -284,7 +291,7 @@ class _ConstraintBuilder:
     def _planets(self) -> Iterator[CountConstraint]:
         numbered = list(self._planet_sets())
         for one, number in numbered:
-            rule = equal_planets(one, number, reason(one, number))
+            rule = equal_planets(one, number)
             if rule is not None:
                 yield rule
         if self.requested.clearance is None:
@@ -298,29 +305,7 @@ class _ConstraintBuilder:
                 )
             )
         for one, number in numbered:
-            room = PlanetClearance(number, self.requested.clearance)
-            yield from room.conditions(one, self.fitting)
-
-
-def _bounds(name: str, wheel: str, minimum: int = 0, most: int = MOST_TEETH) -> Condition:
-    return Condition(name, (wheel,), partial(is_bounded, wheel, minimum, most))
-
-
-def _unequal_distances(before: AssemblyMesh, mesh: AssemblyMesh) -> Problem:
-    return Problem(
-        f"'{before.name}' and '{mesh.name}' cannot have equal centre distances",
-        "they connect the same two axes, and the counts of varied wheels cancel",
-        "correct a fixed count, allow a `shift`, or do not require `coaxial`",
-    )
-
-
-def _no_planets(unknown: list[str], known: list[str]) -> Problem:
-    what = f"'{unknown[0]}' carries no planets" if unknown else "no link carries planets"
-    return Problem(
-        what,
-        "the axes of planets must be on a link other than the frame",
-        f"give a number for one of these carriers: {', '.join(known)}" if known else "omit the number of planets",
-    )
+            yield from clearance_conditions(one, number, self.requested.clearance)
 
 
 def _wrong_planet_number(one: PlanetSet, number: int, declared: int) -> Problem:
@@ -339,25 +324,21 @@ def _wrong_planet_number(one: PlanetSet, number: int, declared: int) -> Problem:
     return Problem(what, why, fix)
 
 
-# Assembly of equal planets on a carrier: phase conditions on tooth counts, and clearance between neighbours.
-
-
-# Assembly of equal, equally spaced planets.
+# ------------------------------------------------------------------------------ assembly of equal, spaced planets
 
 
 def can_mesh(number: int, first: Planet, columns: CandidateColumns) -> Bools:
-    """Return whether `number` equal sets of planets, equally spaced around the central axis, can mesh with the same
-    central wheels.
+    """Return, for each candidate, whether `number` equal sets of planets, equally spaced around the central axis, can
+    mesh with the same central wheels. `first` is the first planet of a set.
 
-    The condition is that `number` divides every integer returned by `phase_numbers`. This condition is derived in
-    `phase_numbers`.
+    The condition is that `number` divides every integer returned by `phase_numbers`.
     """
     # b is only needed modulo n; reduced, so that products of counts fit int64
     kind = PhaseArithmetic(lambda part: counts_of(columns, part), np.gcd, bezout, lambda one: one % number)
     found = np.asarray(True)
     for each in phase_numbers(first, kind):
         found = found & (each % number == 0)
-    return np.asarray(found)
+    return found
 
 
 def bezout(a: Ints, b: Ints) -> tuple[Ints, Ints, Ints]:
@@ -376,57 +357,54 @@ def bezout(a: Ints, b: Ints) -> tuple[Ints, Ints, Ints]:
     return r, s, t
 
 
-def equal_planets(found: PlanetSet, number: int, name: str) -> Condition | None:
-    """Return the assembly condition of a set of equal, equally spaced planets.
+def equal_planets(found: PlanetSet, number: int) -> Condition | None:
+    """Return the condition on tooth counts under which `number` copies of a set of planets can be assembled with equal
+    spacing around the central axis.
 
     Return None if no wheel is varied, or if the planets mesh with fewer than two central wheels. In the latter case any
-    number of planets can be assembled.
+    number of copies can be assembled.
     """
     assert found.planets is not None
     planets = list(found.planets.walk())
-    if sum(len(planet.central) for planet in planets) < 2:
+    central = [mesh_counts(planet, mesh) for planet in planets for mesh in planet.central]
+    outward = [mesh_counts(planet, mesh, other) for planet in planets for mesh, other in planet.outward]
+    wheels = free_of(*(part for pair in (*central, *outward) for part in pair))
+    if len(central) < 2 or not wheels:
         return None
-    counts = [mesh_counts(planet, mesh) for planet in planets for mesh in planet.central]
-    counts += [mesh_counts(planet, mesh, other) for planet in planets for mesh, other in planet.outward]
-    wheels = free_of(*(part for pair in counts for part in pair))
-    return Condition(name, wheels, partial(can_mesh, number, found.planets)) if wheels else None
+    formula = f"teeth of {found.title} mesh"
+    first = found.planets
+    if len(first.central) == 2 and not first.outward:
+        (own, mate), (own2, mate2) = central
+        sign = "+" if first.central[0].sense * first.central[1].sense < 0 else "-"
+        formula = f"{number} gcd({own}, {own2}) divides {mate} {own2} {sign} {mate2} {own}"
+        if len(first.wheels) == 1:
+            formula = f"{number} divides {mate} {sign} {mate2}"
+    name = f"{number} equal planets on '{found.carrier}': {formula}"
+    return Condition(name, wheels, partial(can_mesh, number, first))
 
 
-def reason(found: PlanetSet, number: int) -> str:
-    """Return a description of the assembly condition of equal planets. It contains the formula if there are two central
-    wheels.
-    """
-    head = f"{number} equal planets on '{found.carrier}'"
-    planet = found.planets
-    if planet is None or planet.outward or len(planet.central) != 2:
-        return f"{head}: teeth of {found.title} mesh"
-    (own, mate), (own2, mate2) = (mesh_counts(planet, mesh) for mesh in planet.central)
-    sign = "+" if planet.central[0].sense * planet.central[1].sense < 0 else "-"
-    if len(planet.wheels) == 1:
-        return f"{head}: {number} divides {mate} {sign} {mate2}"
-    return f"{head}: {number} gcd({own}, {own2}) divides {mate} {own2} {sign} {mate2} {own}"
-
-
-# Clearance between planets: neighbours on a carrier, and planets that mesh with each other.
+# ------------------------------------- clearance between planets: neighbours, and planets that mesh with each other
 
 
 def are_apart(number: int, reach: WholeSum, tips: WholeSum, columns: CandidateColumns) -> Bools:
-    """Return whether the clearance between the tip circles of neighbouring planets exceeds the required clearance, by
-    exact comparison.
+    """Return, for each candidate, whether the clearance between the tip circles of neighbouring planets exceeds the
+    required clearance, by exact comparison.
 
-    `reach` is twice the distance of the axis of a planet from the central axis, and `tips` is the tip diameter plus the
-    required clearance; see `neighbour_terms`.
+    number   number of equally spaced planets
+    reach    twice the distance of the axis of a planet from the central axis
+    tips     tip diameter of a planet plus the required clearance
     """
     chord = sine(Fraction(1, 2 * number))
     return is_positive(neighbour_terms, [reach.of(columns), tips.of(columns)], [chord], True)
 
 
 def can_pass(number: int, A: WholeSum, B: WholeSum, D: WholeSum, tips: WholeSum, columns: CandidateColumns) -> Bools:
-    """Return whether two meshing planets can be placed on the circles of their axes without overlap with the mates of
-    the other planets.
+    """Return, for each candidate, whether a planet and its mating planet can be assembled without overlap between the
+    planet and the mating planets of the other `number` - 1 equal sets.
 
-    A and B are twice the radii of the two circles, and D is twice the centre distance of the planets; see
-    `passing_terms`.
+    A, B   twice the distances of the axes of the planet and of its mating planet from the central axis
+    D      twice the centre distance of the planet and its mating planet
+    tips   sum of the tip diameters plus twice the required clearance
     """
     a, b, d, tip = (one.of(columns) for one in (A, B, D, tips))
     # the triangle of the central axis and the two planets must close
@@ -437,84 +415,61 @@ def can_pass(number: int, A: WholeSum, B: WholeSum, D: WholeSum, tips: WholeSum,
     return found
 
 
-def is_above_zero(room: WholeSum, columns: CandidateColumns) -> Bools:
-    """Return whether the sum `room`, which is the clearance of a planet, is positive for each candidate."""
-    return np.asarray(room.of(columns) > 0)
+def clearance_conditions(found: PlanetSet, number: int, clearance: Fraction) -> Iterator[Condition]:
+    """Yield the clearance conditions of one set of `number` equal planets: first of neighbouring equal wheels, then of
+    planets that mesh with each other.
 
+    clearance   required minimum clearance between tip circles [modules]; the addendum is assumed to be 1 module
 
-@dataclass(frozen=True, slots=True)
-class PlanetClearance:
-    """Number of planets, and required minimum clearance between neighbouring planets [modules]. The addendum is assumed
-    to be 1 module.
+    Wheels are assumed to be concentric with the axes of their planets. In a set of two planets, if one meshes only with
+    external central wheels and the other only with rings, all of these wheels are assumed to lie in one plane.
     """
-
-    number: int
-    clearance: Fraction
-
-    def conditions(self, found: PlanetSet, fitting: TrainAssembly) -> Iterator[Condition]:
-        """Yield the clearance conditions of one set of planets: first of neighbouring equal wheels, then of planets
-        that mesh with each other.
-
-        Wheels are assumed to be concentric with the axes of their planets. In a set of two planets, if one meshes
-        only with external central wheels and the other only with rings, all of these wheels are assumed to lie in
-        one plane.
-        """
-        assert found.planets is not None
-        _check(found)
-        for planet in found.planets.walk():
-            yield from self._neighbour_conditions(planet)
-            for mesh, other in planet.outward:
-                yield from self._passing_conditions(mesh, planet, other)
-
-    def _neighbour_conditions(self, planet: Planet) -> Iterator[Condition]:
+    assert found.planets is not None
+    _check_clearance(found)
+    shown = "1 module" if clearance == 1 else f"{float(clearance):g} modules"
+    for planet in found.planets.walk():
         for mesh in _wheel_meshes(planet):
-            wheel, part, reach = planet.own(mesh), mesh.parts[planet.side(mesh)], _reach(planet, planet.own(mesh))
-            if reach is None:
+            wheel = planet.own(mesh)
+            reach = _reach(planet, wheel)
+            if reach is not None:
+                assert mesh.module is not None
+                tips = LinearSum.of([(1, mesh.parts[planet.side(mesh)])]).plus(2 + clearance).times(mesh.module)
+                name = f"neighbours: tip clearance of {number} planets '{wheel}' above {shown}"
+                yield from _condition(name, are_apart, number, *whole(reach, tips))
+        for mesh, other in planet.outward:
+            A, B = _reach(planet), _reach(other)
+            if A is None or B is None or mesh.ring is not None:
                 continue
             assert mesh.module is not None
-            tips = LinearSum.of([(1, part)]).plus(2 + self.clearance).times(mesh.module)
-            name = f"neighbours: tip clearance of {self.number} planets '{wheel}' above {_shown(self.clearance)}"
-            yield from _condition(name, are_apart, self.number, *whole(reach, tips))
+            tips = LinearSum.of(mesh.terms).plus(4 + 2 * clearance).times(mesh.module)
+            pair = f"'{planet.own(mesh)}' and '{other.own(mesh)}'"
+            name = f"neighbours: {pair} of {number} planets mesh, with tip clearance above {shown}"
+            yield from _condition(name, can_pass, number, *whole(A, B, distance_of(mesh), tips))
+            for inner, outer in ((planet, other), (other, planet)):
+                if _is_plain(inner, True) and _is_plain(outer, False):
+                    yield from _gap_conditions(outer, inner, clearance)
+                    yield from _gap_conditions(inner, outer, clearance)
 
-    def _passing_conditions(self, mesh: AssemblyMesh, planet: Planet, other: Planet) -> Iterator[Condition]:
-        A, B = _reach(planet), _reach(other)
-        if A is None or B is None or mesh.ring is not None:
-            return
+
+def _gap_conditions(planet: Planet, other: Planet, clearance: Fraction) -> Iterator[Condition]:
+    """Yield the conditions that a planet has more than the required clearance [modules] from each central wheel of the
+    other planet.
+    """
+    reach, own = _reach(planet), planet.central[0]
+    assert reach is not None
+    for mesh in other.central:
         assert mesh.module is not None
-        tips = teeth_of(mesh).plus(4 + 2 * self.clearance).times(mesh.module)
-        pair = f"'{planet.own(mesh)}' and '{other.own(mesh)}'"
-        name = f"neighbours: {pair} of {self.number} planets mesh, with tip clearance above {_shown(self.clearance)}"
-        yield from _condition(name, can_pass, self.number, *whole(A, B, distance_of(mesh), tips))
-        for inner, outer in ((planet, other), (other, planet)):
-            if _is_plain(inner, True) and _is_plain(outer, False):
-                yield from self._gap_conditions(inner, outer)
-
-    def _gap_conditions(self, inner: Planet, outer: Planet) -> Iterator[Condition]:
-        """Yield two kinds of conditions: the outer planet has clearance from the central wheels of the inner planet,
-        and the inner planet has clearance from the rings of the outer planet.
-        """
-        for planet, other in ((outer, inner), (inner, outer)):
-            for mesh in other.central:
-                name = f"neighbours: '{planet.wheels[0]}' clears '{other.mate(mesh)}'"
-                yield from _condition(name, is_above_zero, *whole(self._gap(planet, other, mesh)))
-
-    def _gap(self, planet: Planet, other: Planet, mesh: AssemblyMesh) -> LinearSum:
-        """Return twice the clearance of a planet from the central wheel of another planet, minus twice the required
-        clearance.
-        """
-        reach, own = _reach(planet), planet.central[0]
-        assert reach is not None
-        assert mesh.module is not None
+        # a ring encloses the planet, so the signs of the reach and of its radius are opposite
         sign = 1 if mesh.ring is None else -1
         tips = LinearSum.of([(sign, mesh.parts[1 - other.side(mesh)]), (1, own.parts[planet.side(own)])])
-        tips = tips.plus(2 * (2 + self.clearance)).times(mesh.module)
-        # a ring encloses the planet, so the signs of the reach and of its radius are opposite
-        return reach.times(sign) - tips
+        gap = reach.times(sign) - tips.plus(2 * (2 + clearance)).times(mesh.module)
+        name = f"neighbours: '{planet.wheels[0]}' clears '{other.mate(mesh)}'"
+        yield from _condition(name, is_between, *whole(gap), 1, inf)
 
 
 def _is_plain(planet: Planet, external: bool) -> bool:
-    """Return whether a planet consists of one wheel, is at the end of its planet set, and meshes only with external
-    central wheels (if `external` is True) or only with rings (if it is False).
+    """Return whether a planet consists of one wheel, meshes with exactly one other planet, and meshes only with
+    external central wheels (if `external` is True) or only with rings (if it is False).
     """
     alone = len(planet.wheels) == 1 and len(planet.outward) + (planet.inward is not None) == 1
     return alone and bool(planet.central) and all((mesh.ring is None) == external for mesh in planet.central)
@@ -522,10 +477,8 @@ def _is_plain(planet: Planet, external: bool) -> bool:
 
 def _reach(planet: Planet, wheel: str = "") -> LinearSum | None:
     """Return twice the distance of the axis of a planet from the central axis; None if the planet meshes with no
-    central wheel.
-
-    The distance is computed from a mesh of `wheel` with a central wheel, if there is one. External meshes are preferred
-    to internal meshes.
+    central wheel. The distance is computed from a mesh of `wheel` with a central wheel if there is one, and from an
+    external mesh if possible.
     """
     meshes = sorted(planet.central, key=lambda mesh: (planet.own(mesh) != wheel, mesh.ring is not None))
     return distance_of(meshes[0]) if meshes else None
@@ -537,25 +490,20 @@ def _wheel_meshes(planet: Planet) -> list[AssemblyMesh]:
     return list({planet.own(mesh): mesh for mesh in meshes}.values())
 
 
-def _meshes(found: PlanetSet) -> list[AssemblyMesh]:
-    assert found.planets is not None
-    return [mesh for planet in found.planets.walk() for mesh in _wheel_meshes(planet)]
-
-
-def _condition(name: str, test: Callable[..., Bools], *arguments: int | WholeSum) -> Iterator[Condition]:
-    sums = [one for one in arguments if not isinstance(one, int)]
+def _condition(name: str, test: Callable[..., Bools], *arguments: float | WholeSum) -> Iterator[Condition]:
+    """Yield a condition with the given name, whose test is the function `test` with `arguments` as its first arguments.
+    Nothing is yielded if no sum in `arguments` contains a varied wheel.
+    """
+    sums = [one for one in arguments if isinstance(one, WholeSum)]
     wheels = tuple(dict.fromkeys(wheel for one in sums for wheel in one.wheels))
     if wheels:
         yield Condition(name, wheels, partial(test, *arguments))
 
 
-def _shown(number: Fraction) -> str:
-    return f"{float(number):g} modules" if number != 1 else "1 module"
-
-
-def _check(found: PlanetSet) -> None:
+def _check_clearance(found: PlanetSet) -> None:
     """Raise `QuestionError` if the clearance of a set of planets cannot be computed."""
-    meshes = _meshes(found)
+    assert found.planets is not None
+    meshes = [mesh for planet in found.planets.walk() for mesh in _wheel_meshes(planet)]
     if not all(mesh.spur for mesh in meshes):
         why, fix = "the tips of bevel wheels are not on circles about parallel axes", "omit the clearance"
     elif any(mesh.module is None for mesh in meshes):

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from fractions import Fraction
-from typing import Any, TypeVar
+from typing import Any
 
 from pydantic_core import PydanticCustomError
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.quantity import Figure, Quantity
-
-Read = TypeVar("Read")
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,34 +88,22 @@ def read_constraint_options(
     The `QuestionError` lists all strings that cannot be parsed, each with the name of its option of `geartrain teeth
     train`.
     """
-    problems: list[Problem] = []
-
-    read: dict[str, Any] = {
-        "planets": _read(problems, "planets", planets, _planets),
-        "clearance": _read(problems, "clearance", clearance, lambda raw: Figure.parse(raw).value),
-        "largest_radius": _read(
-            problems, "max-radius", largest_radius, lambda raw: Quantity.parse(raw, "length", plain=True)
-        ),
-    }
+    problems = []
+    for name, option, text, parse in (
+        ("planets", "planets", planets, _planets),
+        ("clearance", "clearance", clearance, lambda text: Figure.parse(text).value),
+        ("largest_radius", "max-radius", largest_radius, lambda text: Quantity.parse(text, "length", plain=True)),
+    ):
+        if text is None:
+            continue
+        try:
+            others[name] = parse(text)
+        except PydanticCustomError as error:
+            why, fix = (str((error.context or {}).get(part, "")) for part in ("why", "fix"))
+            problems.append(Problem(error.message(), why, fix, f"--{option}"))
     if problems:
         raise QuestionError(problems)
-    return ConstraintOptions(**others, **{name: value for name, value in read.items() if value is not None})
-
-
-def _read(problems: list[Problem], option: str, text: str | None, parse: Callable[[str], Read]) -> Read | None:
-    """Parse the value of an option and return it. If the value is invalid, append a problem to `problems` and return
-    None.
-    """
-    if text is None:
-        return None
-    try:
-        return parse(text)
-    except PydanticCustomError as error:
-        context = error.context or {}
-        problems.append(
-            Problem(error.message(), str(context.get("why", "")), str(context.get("fix", "")), f"--{option}")
-        )
-        return None
+    return ConstraintOptions(**others)
 
 
 def _planets(text: str) -> int | dict[str, int]:
@@ -127,7 +113,9 @@ def _planets(text: str) -> int | dict[str, int]:
         name, _, number = piece.rpartition("=")
         if not number.strip().isascii() or not number.strip().isdigit() or ("," in text and not name):
             raise PydanticCustomError(
-                "planets", "'{text}' is not a number of planets", {"text": text, "fix": "write 3, or arm=3,inner=4"}
+                "planets",
+                "'{text}' is not a number of planets",
+                {"text": text, "why": "a number of planets is a positive integer", "fix": "write 3, or arm=3,inner=4"},
             )
         names.append(name.strip())
         found.append(int(number))

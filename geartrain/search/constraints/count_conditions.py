@@ -17,8 +17,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from geartrain.kinematics.buildability.equal_planets import AssemblyMesh, CountRef
     from geartrain.numerics.arrays import Bools, Ints
 
@@ -40,8 +38,8 @@ It returns whether each candidate passes, shape (candidates,).
 
 @dataclass(frozen=True, slots=True)
 class CountEquation:
-    """Linear equation of tooth counts: the sum of the products of coefficients and tooth counts, plus a constant, is
-    0.
+    """Linear equation of tooth counts: the sum of all tooth counts, each multiplied by its coefficient, plus a constant
+    is 0.
     """
 
     name: str
@@ -56,16 +54,10 @@ class CountEquation:
         """Ids of the varied wheels in the equation."""
         return tuple(self.coefficients)
 
-    def left(self, columns: CandidateColumns) -> Ints:
-        """Return the left-hand side of the equation for each candidate, shape (candidates,); 0 if the equation is
-        satisfied. Sums above 2^63 overflow.
-        """
-        terms = [factor * columns[wheel] for wheel, factor in self.coefficients.items()]
-        return np.asarray(reduce(np.add, terms) + self.constant, dtype=np.int64)
-
     def holds(self, columns: CandidateColumns) -> Bools:
-        """Return whether each candidate satisfies the equation, shape (candidates,)."""
-        return np.asarray(self.left(columns) == 0)
+        """Return whether each candidate satisfies the equation, shape (candidates,). Sums above 2^63 overflow."""
+        total = sum(factor * columns[wheel] for wheel, factor in self.coefficients.items())
+        return np.asarray(total == -self.constant)
 
     def solve_for(self, wheel: str, columns: CandidateColumns) -> tuple[Ints, Bools]:
         """Return the tooth count of one wheel, computed from the tooth counts of the other wheels, and whether the
@@ -92,9 +84,8 @@ class Condition:
     """Predicate that returns whether each candidate satisfies the condition."""
 
     def holds(self, columns: CandidateColumns) -> Bools:
-        """Return whether each candidate satisfies the condition, shape (candidates,), read-only.
-
-        Columns of other wheels are ignored.
+        """Return whether each candidate satisfies the condition, as a read-only array of shape (candidates,). `columns`
+        may contain further wheels.
         """
         return np.broadcast_to(self.test(columns), columns[self.wheels[0]].shape)
 
@@ -104,15 +95,15 @@ CountConstraint = CountEquation | Condition
 
 
 def counts_of(columns: CandidateColumns, part: CountRef) -> Ints:
-    """Return the tooth counts of a wheel for all candidates: the column of a varied wheel, or the tooth count of a
-    fixed wheel.
+    """Return the tooth counts of one wheel for all candidates: its column if `part` is the id of a varied wheel, or
+    `part` itself if it is a fixed tooth count.
     """
     return columns[part] if isinstance(part, str) else np.asarray(part, dtype=np.int64)
 
 
 def free_of(*parts: CountRef) -> tuple[str, ...]:
-    """Return the distinct ids of varied wheels in a list of wheel ids and fixed tooth counts, in order of
-    occurrence.
+    """Return the distinct ids of varied wheels in `parts`, in order of occurrence. All other elements of `parts` are
+    fixed tooth counts.
     """
     return tuple(dict.fromkeys(part for part in parts if isinstance(part, str)))
 
@@ -122,19 +113,17 @@ def free_of(*parts: CountRef) -> tuple[str, ...]:
 
 @dataclass(frozen=True, slots=True)
 class LinearSum:
-    """Sum of weighted tooth counts of varied wheels, plus a constant. Weights are never 0."""
+    """Weighted sum of the tooth counts of varied wheels, plus a constant. No weight is 0."""
 
     terms: Mapping[str, Fraction]
     constant: Fraction = Fraction(0)
 
     @classmethod
     def of(cls, parts: Iterable[tuple[Fraction | int, CountRef]]) -> LinearSum:
-        """Build the sum from pairs (weight, part), where a part is the id of a varied wheel or a fixed tooth count."""
+        """Return the sum of pairs (weight, part), where a part is the id of a varied wheel or a fixed tooth count."""
         total = cls({})
         for weight, part in parts:
-            total = total + (
-                cls({part: Fraction(weight)}) if isinstance(part, str) else cls({}, Fraction(weight * part))
-            )
+            total += cls({part: Fraction(weight)}) if isinstance(part, str) else cls({}, Fraction(weight * part))
         return total
 
     def __add__(self, other: LinearSum) -> LinearSum:
@@ -147,9 +136,7 @@ class LinearSum:
         return self + other.times(-1)
 
     def times(self, factor: Fraction | int) -> LinearSum:
-        """Return the sum multiplied by a factor."""
-        if not factor:
-            return LinearSum({})
+        """Return the sum multiplied by a factor other than 0."""
         return LinearSum({wheel: weight * factor for wheel, weight in self.terms.items()}, self.constant * factor)
 
     def plus(self, number: Fraction | int) -> LinearSum:
@@ -159,7 +146,7 @@ class LinearSum:
 
 @dataclass(frozen=True, slots=True)
 class WholeSum:
-    """Sum of tooth counts of varied wheels with integer weights, plus an integer constant."""
+    """Weighted sum of the tooth counts of varied wheels, plus a constant. All weights and the constant are integers."""
 
     terms: tuple[tuple[str, int], ...]
     constant: int
@@ -180,7 +167,9 @@ class WholeSum:
 
 
 def whole(*sums: LinearSum) -> tuple[WholeSum, ...]:
-    """Multiply several sums by the smallest common positive factor for which all weights and constants are integers."""
+    """Return all sums, multiplied by the smallest common positive factor for which their weights and constants are
+    integers.
+    """
     scale = lcm(*(number.denominator for one in sums for number in (*one.terms.values(), one.constant)))
     return tuple(
         WholeSum(tuple((wheel, int(weight * scale)) for wheel, weight in one.terms.items()), int(one.constant * scale))
@@ -189,9 +178,7 @@ def whole(*sums: LinearSum) -> tuple[WholeSum, ...]:
 
 
 def plainest(one: LinearSum) -> WholeSum:
-    """Return a multiple of a sum. Its weights and its constant are coprime integers, and its first weight is
-    positive.
-    """
+    """Return the multiple of a sum whose weights and constant are coprime integers, with a positive first weight."""
     (found,) = whole(one)
     # the greatest common divisor of a zero sum is 0
     common = gcd(*(weight for _, weight in found.terms), found.constant) or 1
@@ -201,7 +188,7 @@ def plainest(one: LinearSum) -> WholeSum:
 
 
 def equality(one: WholeSum) -> str:
-    """Format the equation "sum = 0" so that it contains no minus signs, such as `s + 2 p = r`."""
+    """Return the equation "sum = 0" as text without minus signs, such as `s + 2 p = r`."""
     pieces = [(one.constant, str(abs(one.constant)))] if one.constant else []
     pieces += [(weight, f"{abs(weight)} {wheel}" if abs(weight) != 1 else wheel) for wheel, weight in one.terms]
     left, right = ([text for weight, text in pieces if weight * side > 0] for side in (1, -1))
@@ -211,14 +198,15 @@ def equality(one: WholeSum) -> str:
 # ------------------------------------------------------------------------------------ conditions on counts and on sums
 
 
-def is_bounded(wheel: str, minimum: int, most: int, columns: CandidateColumns) -> Bools:
-    """Return whether the tooth count of a wheel is between `minimum` and `most`, both inclusive, for each candidate."""
-    return np.asarray((columns[wheel] >= minimum) & (columns[wheel] <= most))
+def is_between(total: WholeSum, minimum: float, maximum: float, columns: CandidateColumns) -> Bools:
+    """Return, for each candidate, whether a sum of tooth counts is at least `minimum` and at most `maximum`."""
+    found = total.of(columns)
+    return np.asarray((found >= minimum) & (found <= maximum))
 
 
 def are_coprime(first: CountRef, second: CountRef, columns: CandidateColumns) -> Bools:
-    """Return whether two tooth counts are coprime, so that every tooth of one wheel meets every tooth of the other
-    (hunting tooth).
+    """Return, for each candidate, whether two tooth counts are coprime, so that every tooth of one wheel meets every
+    tooth of the other (hunting tooth).
     """
     return np.asarray(np.gcd(counts_of(columns, first), counts_of(columns, second)) == 1)
 
@@ -234,18 +222,8 @@ def are_owned(numbers: Sequence[tuple[int, int]], used: Mapping[str, int], colum
 
 
 def is_different(wheel: str, others: Sequence[CountRef], columns: CandidateColumns) -> Bools:
-    """Return whether the tooth count of a wheel differs from all tooth counts in `others`, for each candidate."""
+    """Return, for each candidate, whether the tooth count of a wheel differs from all tooth counts in `others`."""
     return np.asarray(np.all([columns[wheel] != counts_of(columns, other) for other in others], axis=0))
-
-
-def is_near_zero(total: WholeSum, most: int, columns: CandidateColumns) -> Bools:
-    """Return whether the absolute value of a sum of tooth counts is at most `most`, for each candidate."""
-    return np.asarray(np.abs(total.of(columns)) <= most)
-
-
-def teeth_of(mesh: AssemblyMesh) -> LinearSum:
-    """Return twice the centre distance of a spur pair [modules], as a sum of tooth counts."""
-    return LinearSum.of(mesh.terms)
 
 
 def distance_of(mesh: AssemblyMesh) -> LinearSum:
@@ -253,7 +231,7 @@ def distance_of(mesh: AssemblyMesh) -> LinearSum:
     module has no unit].
     """
     assert mesh.module is not None
-    return teeth_of(mesh).times(mesh.module)
+    return LinearSum.of(mesh.terms).times(mesh.module)
 
 
 # -------------------------------------------------- comparisons with sines, to fifty digits where floats cannot decide
@@ -268,13 +246,13 @@ The argument `root` is the square-root function for the number type; it returns 
 
 
 def decimal(number: Fraction | int) -> Decimal:
-    """Convert a fraction to a decimal that is correct to at least fifty digits."""
+    """Convert a fraction to a decimal that is correct to at least fifty significant digits."""
     with localcontext(prec=_DIGITS):
         return Decimal(Fraction(number).numerator) / Decimal(Fraction(number).denominator)
 
 
 def sine(turns: Fraction) -> Decimal:
-    """Return the sine of an angle from -1 to 1 turns to fifty digits, by its power series."""
+    """Return the sine of an angle [turn] from -1 to 1 to fifty digits, by its power series."""
     with localcontext(prec=_DIGITS):
         x = 2 * _PI * decimal(turns)
         term = total = x
@@ -288,7 +266,7 @@ def sine(turns: Fraction) -> Decimal:
 
 
 def cosine(turns: Fraction) -> Decimal:
-    """Return the cosine of an angle from -1 to 3/4 turns to fifty digits, computed as a sine."""
+    """Return the cosine of an angle [turn] from -1 to 3/4 to fifty digits, computed as a sine."""
     return sine(turns + Fraction(1, 4))
 
 
@@ -302,30 +280,16 @@ def is_positive(kernel: Kernel, counts: Sequence[Ints], constants: Sequence[Deci
     The sum is evaluated in floating point, and again with fifty digits where the floating-point result is near 0. Terms
     may include roots of differences of products.
     """
-    spread = np.broadcast_arrays(*counts)
-    terms = kernel(_root, *(column.astype(float) for column in spread), *map(float, constants))
-    margin, scale = _total(terms), _total([np.abs(term) for term in terms])
-    found = np.broadcast_to(margin > 0, spread[0].shape).copy()
+    columns = np.broadcast_arrays(*counts)
+    floats = (column.astype(float) for column in columns)
+    terms = kernel(lambda square: np.sqrt(np.maximum(square, 0.0)), *floats, *map(float, constants))
+    margin, scale = sum(terms), sum(map(np.abs, terms))
+    found = np.broadcast_to(margin > 0, columns[0].shape).copy()
     # the float result is within its error bound of 0
     for at in np.flatnonzero(np.broadcast_to(np.abs(margin) <= _NEAR * scale, found.shape)):
-        found.flat[at] = _decide(kernel, [int(column.flat[at]) for column in spread], constants, strictly)
+        with localcontext(prec=_DIGITS):
+            exact = (Decimal(int(column.flat[at])) for column in columns)
+            digits = kernel(lambda square: max(square, Decimal(0)).sqrt(), *exact, *constants)
+            total, bound = sum(digits, Decimal(0)), _EQUAL * sum(map(abs, digits), Decimal(0))
+            found.flat[at] = total > bound if strictly else total >= -bound
     return found
-
-
-def _root(square: Any) -> NDArray[np.float64]:
-    return np.asarray(np.sqrt(np.maximum(np.asarray(square, dtype=float), 0.0)))
-
-
-def _decimal_root(square: Decimal) -> Decimal:
-    return max(square, Decimal(0)).sqrt()
-
-
-def _total(terms: Sequence[Any]) -> NDArray[np.float64]:
-    return np.asarray(sum(terms), dtype=float)
-
-
-def _decide(kernel: Kernel, counts: Sequence[int], constants: Sequence[Decimal], strictly: bool) -> bool:
-    with localcontext(prec=_DIGITS):
-        terms = kernel(_decimal_root, *map(Decimal, counts), *constants)
-        total, scale = sum(terms, Decimal(0)), sum(map(abs, terms), Decimal(0))
-        return bool(total > scale * _EQUAL if strictly else total >= -scale * _EQUAL)

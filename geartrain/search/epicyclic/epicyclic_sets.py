@@ -8,15 +8,14 @@ for every fixed member, the possible positions of equal planets, and the conditi
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cache
 from itertools import permutations
 from types import MappingProxyType
 from typing import Any, ClassVar, Literal
 
-from geartrain.errors import Problem, QuestionError
+from geartrain.errors import Problem, QuestionError, suggest
 from geartrain.numerics.exact import abridged_text, as_float, decimal
 from geartrain.numerics.results import Key, Result, Tabular, brief, finite
 from geartrain.search.search_outcome import CountSizes, Shortfall
@@ -26,7 +25,7 @@ CARRIER = "carrier"
 
 @dataclass(frozen=True, slots=True)
 class CentralWheel:
-    """Sun or ring of an epicyclic set, with the planet wheel with which it meshes and its signed factor in the speed
+    """Sun or ring of an epicyclic set, with the planet wheel with which it meshes, and its contribution to the speed
     ratios.
     """
 
@@ -139,23 +138,21 @@ class EpicyclicKind(Result):
         """Return the operating modes selected by "all" or by strings in the format `input:output:held`. `QuestionError`
         is raised if a string is not a mode of this type.
         """
-        if isinstance(modes, str):
-            if modes == "all":
-                return self.modes
-            modes = [modes]
-        return tuple(mode if isinstance(mode, EpicyclicMode) else self._mode(mode) for mode in modes)
-
-    def _mode(self, text: str) -> EpicyclicMode:
-        parts = [part.strip() for part in text.split(":")]
-        if len(parts) == 3 and len(set(parts)) == 3 and set(parts) <= set(self.links):
-            return EpicyclicMode(*parts)
-        raise QuestionError(
-            Problem(
-                f"'{text}' is not a mode of the kind '{self.name}'",
-                f"a mode is input:output:held with three different members of {', '.join(self.links)}",
-                f"for example, write {self.modes[0].key}, or all",
-            )
-        )
+        if modes == "all":
+            return self.modes
+        found = []
+        for mode in [modes] if isinstance(modes, str) else modes:
+            parts = [part.strip() for part in (mode if isinstance(mode, str) else mode.key).split(":")]
+            if len(parts) != 3 or len(set(parts)) < 3 or not set(parts) <= set(self.links):
+                raise QuestionError(
+                    Problem(
+                        f"'{mode}' is not a mode of the kind '{self.name}'",
+                        f"a mode is input:output:held with three different members of {', '.join(self.links)}",
+                        f"for example, write {self.modes[0].key}, or all",
+                    )
+                )
+            found.append(EpicyclicMode(*parts))
+        return tuple(found)
 
 
 _ORDER = ("s", "s1", "p", "ps", "pl", "p1", "r", "r1", "p2", "s2", "r2")
@@ -254,22 +251,16 @@ _KINDS = (
 )
 
 
-@cache
-def kinds() -> Mapping[str, EpicyclicKind]:
-    """Return all types of epicyclic sets, keyed by name."""
-    # read-only, because the mapping is cached
-    return MappingProxyType({kind.name: kind for kind in _KINDS})
+EPICYCLIC_KINDS: Mapping[str, EpicyclicKind] = MappingProxyType({kind.name: kind for kind in _KINDS})
+"""All types of epicyclic sets, keyed by name."""
 
 
 def epicyclic_kind(name: str) -> EpicyclicKind:
     """Return the type of epicyclic set with a given name. `QuestionError` is raised if there is no such type."""
-    if name in kinds():
-        return kinds()[name]
-    raise QuestionError(
-        Problem(
-            f"'{name}' is not a kind of epicyclic set", "the kinds are predefined", f"use one of {', '.join(kinds())}"
-        )
-    )
+    if name not in EPICYCLIC_KINDS:
+        why = "only the kinds that `geartrain teeth set --kind list` prints can be searched"
+        raise QuestionError(Problem(f"'{name}' is not a kind of epicyclic set", why, suggest(name, EPICYCLIC_KINDS)))
+    return EPICYCLIC_KINDS[name]
 
 
 # ------------------------------------------------------------------------------------------------ sets that were found
@@ -357,12 +348,16 @@ class EpicyclicSet(CountSizes, Result):
             be assembled.
         """
         kind, mode = epicyclic_kind(self.kind), self.mode
+        several = len(kind.planets) > 1
+        planets = [f"planet{at}" if several else "planet" for at in range(1, len(kind.planets) + 1)]
+        revolutes = [{"pair": ["frame", link], "axis": "main"} for link in kind.links]
+        revolutes += [{"pair": [CARRIER, planet], "axis": planet} for planet in planets]
         return {
             "name": f"{kind.name}-{mode.key.replace(':', '-')}",
             "title": f"{kind.title}: {mode}",
-            "links": _links(kind, self.teeth, copies),
+            "links": _links(kind, planets, self.teeth, copies),
             **({"axes": _AXES} if kind.bevel else {}),
-            "revolutes": list(_revolutes(kind)),
+            "revolutes": revolutes,
             "gears": [{"pair": [member.wheel, member.mesh]} for member in kind.members]
             + [{"pair": list(pair)} for pair in kind.between],
             "inputs": {mode.input: 1},
@@ -432,15 +427,6 @@ class SetFindings(Tabular, Result):
         return bool(self.solutions)
 
 
-def set_rank(found: EpicyclicSet, by: SetOrder, mode: int) -> tuple[Any, ...]:
-    """Return the exact sort key of a set: criterion `by`, then error, sum of tooth counts, largest tooth count, index
-    of the mode, and tooth counts.
-    """
-    counts = tuple(found.teeth.values())
-    measures: dict[SetOrder, Any] = {"error": abs(found.error), "total": sum(counts), "largest": max(counts)}
-    return (measures[by], *measures.values(), mode, counts)
-
-
 # ---------------------------------------------------------------------------------------------- a set as a declaration
 
 
@@ -448,14 +434,14 @@ def set_rank(found: EpicyclicSet, by: SetOrder, mode: int) -> tuple[Any, ...]:
 _AXES = {"main": {"direction": [1, 0, 0]}, "planet": {"direction": [0, 1, 0]}}
 
 
-def _links(kind: EpicyclicKind, teeth: Mapping[str, int], copies: int) -> dict[str, Any]:
+def _links(kind: EpicyclicKind, planets: Sequence[str], teeth: Mapping[str, int], copies: int) -> dict[str, Any]:
     links: dict[str, Any] = {"frame": {}}
     for at, member in enumerate(kind.members):
         # the second side wheel faces the first
         facing = {"facing": -1} if kind.bevel and at else {}
         links[member.link] = {"wheels": {member.wheel: _wheel(kind, teeth[member.wheel], member.internal) | facing}}
     links[CARRIER] = {}
-    for name, wheels in zip(_planet_links(kind), kind.planets, strict=True):
+    for name, wheels in zip(planets, kind.planets, strict=True):
         links[name] = {"wheels": {wheel: _wheel(kind, teeth[wheel], False) for wheel in wheels}}
         if copies > 1:
             links[name]["copies"] = copies
@@ -469,14 +455,3 @@ def _wheel(kind: EpicyclicKind, teeth: int, internal: bool) -> dict[str, Any]:
     if kind.bevel:
         wheel["kind"] = "bevel"
     return wheel
-
-
-def _planet_links(kind: EpicyclicKind) -> Sequence[str]:
-    return ["planet"] if len(kind.planets) == 1 else [f"planet{at}" for at in range(1, len(kind.planets) + 1)]
-
-
-def _revolutes(kind: EpicyclicKind) -> Iterator[dict[str, Any]]:
-    for link in kind.links:
-        yield {"pair": ["frame", link], "axis": "main"}
-    for name in _planet_links(kind):
-        yield {"pair": [CARRIER, name], "axis": name}

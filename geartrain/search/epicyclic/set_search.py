@@ -5,10 +5,8 @@ The coaxial equations leave at most three independent tooth counts, so all sets 
 complete. The ratio is computed in integers. Floats are used only to select the few candidates that are compared as
 Fractions.
 
-The exact join of `search.join` could solve the same problem, but for one mode and 12 to 120 teeth it takes 2 to 30
-times as long as the enumeration (22 to 110 times for Wolfrom sets). It is as fast only for types with two central
-wheels and about 200 teeth or more. One enumeration covers all modes, and counts every rejected set under the first
-applicable reason of a fixed list.
+For one mode and 12 to 120 teeth, the exact join of `search.join` takes 2 to 30 times as long as the enumeration (22 to
+110 times for Wolfrom sets). It is as fast only for two central wheels and about 200 teeth or more.
 
 The ratio of a set is input speed / output speed, the convention of gear manufacturers. The ratio of a reduction is
 above 1 in magnitude. It is negative if the output turns in the opposite sense to the input. `ratio_is` selects the
@@ -18,6 +16,7 @@ reciprocal.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import combinations, product
 from math import isfinite, pi, prod, sin
@@ -38,7 +37,6 @@ from geartrain.search.epicyclic.epicyclic_sets import (
     SetFindings,
     SetOrder,
     epicyclic_kind,
-    set_rank,
 )
 from geartrain.search.search_outcome import Shortfall
 from geartrain.search.target_ratio import TargetRatio
@@ -160,13 +158,12 @@ def find_sets(
     requested = wanted if isinstance(wanted, TargetRatio) else TargetRatio(Fraction(wanted))
     if tolerance is not None:
         tolerance = Fraction(tolerance)
-    _check(requested.value, planets, tolerance, best, slack)
-    _check_words(by, ratio_is, clearance)
+    # an explicit sense takes precedence over the sign of a parsed ratio
+    search = _Search(kind, requested.value, tolerance, best, ratio_is, by, planets, sense or requested.sense)
+    search.check(clearance, slack)
     # a float clearance becomes a simple fraction
     minimum = Fraction(clearance).limit_denominator(_FINEST)
     bounds, chosen = read_bounds(kind, counts), kind.chosen(modes)
-    # an explicit sense takes precedence over the sign of a parsed ratio
-    search = _Search(kind, requested.value, tolerance, best, ratio_is, by, planets, sense or requested.sense)
     for number, columns in blocks(kind, bounds, planets, minimum if spaced else None, slack):
         search.considered += number * len(chosen)
         search.charge(NO_PLACE, (number - _length(columns)) * len(chosen))
@@ -175,85 +172,85 @@ def find_sets(
         if _length(columns):
             for at, mode in enumerate(chosen):
                 search.judge(columns, at, mode)
-    return search.findings(bounds, chosen)
-
-
-def _check(wanted: Fraction, planets: int, tolerance: Fraction | None, best: int, slack: int) -> None:
-    for bad, what, why, fix in (
-        (
-            not _FARTHEST > wanted > 1 / _FARTHEST,
-            "the ratio is out of range",
-            "a ratio must be from 1e-18 to 1e18",
-            "give a ratio in this range",
-        ),
-        (planets < 1, f"planets is {planets}", "a set has at least one planet", "give planets >= 1"),
-        (
-            tolerance is not None and tolerance < 0,
-            f"the tolerance is {tolerance}",
-            "a tolerance must not be negative",
-            "give 0 or more",
-        ),
-        (best < 1, f"best is {best}", "a list has at least one solution", "give best >= 1"),
-        (
-            slack < 0,
-            f"slack is {slack}",
-            "slack is the magnitude of a difference of centre distances",
-            "give slack >= 0",
-        ),
-    ):
-        if bad:
-            raise QuestionError(Problem(what, why, fix))
-
-
-def _check_words(by: str, ratio_is: str, clearance: Fraction | float) -> None:
-    for word, what, words in (
-        (by, "order of sets", get_args(SetOrder)),
-        (ratio_is, "kind of ratio", get_args(RatioIs)),
-    ):
-        if word not in words:
-            raise QuestionError(
-                Problem(
-                    f"'{word}' is not a valid {what}", "only predefined names are accepted", f"use {' or '.join(words)}"
-                )
-            )
-    if not isfinite(clearance):
-        raise QuestionError(
-            Problem(
-                f"the clearance {clearance} is not finite",
-                "the gap between the tooth tips of neighbouring planets must be a finite number of modules",
-                "give a number of modules, such as 0.5",
-            )
-        )
+    return search.findings(chosen)
 
 
 def _length(columns: Columns) -> int:
     return len(next(iter(columns.values())))
 
 
+@dataclass
 class _Search:
-    """State of the enumeration: the sets found, and the numbers of rejected sets. A rejected set is counted under the
-    first reason that applies.
+    """State of an enumeration of epicyclic sets: the best sets found so far, and the number of rejected sets for each
+    reason. A rejected set is counted under the first reason that applies.
     """
 
-    def __init__(
-        self, kind: EpicyclicKind, wanted: Fraction, tolerance: Fraction | None, best: int, ratio_is: RatioIs,
-        by: SetOrder,
-        planets: int, sense: int,
-    ) -> None:  # fmt: skip
-        self.kind, self.wanted, self.tolerance, self.best = kind, wanted, tolerance, best
-        self.ratio_is, self.by, self.planets, self.sense = ratio_is, by, planets, sense
-        self.considered = self.count = 0
-        self.removed: dict[str, int] = {}
-        self.found: list[tuple[tuple[Any, ...], EpicyclicSet]] = []
-        self.nearest: EpicyclicSet | None = None
+    kind: EpicyclicKind
+    wanted: Fraction
+    tolerance: Fraction | None
+    best: int
+    ratio_is: RatioIs
+    by: SetOrder
+    planets: int
+    sense: int
+    considered: int = 0
+    count: int = 0
+    removed: dict[str, int] = field(default_factory=dict)
+    found: list[tuple[tuple[Any, ...], EpicyclicSet]] = field(default_factory=list)
+    nearest: EpicyclicSet | None = None
+
+    def check(self, clearance: Fraction | float, slack: int) -> None:
+        """Raise `QuestionError` if an argument of the search is invalid."""
+        for valid, what, why, fix in (
+            (
+                1 / _FARTHEST < self.wanted < _FARTHEST,
+                f"the ratio is {decimal(self.wanted, 6)}",
+                "a ratio must be from 1e-18 to 1e18",
+                "give a ratio in this range",
+            ),
+            (self.planets >= 1, f"planets is {self.planets}", "a set has at least one planet", "give planets >= 1"),
+            (
+                self.tolerance is None or self.tolerance >= 0,
+                f"the tolerance is {self.tolerance}",
+                "a tolerance must not be negative",
+                "give 0 or more",
+            ),
+            (self.best >= 1, f"best is {self.best}", "a list has at least one solution", "give best >= 1"),
+            (
+                slack >= 0,
+                f"slack is {slack}",
+                "slack is the magnitude of a difference of centre distances",
+                "give slack >= 0",
+            ),
+            (
+                self.by in get_args(SetOrder),
+                f"sets cannot be sorted by '{self.by}'",
+                "a set has a ratio error, a sum of tooth counts (total) and a largest tooth count",
+                "use error, total or largest",
+            ),
+            (
+                self.ratio_is in get_args(RatioIs),
+                f"'{self.ratio_is}' does not define a ratio",
+                "a ratio is input speed divided by output speed, or its reciprocal",
+                "use input/output or output/input",
+            ),
+            (
+                isfinite(clearance),
+                f"the clearance {clearance} is not finite",
+                "the gap between the tooth tips of neighbouring planets must be a finite number of modules",
+                "give a number of modules, such as 0.5",
+            ),
+        ):
+            if not valid:
+                raise QuestionError(Problem(what, why, fix))
 
     def charge(self, reason: str, number: int) -> None:
         if number:
             self.removed[reason] = self.removed.get(reason, 0) + number
 
     def assembled(self, columns: Columns, clearance: Fraction, modes: int) -> Columns:
-        """Return the sets whose planets can be assembled with equal spacing and at least the given clearance
-        [modules].
+        """Return the sets whose planets can be assembled with equal spacing and at least the given clearance [modules].
+        Each rejected set is counted once for each of the `modes` operating modes.
         """
         even = places(self.kind, columns) % self.planets == 0
         self.charge(NO_SPACING, int((~even).sum()) * modes)
@@ -264,7 +261,7 @@ class _Search:
 
     def judge(self, columns: Columns, at: int, mode: EpicyclicMode) -> None:
         """Compare the ratios of all sets of a block in one operating mode with the requested ratio, and keep the best
-        sets.
+        sets. `at` is the index of the mode.
         """
         top, beneath = ratio_terms(self.kind, mode, columns)
         runs = (top != 0) & (beneath != 0)
@@ -299,7 +296,9 @@ class _Search:
         worst = min(bounds, default=np.inf)
         for row in np.flatnonzero(first <= worst + _MARGIN * (1 + worst)):
             found = self._set(columns, int(row), mode)
-            self.found.append((set_rank(found, self.by, at), found))
+            criteria = {"error": abs(found.error), "total": found.total, "largest": found.largest}
+            rank = (criteria[self.by], *criteria.values(), at, tuple(found.teeth.values()))
+            self.found.append((rank, found))
         self.found = sorted(self.found, key=lambda item: item[0])[: self.best]
 
     def _inside(self, columns: Columns, mode: EpicyclicMode, errors: Floats) -> NDArray[np.bool_]:
@@ -315,7 +314,7 @@ class _Search:
         return inside
 
     def _set(self, columns: Columns, row: int, mode: EpicyclicMode) -> EpicyclicSet:
-        """Return the result for one set, with its exact ratio and its exact error."""
+        """Return the result for the set in one row of the columns, with its exact ratio and its exact error."""
         one = {wheel: columns[wheel][row : row + 1] for wheel in self.kind.wheels}
         top, beneath = (int(term[0]) for term in ratio_terms(self.kind, mode, one))
         ratio = Fraction(top, beneath)
@@ -331,7 +330,7 @@ class _Search:
             float(room(self.kind, one, self.planets)[0]),
         )
 
-    def findings(self, bounds: SetBounds, modes: tuple[EpicyclicMode, ...]) -> SetFindings:
+    def findings(self, modes: tuple[EpicyclicMode, ...]) -> SetFindings:
         shortfall = Shortfall(self.considered, dict(self.removed), *self._miss())
         found = tuple(item for _, item in self.found)
         return SetFindings(
@@ -339,8 +338,8 @@ class _Search:
         )
 
     def _miss(self) -> tuple[str, str]:
-        """Return a description of the nearest miss and a description of suggested changes. Each of them is empty if
-        there is none.
+        """Return a description of the rejected set whose ratio is nearest to the requested ratio, and suggestions of
+        changes to the search, as two texts. A text is empty if there is nothing to report.
         """
         if self.count:
             return "", ""
@@ -386,16 +385,8 @@ def _check_counts(whose: str, counts: Counts) -> tuple[int, ...]:
     raise QuestionError(Problem(f"the tooth counts {whose}are not valid", why, "give a range such as 15:120"))
 
 
-def size(kind: EpicyclicKind, bounds: SetBounds, slack: int = 0) -> int:
-    """Return the number of tooth-count combinations within the bounds for one kind of epicyclic set, before any
-    constraint is applied.
-    """
-    chosen = prod(len(bounds[wheel]) for wheel in kind.free)
-    return int(chosen * (2 * slack + 1) ** len(_followers(kind)))
-
-
 def blocks(
-    kind: EpicyclicKind, bounds: SetBounds, planets: int, clearance: Fraction | None, slack: int = 0
+    kind: EpicyclicKind, bounds: SetBounds, planets: int, clearance: Fraction | None, slack: int
 ) -> Iterator[tuple[int, Columns]]:
     """Yield, for each block, the number of examined combinations of tooth counts, and the admissible combinations that
     satisfy the coaxial equations and for which the planets fit between the central wheels.
@@ -406,13 +397,13 @@ def blocks(
 
     `RangeError` is raised if there are more than `MOST_SETS` sets.
     """
-    total = size(kind, bounds, slack)
+    followers = _followers(kind)
+    total = prod(len(bounds[wheel]) for wheel in kind.free) * (2 * slack + 1) ** len(followers)
     if total > MOST_SETS:
-        why = f"at most {MOST_SETS:.0e} combinations are enumerated"
         raise RangeError(
             Problem(
                 f"{total:.2g} combinations of tooth counts are too many",
-                why,
+                f"at most {MOST_SETS:.0e} combinations are enumerated",
                 "narrow the ranges of tooth counts, or reduce the slack",
             )
         )
@@ -425,8 +416,11 @@ def blocks(
         # Cartesian product of the independent counts
         columns = [np.repeat(head, len(inner[0])), *(np.tile(column, len(head)) for column in inner)]
         chosen = dict(zip(kind.free, columns, strict=True))
-        for extra in product(range(-slack, slack + 1), repeat=len(_followers(kind))):
-            yield len(columns[0]), _add_dependent_counts(kind, bounds, chosen, extra, planets, clearance)
+        for extra in product(range(-slack, slack + 1), repeat=len(followers)):
+            found = _add_coaxial_counts(bounds, chosen, followers, extra)
+            if kind.idle:
+                found = _with_idle(kind, bounds, found, planets, clearance)
+            yield len(columns[0]), _select(found, fits(kind, found) & _is_stepped(kind, found))
 
 
 def _followers(kind: EpicyclicKind) -> list[tuple[CentralWheel, CentralWheel]]:
@@ -442,33 +436,33 @@ def _followers(kind: EpicyclicKind) -> list[tuple[CentralWheel, CentralWheel]]:
     return found
 
 
-def _add_dependent_counts(
-    kind: EpicyclicKind,
+def _add_coaxial_counts(
     bounds: SetBounds,
     chosen: Columns,
+    followers: Sequence[tuple[CentralWheel, CentralWheel]],
     extra: Sequence[int],
-    planets: int,
-    clearance: Fraction | None,
 ) -> Columns:
-    """Return the sets with the tooth counts of the dependent wheels added. Sets that are impossible are removed."""
+    """Return the sets with the tooth counts of the dependent wheels, which follow from the coaxial equations. Sets with
+    inadmissible tooth counts are removed.
+
+    extra   difference of centre distances of each pair in `followers` [half modules]
+    """
     columns = dict(chosen)
-    for (first, other), more in zip(_followers(kind), extra, strict=True):
+    for (first, other), more in zip(followers, extra, strict=True):
         distance = columns[first.wheel] + (-1 if first.internal else 1) * columns[first.mesh] + more
-        columns[other.wheel] = distance + (1 if other.internal else -1) * columns[other.mesh]
-        # early, because the other tests cost more
-        columns = _select(columns, _allowed(columns[other.wheel], bounds[other.wheel]))
-    if kind.idle:
-        columns = _with_idle(kind, bounds, columns, planets, clearance)
-    return _select(columns, fits(kind, columns) & _is_stepped(kind, columns))
+        count = columns[other.wheel] = distance + (1 if other.internal else -1) * columns[other.mesh]
+        allowed = bounds[other.wheel]
+        within = (count >= allowed[0]) & (count <= allowed[-1])
+        # `isin` is slow and needed only for a range with gaps
+        columns = _select(columns, within if len(allowed) > allowed[-1] - allowed[0] else np.isin(count, allowed))
+    return columns
 
 
 def _is_stepped(kind: EpicyclicKind, columns: Columns) -> NDArray[np.bool_]:
-    """Return, for each set, False if it has a stepped planet that is equivalent to a planet with one wheel, and True if
-    it has not.
-
-    Two steps with equal tooth counts differ from one wheel only if they mesh with two suns, or with two rings, of
-    different tooth counts. This is possible only if `slack` permits it.
+    """Return, for each set, True if every stepped planet differs from a planet with a single wheel. Sets without
+    stepped planets give True.
     """
+    # equal steps differ from one wheel only if they mesh with two suns, or two rings, of different tooth counts
     stepped = np.ones(len(columns[kind.free[0]]), dtype=bool)
     for one, other in ((one, other) for link in kind.planets for one, other in combinations(link, 2)):
         differ = columns[one] != columns[other]
@@ -482,8 +476,8 @@ def _is_stepped(kind: EpicyclicKind, columns: Columns) -> NDArray[np.bool_]:
 def _with_idle(
     kind: EpicyclicKind, bounds: SetBounds, columns: Columns, planets: int, clearance: Fraction | None
 ) -> dict[str, Ints]:
-    """Return the sets with the minimum tooth counts of the idle wheels that fit. Sets for which no tooth count fits are
-    removed.
+    """Return the sets in which every idle wheel has the minimum tooth count with which the planets fit. Sets for which
+    no such tooth count exists are removed.
     """
     # an idle wheel changes no ratio: the smallest count that fits represents all
     common = set[int].intersection(*(set(bounds[wheel]) for wheel in kind.idle))
@@ -498,12 +492,6 @@ def _with_idle(
         found[open_[at]] = count
     full = {**columns, **dict.fromkeys(kind.idle, found)}
     return _select(full, found > 0)
-
-
-def _allowed(column: Ints, allowed: tuple[int, ...]) -> NDArray[np.bool_]:
-    if allowed[-1] - allowed[0] + 1 == len(allowed):
-        return (column >= allowed[0]) & (column <= allowed[-1])
-    return np.isin(column, allowed)
 
 
 def _select(columns: Columns, good: NDArray[np.bool_] | Ints) -> dict[str, Ints]:
@@ -618,24 +606,21 @@ def clears(kind: EpicyclicKind, columns: Columns, planets: int, clearance: Fract
     # bevel sets are not decided exactly below, so a tie counts as sufficient clearance
     good = np.asarray(found >= minimum - _BEVEL)
     near = np.flatnonzero(np.abs(found - minimum) <= _NEAR)
-    if len(near) and not kind.bevel:
-        good[near] = _clears_exactly(kind, {w: column[near] for w, column in columns.items()}, planets, clearance)
-    return good
-
-
-def _clears_exactly(kind: EpicyclicKind, columns: Columns, planets: int, clearance: Fraction) -> NDArray[np.bool_]:
+    if kind.bevel or not len(near):
+        return good
+    columns = _select(columns, near)
     # all lengths are multiplied by the denominator, so that they are integers
-    unit, minimum = clearance.denominator, clearance.numerator
+    unit, required = clearance.denominator, clearance.numerator
     reaches = [unit * _distance(kind, columns, link) for link in kind.planets]
     tips = [unit * (np.maximum.reduce([columns[wheel] for wheel in link]) + int(TIPS)) for link in kind.planets]
-    chord, good = sine(Fraction(1, 2 * planets)), np.ones(reaches[0].shape, dtype=bool)
+    chord, exact = sine(Fraction(1, 2 * planets)), np.ones(len(near), dtype=bool)
     for reach, tip in zip(reaches, tips, strict=True):
-        good &= is_positive(neighbour_terms, [reach, tip + minimum], [chord], strictly=False)
+        exact &= is_positive(neighbour_terms, [reach, tip + required], [chord], strictly=False)
     for a, b in kind.between:
-        mesh, both = unit * (columns[a] + columns[b]), tips[0] + tips[1] + 2 * minimum
+        lengths = [*reaches, unit * (columns[a] + columns[b]), tips[0] + tips[1] + 2 * required]
         for turn in (Fraction(step, planets) for step in range(1, planets)):
-            lengths = [reaches[0], reaches[1], mesh, both]
-            good &= is_positive(passing_terms, lengths, [cosine(turn), sine(turn)], strictly=False)
+            exact &= is_positive(passing_terms, lengths, [cosine(turn), sine(turn)], strictly=False)
+    good[near] = exact
     return good
 
 
@@ -647,12 +632,11 @@ def _distance(kind: EpicyclicKind, columns: Columns, link: tuple[str, ...]) -> I
 
 
 def _side_cosine(columns: Columns, own: str, other: str) -> Floats:
-    """Return the cosine of the pitch-cone angle of the side wheel `own`, if it and the side wheel `other` mesh with the
-    same bevel planet.
-
-    The cone angles g of planet p and side wheels a, b have equal sin g / z and satisfy g_a + g_b + 2 g_p = pi. They are
-    the angles of a triangle with the sides a, b and 2 p cos g_p, so that cos^2 g_p = (a + b)^2 / 4(p^2 + ab).
+    """Return, for each bevel set, the cosine of the pitch-cone angle of the side wheel `own`. The opposite side wheel
+    is `other`.
     """
+    # the cone angles g of planet p and side wheels a, b have equal sin g / z and satisfy g_a + g_b + 2 g_p = pi, so
+    # they are the angles of a triangle with the sides a, b and 2 p cos g_p, and cos^2 g_p = (a + b)^2 / 4(p^2 + ab)
     a, b, third = columns[own], columns[other], 2 * columns["p"] * _planet_cosine(columns)
     return np.asarray((b**2 + third**2 - a**2) / (2 * b * third), dtype=np.float64)
 
@@ -663,8 +647,8 @@ def _planet_cosine(columns: Columns) -> Floats:
 
 
 def _bevel_clearance(columns: Columns, planets: int) -> Floats:
-    """Return the clearance of neighbouring bevel planets [modules]: the angle between their axes minus their pitch-cone
-    angles, multiplied by the cone radius, minus their addenda.
+    """Return, for each set, the clearance of neighbouring bevel planets [modules]: the angle between their axes minus
+    their pitch-cone angles, multiplied by the cone radius, minus their addenda.
     """
     cone = np.arccos(_planet_cosine(columns))
     # a cone angle of 0 gives an infinite radius, which is replaced below

@@ -71,12 +71,17 @@ def run(
 
     answer = SearchAnswer.of(json, out, force, pick)
     if kind == "list":
-        _list(answer)
+        from geartrain.search.epicyclic.epicyclic_sets import EPICYCLIC_KINDS
+        from geartrain.search.tooth_numbers_report import describe_set_kinds
+
+        give(answer.out, answer.json, lambda: EPICYCLIC_KINDS, lambda: [describe_set_kinds(EPICYCLIC_KINDS)])
         return
     if ratio is None:
         raise option_error("RATIO", "the ratio is missing", "give a ratio, or list the kinds with --kind list")
     if clearance is not None and planets is None:
-        raise option_error("--clearance", "the number of planets is missing", "give --planets too")
+        raise option_error(
+            "--clearance", "--planets is missing", "add --planets 3", "the clearance depends on the number of planets"
+        )
     room = decimal("--clearance", clearance or "0", "number of modules", "0.5")
     chosen: Any = "all" if mode == "all" else tuple(mode.split(","))
     found = find_sets(
@@ -94,12 +99,3 @@ def run(
         slack=shift,
     )
     answer.give(found, lambda at: found.solutions[at].to_train(planets or 1))
-
-
-def _list(answer: SearchAnswer) -> None:
-    """Print the kinds of epicyclic sets for which a search is available."""
-    from geartrain.search.epicyclic.epicyclic_sets import kinds
-    from geartrain.search.tooth_numbers_report import describe_set_kinds
-
-    found = kinds()
-    give(answer.out, answer.json, lambda: found, lambda: [describe_set_kinds(found)])

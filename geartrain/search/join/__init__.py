@@ -12,3 +12,9 @@ join_plan               order in which variables are assigned, by expected cost
 exact_join              the join: bucket elimination (Dechter 1999)
 inside_outside          sums over all assignments of a recorded join, and the best assignments (A* search)
 """
+
+from geartrain.search.join.inside_outside import AssignmentSums, BestFirst, record_join
+from geartrain.search.join.join_plan import find_join_problem
+from geartrain.search.join.wheel_monomials import IntervalConstraint
+
+__all__ = ["AssignmentSums", "BestFirst", "IntervalConstraint", "find_join_problem", "record_join"]

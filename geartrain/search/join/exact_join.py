@@ -8,18 +8,15 @@ from typing import Any
 
 import numpy as np
 
-from geartrain.numerics.arrays import Bools, Ints
+from geartrain.numerics.arrays import Ints
 from geartrain.search.constraints.count_conditions import CountConstraint, CountEquation
 from geartrain.search.integer_columns import spread, spread_in_blocks
 from geartrain.search.join.join_plan import JoinProblem, PlanNode
 from geartrain.search.join.polynomial_constraints import PolynomialConstraint
 from geartrain.search.join.product_lists import BLOCK, PartialAssignments, Tallies, find_item
-from geartrain.search.join.wheel_monomials import extent
 
-# Assignments with equal values of all variables that later constraints depend on are equivalent: once x and y are
-# assigned, an output that depends only on x cannot distinguish them by y. Rows are merged accordingly as soon as
-# possible (bucket elimination, Dechter 1999).
-
+# Once x and y are assigned, an output that depends only on x cannot distinguish assignments by y. Rows with equal
+# values of all variables of later constraints are merged as soon as possible (bucket elimination, Dechter 1999).
 
 Slices = Mapping[int, tuple[int, int]]
 """Half-open range of indices into the values of a variable, keyed by variable. One task of a join covers only these
@@ -29,7 +26,7 @@ AssignmentColumns = dict[str, Ints]
 
 
 class BudgetSpentError(Exception):
-    """Exception raised if a join exceeds its maximum number of steps."""
+    """Exception raised if an exact join examines more partial assignments than its budget permits."""
 
 
 RefusalCounts = dict[int, Tallies]
@@ -39,27 +36,29 @@ them.
 
 
 class ExactJoin:
-    """Exact join of a problem by bucket elimination (Dechter 1999).
+    """Enumeration of the assignments of tooth counts that satisfy all constraints of a join problem, by bucket
+    elimination (Dechter 1999).
 
-    slices   ranges of the values of some variables, to which the join is restricted
-    budget   maximum number of steps; `BudgetSpentError` is raised if it is exceeded
+    budget   maximum number of partial assignments to examine; `BudgetSpentError` is raised if it is exceeded
     """
 
-    def __init__(self, question: JoinProblem, slices: Slices | None = None, budget: float = np.inf) -> None:
+    def __init__(self, question: JoinProblem, budget: float = np.inf) -> None:
         self.question = question
         # no tally exceeds the total, so that int64 cannot overflow below 2^62
         self.dtype: Any = np.int64 if question.total < 1 << 62 else object
         self.items = [find_item(one, question.domains, question.weights, self.dtype) for one in question.recipes]
-        self.extents = [extent(recipe, question.domains) for recipe in question.recipes]
+        self.extents = [(float(item.x[0]), float(item.x[-1])) for item in self.items]
         self.constraints: list[CountConstraint | PolynomialConstraint] = [
             *question.rules,
             *question.polynomial_constraints,
         ]
         self.wheel_of = {recipe[0][0]: at for at, recipe in enumerate(question.recipes) if len(recipe) == 1}
-        self.cut(slices or {}, budget)
+        self.cut({}, budget)
 
-    def cut(self, slices: Slices, budget: float = np.inf) -> None:
-        """Set the ranges of values and the maximum number of steps of the join, and reset the step counter to 0."""
+    def cut(self, slices: Slices, budget: float) -> None:
+        """Restrict variables to the index ranges in `slices`, set the maximum number of partial assignments to examine,
+        and reset the counter of examined partial assignments to 0.
+        """
         self.slices, self.budget, self.steps = slices, budget, 0
         self._full: dict[int, int] = {}
 
@@ -68,25 +67,33 @@ class ExactJoin:
         return PartialAssignments(self.items, {}, 1)
 
     def full(self, node: PlanNode) -> int:
-        """Return the number of assignments of the variables of a node and its subtree without regard to constraints."""
+        """Return the number of assignments of tooth counts to the variables of a node and of all its descendants,
+        regardless of the constraints.
+        """
         if id(node) not in self._full:
-            first, last = self._run(node.item)
-            total = int(self.items[node.item].sums[last] - self.items[node.item].sums[first])
+            total = self._total(node.item)
             for child in node.children:
                 total *= self.full(child)
             self._full[id(node)] = total
         return self._full[id(node)]
 
     def count(self, node: PlanNode, rows: PartialAssignments) -> tuple[Tallies, RefusalCounts]:
-        """Return the number of accepted assignments that extend each row, and the number of assignments of each row
-        that each constraint rejects.
+        """Return, for each partial assignment in `rows`, the number of its extensions to the variables of a node and of
+        all its descendants that satisfy all constraints, and the number of extensions that each constraint rejects.
         """
         total = np.zeros(rows.size, dtype=self.dtype)
         removed: RefusalCounts = defaultdict(lambda: np.zeros(rows.size, dtype=self.dtype))
         at, alive = self.pruned(node, rows, removed)
         # a last variable with only a guide is counted from the ends of its windows, without a row for each value
         if not node.children and not node.checks and node.guide >= len(self.question.rules):
-            total[at] = self._count_windows(node, at, alive, removed)
+            constraint, item = self.constraints[node.guide], self.items[node.item]
+            assert isinstance(constraint, PolynomialConstraint)
+            self.spend(alive.size)
+            for window in constraint.windows(alive, node.item):
+                start, end = (np.clip(one, *self._run(node.item)) for one in window)
+                # cases exclude each other, so their windows do not overlap
+                total[at] += item.sums[end] - item.sums[start]
+            np.add.at(removed[node.guide], at, self.full(node) - total[at])
             return total, removed
         for parents, grown in self.grown(node, alive, at, removed):
             counts = self._count_below(node, parents, grown, removed)
@@ -94,8 +101,8 @@ class ExactJoin:
         return total, removed
 
     def stream(self, nodes: Sequence[PlanNode], rows: PartialAssignments) -> Iterator[PartialAssignments]:
-        """Yield, block by block, all assignments that extend the rows by the variables of the given nodes and their
-        subtrees.
+        """Yield, block by block, all extensions of the partial assignments `rows` to the variables of the given nodes
+        and of all their descendants that satisfy the constraints.
         """
         if not nodes:
             yield rows
@@ -104,13 +111,15 @@ class ExactJoin:
         _, alive = self.pruned(node, rows, None)
         for _, grown in self.grown(node, alive, np.arange(alive.size), None):
             # rows without solutions in a later child would be enumerated in vain for the first child
-            if len(node.children) > 1:
-                grown = self._with_solutions(node, grown)
+            for child in node.children if len(node.children) > 1 else ():
+                distinct, which = grown.distinct(child.interface)
+                found, _ = self.count(child, distinct)
+                grown = grown.pick(found[which] > 0)
             yield from self.stream((*node.children, *nodes[1:]), grown)
 
     def wheels(self, rows: PartialAssignments) -> Iterator[AssignmentColumns]:
-        """Yield, block by block, every assignment of tooth counts that is represented by the given rows of values of
-        variables.
+        """Yield, block by block, all assignments of tooth counts whose products are the values in `rows`, as an array
+        of tooth counts for each wheel.
         """
         sizes = np.ones(rows.size, dtype=self.dtype)
         for item, column in rows.columns.items():
@@ -133,8 +142,8 @@ class ExactJoin:
             yield {wheel: columns[wheel] for wheel in self.question.wheels}
 
     def spend(self, steps: int) -> None:
-        """Add a number of steps to the step counter of the join. `BudgetSpentError` is raised if the total exceeds the
-        budget.
+        """Add a number of examined partial assignments to the counter of the join. `BudgetSpentError` is raised if the
+        counter exceeds the budget.
         """
         self.steps += steps
         if self.steps > self.budget:
@@ -146,10 +155,9 @@ class ExactJoin:
     def pruned(
         self, node: PlanNode, rows: PartialAssignments, removed: RefusalCounts | None
     ) -> tuple[Ints, PartialAssignments]:
-        """Return the rows that can still satisfy all constraints, preceded by their indices in `rows`.
-
-        A row is removed, and counted in `removed`, if a constraint rejects the row for all values of the free
-        variables.
+        """Return the partial assignments that can still satisfy all constraints, preceded by their indices in `rows`.
+        The other partial assignments are counted in `removed` under the constraint that rejects them for all values of
+        the unassigned variables.
         """
         at = np.arange(rows.size)
         for number in node.prunes:
@@ -164,26 +172,12 @@ class ExactJoin:
             at, rows = at[hopeful], rows.pick(hopeful)
         return at, rows
 
-    def _count_windows(self, node: PlanNode, at: Ints, rows: PartialAssignments, removed: RefusalCounts) -> Tallies:
-        """Count the admissible values of the last variable for each row, from the index ranges that its only constraint
-        admits. No row is created for a single value.
-        """
-        constraint, item = self.constraints[node.guide], self.items[node.item]
-        assert isinstance(constraint, PolynomialConstraint)
-        self.spend(rows.size)
-        total = np.zeros(rows.size, dtype=self.dtype)
-        for window in constraint.windows(rows, node.item):
-            start, end = (np.clip(one, *self._run(node.item)) for one in window)
-            # cases exclude each other, so their windows do not overlap
-            total += item.sums[end] - item.sums[start]
-        np.add.at(removed[node.guide], at, self.full(node) - total)
-        return total
-
     def grown(
         self, node: PlanNode, rows: PartialAssignments, at: Ints, removed: RefusalCounts | None
     ) -> Iterator[tuple[Ints, PartialAssignments]]:
-        """Yield, block by block, the extended rows and the indices of their original rows. Each row is extended by
-        every value of the variable of the node that satisfies the constraints of the node.
+        """Yield, block by block, the extensions of the partial assignments `rows` by all values of the variable of a
+        node that satisfy the constraints of this node. Each block is preceded by an array that contains, for each
+        extension, the entry of `at` for its original row.
         """
         times, total = self.items[node.item].times, self._total(node.item)
         below = self.full(node) // total  # assignments of the subtree for each value of the variable
@@ -197,7 +191,11 @@ class ExactJoin:
             if node.guide >= 0 and removed is not None:
                 np.add.at(removed[node.guide], at[parents], times[indices] * -below)
             for number in node.checks:
-                met = self._holds(number, grown)
+                constraint = self.constraints[number]
+                if isinstance(constraint, PolynomialConstraint):
+                    met = constraint.holds(grown)
+                else:
+                    met = constraint.holds(self._counts(constraint, grown))
                 if removed is not None:
                     np.add.at(removed[number], at[parents[~met]], times[indices[~met]] * below)
                 parents, indices, grown = parents[met], indices[met], grown.pick(met)
@@ -205,8 +203,9 @@ class ExactJoin:
                 yield at[parents], grown
 
     def _candidates(self, node: PlanNode, rows: PartialAssignments) -> Iterator[tuple[Ints, Ints]]:
-        """Yield, block by block, the index of a row and the index of a value for each pair that the guide constraint of
-        a node accepts.
+        """Yield, block by block, the pairs of a partial assignment and a value of the variable of a node that satisfy
+        the constraint `node.guide`, as two arrays: indices of rows, and indices of values. Without such a constraint,
+        all pairs are yielded.
         """
         first, last = self._run(node.item)
         if node.guide < 0:
@@ -218,37 +217,25 @@ class ExactJoin:
             for window in guide.windows(rows, node.item):
                 start, end = (np.clip(one, first, last) for one in window)
                 yield from spread_in_blocks(start, end, BLOCK)
-        else:
-            assert isinstance(guide, CountEquation)
-            yield self._solved(guide, node.item, rows, first, last)
-
-    def _solved(
-        self, equation: CountEquation, item: int, rows: PartialAssignments, first: int, last: int
-    ) -> tuple[Ints, Ints]:
-        """Return the indices of the rows for which an equation has an admissible solution for a variable, and the index
-        of the solution among the values of this variable.
-        """
-        counts, whole = equation.solve_for(self.question.recipes[item][0][0], self._counts(equation, rows))
-        values = self.items[item].values
+            return
+        assert isinstance(guide, CountEquation)
+        counts, integral = guide.solve_for(self.question.recipes[node.item][0][0], self._counts(guide, rows))
+        values = self.items[node.item].values
         # clipped; a solution above all values fails the comparison below
         indices = np.minimum(np.searchsorted(values, counts), len(values) - 1)
-        found = np.flatnonzero(whole & (values[indices] == counts) & (indices >= first) & (indices < last))
-        return found, indices[found]
+        found = np.flatnonzero(integral & (values[indices] == counts) & (indices >= first) & (indices < last))
+        yield found, indices[found]
 
     def _counts(self, rule: CountConstraint, rows: PartialAssignments) -> AssignmentColumns:
-        """Return the tooth counts of those wheels in a constraint to which a tooth count is assigned."""
+        """Return, for each wheel in a constraint whose variable is assigned, its tooth counts in all partial
+        assignments.
+        """
         items = {wheel: self.wheel_of[wheel] for wheel in rule.wheels}
         return {wheel: rows.value(item) for wheel, item in items.items() if item in rows.columns}
 
-    def _holds(self, number: int, rows: PartialAssignments) -> Bools:
-        constraint = self.constraints[number]
-        if isinstance(constraint, PolynomialConstraint):
-            return constraint.holds(rows)
-        return constraint.holds(self._counts(constraint, rows))
-
     def _count_below(self, node: PlanNode, parents: Ints, grown: PartialAssignments, removed: RefusalCounts) -> Tallies:
-        """Count the assignments that extend each row of `grown`. The assignments that are rejected in the subtree are
-        counted in `removed` for the corresponding rows `parents`.
+        """Return, for each partial assignment in `grown`, the number of its extensions to the descendants of a node
+        that satisfy all constraints. Rejected extensions are counted in `removed` at the indices `parents`.
         """
         counts = self.items[node.item].times[grown.columns[node.item]]
         alive = np.arange(grown.size)
@@ -259,20 +246,11 @@ class ExactJoin:
             distinct, which = grown.pick(alive).distinct(child.interface)
             found, gone = self.count(child, distinct)
             for number, numbers in gone.items():
-                spread_out = numbers if which is None else numbers[which]
-                np.add.at(removed[number], parents[alive], counts[alive] * spread_out * later)
-            counts[alive] = counts[alive] * (found if which is None else found[which])
+                np.add.at(removed[number], parents[alive], counts[alive] * numbers[which] * later)
+            counts[alive] = counts[alive] * found[which]
             # rows without solutions in one child need no other child
             alive = alive[counts[alive] > 0]
         return counts
-
-    def _with_solutions(self, node: PlanNode, grown: PartialAssignments) -> PartialAssignments:
-        """Return the rows that have at least one accepted assignment in the subtree of every child."""
-        for child in node.children:
-            distinct, which = grown.distinct(child.interface)
-            found, _ = self.count(child, distinct)
-            grown = grown.pick((found if which is None else found[which]) > 0)
-        return grown
 
     def _total(self, item: int) -> int:
         first, last = self._run(item)

@@ -1,11 +1,9 @@
 """Sums over all assignments of a recorded join: total weight, and weight for each tooth count of each wheel.
 
-The sums are inside and outside sums over tables of `search.weighted_alternatives`. They are exact for integer weights.
-All sums are linear in the weights of each wheel, and weights may be negative. If the weights w(z) of the tooth counts z
-of one wheel are replaced by w(z) (z - mean), the sums for another wheel give the covariance of the two tooth counts.
-
-The best assignments are found in ascending order of misfit by an A* search in the tree. The minimum remaining misfit of
-each state is exact.
+Inside-outside algorithm (Baker 1979): the inside sum of a row is the total weight of all ways to complete it, and its
+outside sum is the total weight of all contexts in which it occurs. Sums of integer weights are exact. All sums are
+linear in the weights of each wheel. If the weights w(z) of the tooth counts z of one wheel are replaced by
+w(z) (z - mean), the sums for another wheel give the covariance of the two tooth counts.
 """
 
 from __future__ import annotations
@@ -13,21 +11,17 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from heapq import heappop, heappush
+from math import prod
 from typing import Any
 
 import numpy as np
 
 from geartrain.numerics.arrays import Floats, Ints
+from geartrain.search.integer_columns import sums_by
 from geartrain.search.join.exact_join import ExactJoin
 from geartrain.search.join.join_plan import JoinProblem, PlanNode
 from geartrain.search.join.polynomial_constraints import PolynomialConstraint
 from geartrain.search.join.product_lists import PartialAssignments, ProductStep, Tallies
-from geartrain.search.weighted_alternatives import AlternativeRows, WeightedAlternatives
-
-# Recorded join: the values of each variable that are compatible with the assignments above, and the counts that produce
-# each value. Every transition leads to at least one complete assignment. Sums over all assignments are then sums over
-# the tree, which can be repeated with other weights.
-
 
 Misfits = Mapping[int, Callable[[Floats], Floats]]
 """Functions that convert values of a constrained function to misfits, keyed by the index of the constraint in
@@ -38,8 +32,8 @@ CountWeights = Mapping[str, Tallies]
 
 
 def _ways(last: ProductStep | None, row: int) -> Iterator[dict[str, int]]:
-    """Yield each assignment of tooth counts that produces the product with index `row`, as a dict that maps each wheel
-    to the index of its tooth count.
+    """Yield all assignments of tooth counts whose product has the index `row` among the products of the multiplication
+    step `last`, each as a dict from wheel to the index of its tooth count.
     """
     if last is None:
         yield {}
@@ -51,8 +45,8 @@ def _ways(last: ProductStep | None, row: int) -> Iterator[dict[str, int]]:
 
 @dataclass(frozen=True, eq=False)
 class RecordedNode:
-    """Node of a recorded join plan, with all transitions that lead to complete assignments. A transition assigns a
-    value to the variable of the node.
+    """Node of a recorded join with all its transitions. A transition assigns one value to the variable of the node, and
+    is part of at least one complete assignment.
     """
 
     size: int
@@ -72,65 +66,78 @@ class RecordedNode:
 
 
 def record_join(question: JoinProblem, limit: float, misfits: Misfits) -> tuple[RecordedNode, int]:
-    """Record the tree of a join problem, and return the root and the number of steps. The problem must not have
-    constraints that are evaluated last.
+    """Record all complete assignments of a join problem as a tree, and return its root and the number of examined
+    partial assignments. The problem must not have constraints that are evaluated last (`late`).
 
-    `BudgetSpentError` is raised if the number of steps exceeds `limit`.
+    `BudgetSpentError` is raised if the number of examined partial assignments exceeds `limit`.
     """
     join = ExactJoin(question, budget=limit)
-    return _Recorder(join, misfits).record(question.plan, join.start()), join.steps
+    return _record_node(join, misfits, question.plan, join.start()), join.steps
 
 
-@dataclass(frozen=True)
-class _Recorder:
-    join: ExactJoin
-    misfits: Misfits
-
-    def record(self, node: PlanNode, rows: PartialAssignments) -> RecordedNode:
-        at, alive = self.join.pruned(node, rows, None)
-        blocks = list(self.join.grown(node, alive, at, None))
-        # rows without any block still need columns
-        nothing = [(at[:0], alive.pick(at[:0]).plus(at[:0], node.item, at[:0]))]
-        parents = np.concatenate([owners for owners, _ in blocks or nothing])
-        # transitions of one row are adjacent: `BestFirst` finds them by bisection
-        order = np.argsort(parents, kind="stable")
-        parents, grown = parents[order], _joined([block for _, block in blocks or nothing]).pick(order)
-        misfit = self._misfit(node, grown)
-        children: list[tuple[RecordedNode, Ints]] = []
-        for child in node.children:
-            distinct, which = grown.distinct(child.interface)
-            below = self.record(child, distinct)
-            onward = np.arange(grown.size) if which is None else which
-            # transitions to rows without a complete assignment are removed
-            leads = np.zeros(distinct.size, dtype=np.bool_)
-            leads[below.parents] = True
-            kept = leads[onward]
-            parents, grown, misfit = parents[kept], grown.pick(kept), misfit[kept]
-            children = [(known, to[kept]) for known, to in children] + [(below, onward[kept])]
-        live, places = np.unique(grown.columns[node.item], return_inverse=True)
-        values = self.join.items[node.item].last_step(live)
-        self.join.spend(sum(len(step.choices) for step in values.chain()))
-        return RecordedNode(rows.size, parents, places, values, misfit, tuple(children))
-
-    def _misfit(self, node: PlanNode, rows: PartialAssignments) -> Floats:
-        """Return the misfit of each row from the graded constraints whose last variable is assigned at a node."""
-        found = np.zeros(rows.size)
-        for number in (node.guide, *node.checks):
-            demand = number - len(self.join.question.rules)
-            if number >= 0 and demand in self.misfits:
-                constraint = self.join.constraints[number]
-                assert isinstance(constraint, PolynomialConstraint)
-                found = found + self.misfits[demand](constraint.value(rows))
-        return found
+def _record_node(join: ExactJoin, misfits: Misfits, node: PlanNode, rows: PartialAssignments) -> RecordedNode:
+    """Return the recorded node of a plan node and all its descendants, with the transitions that start from the partial
+    assignments `rows`.
+    """
+    at, alive = join.pruned(node, rows, None)
+    blocks = list(join.grown(node, alive, at, None))
+    # rows without any block still need columns
+    blocks = blocks or [(at[:0], alive.pick(at[:0]).plus(at[:0], node.item, at[:0]))]
+    parents = np.concatenate([owners for owners, _ in blocks])
+    columns = {item: np.concatenate([block.columns[item] for _, block in blocks]) for item in blocks[0][1].columns}
+    # transitions of one row are adjacent: `BestFirst` finds them by bisection
+    order = np.argsort(parents, kind="stable")
+    parents, grown = parents[order], PartialAssignments(join.items, columns, len(parents)).pick(order)
+    misfit = _added_misfit(join, misfits, node, grown)
+    children: list[tuple[RecordedNode, Ints]] = []
+    for child in node.children:
+        distinct, which = grown.distinct(child.interface)
+        below = _record_node(join, misfits, child, distinct)
+        onward = np.arange(distinct.size)[which]
+        # transitions to rows without a complete assignment are removed
+        leads = np.zeros(distinct.size, dtype=np.bool_)
+        leads[below.parents] = True
+        kept = leads[onward]
+        parents, grown, misfit = parents[kept], grown.pick(kept), misfit[kept]
+        children = [(known, to[kept]) for known, to in children] + [(below, onward[kept])]
+    live, places = np.unique(grown.columns[node.item], return_inverse=True)
+    values = join.items[node.item].last_step(join.items[node.item].values[live])
+    join.spend(sum(len(step.choices) for step in values.chain()))
+    return RecordedNode(rows.size, parents, places, values, misfit, tuple(children))
 
 
-def _joined(blocks: Sequence[PartialAssignments]) -> PartialAssignments:
-    first = blocks[0]
-    columns = {item: np.concatenate([block.columns[item] for block in blocks]) for item in first.columns}
-    return PartialAssignments(first.items, columns, sum(block.size for block in blocks))
+def _added_misfit(join: ExactJoin, misfits: Misfits, node: PlanNode, rows: PartialAssignments) -> Floats:
+    """Return the misfit that a plan node adds to each partial assignment in `rows`. It is the sum over the graded
+    constraints whose last variable is assigned at this node.
+    """
+    found = np.zeros(rows.size)
+    for number in (node.guide, *node.checks):
+        demand = number - len(join.question.rules)
+        if number >= 0 and demand in misfits:
+            constraint = join.constraints[number]
+            assert isinstance(constraint, PolynomialConstraint)
+            found = found + misfits[demand](constraint.value(rows))
+    return found
 
 
 _Table = RecordedNode | ProductStep
+_Sums = dict[_Table, Any]
+"""Array of numbers for each table, with one number for each row or for each transition."""
+
+
+def _parts(table: _Table) -> tuple[tuple[_Table, Ints], ...]:
+    """Return the product steps and recorded nodes to which the transitions of a table lead, each with the row to which
+    each transition leads. A recorded node leads to the values of its variable and to its children; a product step leads
+    to the step of the previous wheel.
+    """
+    if isinstance(table, RecordedNode):
+        return (table.values, table.places), *table.children
+    return () if table.before is None else ((table.before, table.parents),)
+
+
+def _owners(table: _Table) -> Ints:
+    """Return, for each transition of a table, the row of the table from which the transition starts."""
+    return table.parents if isinstance(table, RecordedNode) else table.children
 
 
 class AssignmentSums:
@@ -142,31 +149,52 @@ class AssignmentSums:
 
     def __init__(self, root: RecordedNode, graded: bool) -> None:
         self.root, self.graded = root, graded
+        self._tables: dict[_Table, None] = {}
+        self._add(root)
+
+    def _add(self, table: _Table) -> None:
+        """Add a table to the list of tables, after all tables to which its transitions lead."""
+        for part, _ in reversed(_parts(table)):
+            self._add(part)
+        self._tables[table] = None
 
     def total(self, weights: CountWeights) -> Any:
         """Return the total weight of all assignments of tooth counts."""
-        return self._sums(weights).total.sum()
+        inside, _, _ = self._inside(weights)
+        return inside[self.root].sum()
+
+    def _inside(self, weights: CountWeights) -> tuple[_Sums, _Sums, _Sums]:
+        """Return three results for each table: the inside sum of each row, the weight of each transition, and the
+        product of this weight and the inside sums of the rows to which the transition leads.
+        """
+        inside: _Sums = {}
+        own: _Sums = {}
+        onward: _Sums = {}
+        for table in self._tables:
+            if isinstance(table, RecordedNode):
+                own[table] = np.exp(-table.misfit / 2) if self.graded else 1
+            else:
+                own[table] = weights[table.wheel][table.choices]
+            onward[table] = prod((inside[part][rows] for part, rows in _parts(table)), start=own[table])
+            inside[table] = sums_by(_owners(table), onward[table], table.size)
+        return inside, own, onward
 
     def marginals(self, weights: CountWeights) -> dict[str, Tallies]:
-        """Return the total weight of the assignments with each tooth count of each wheel, keyed by wheel."""
-        return {str(wheel): sums for wheel, sums in self._sums(weights).marginals.items()}
-
-    def _sums(self, weights: CountWeights) -> WeightedAlternatives[_Table]:
-        return WeightedAlternatives(self.root, lambda table: self._alternatives(table, weights))
-
-    def _alternatives(self, table: _Table, weights: CountWeights) -> AlternativeRows[_Table]:
-        """Return the weighted alternatives of the rows of a table. A table is a recorded node or a product step.
-
-        An alternative of a node refers to a value of its variable and to a row of each child node. An alternative of a
-        product selects one tooth count and refers to the product of the other factors.
-        """
-        if isinstance(table, RecordedNode):
-            grade = np.exp(-table.misfit / 2) if self.graded else 1
-            return AlternativeRows(grade, table.size, table.parents, ((table.values, table.places), *table.children))
-        own = weights[table.wheel]
-        facts = ((table.wheel, len(own), table.choices),)
-        before = () if table.before is None else ((table.before, table.parents),)
-        return AlternativeRows(own[table.choices], table.size, table.children, before, facts)
+        """Return, for each wheel, the total weight of the assignments with each of its tooth counts."""
+        inside, own, onward = self._inside(weights)
+        outside: _Sums = dict.fromkeys(self._tables, 0)
+        outside[self.root] = inside[self.root] ** 0  # 1 for each row
+        found: dict[str, Tallies] = {}
+        for table in reversed(self._tables):
+            around = outside[table][_owners(table)]
+            if isinstance(table, ProductStep):
+                found[table.wheel] = sums_by(table.choices, around * onward[table], len(weights[table.wheel]))
+            parts = [(part, rows, inside[part][rows]) for part, rows in _parts(table)]
+            for at, (part, rows, _) in enumerate(parts):
+                # not total / inside sum of the part, which may be 0
+                others = (sums for _, _, sums in parts[:at] + parts[at + 1 :])
+                outside[part] = outside[part] + sums_by(rows, prod(others, start=around * own[table]), part.size)
+        return found
 
     def covariances(self, weights: CountWeights, counts: Mapping[str, Sequence[int]]) -> dict[tuple[str, str], float]:
         """Return the covariance of the tooth counts of each pair of wheels, keyed by pair in the order of `counts`.
@@ -210,8 +238,8 @@ class BestFirst:
         self._add(root)
 
     def _add(self, node: RecordedNode) -> int:
-        """Assign a number to a node and to each node of its subtree, compute the minimum remaining misfit of each row,
-        and return the number of the node.
+        """Number a node and all its descendants, compute the minimum misfit that each of their rows adds, and return
+        the number of the node.
         """
         at = len(self._nodes)
         self._nodes.append(node)
@@ -226,9 +254,8 @@ class BestFirst:
         return at
 
     def __iter__(self) -> Iterator[GradedAssignment]:
-        """Yield the assignments in ascending order of misfit. A heap entry contains pairs (node, row) for open rows and
-        pairs (node, index of the value) for assigned values.
-        """
+        """Yield the assignments in ascending order of misfit."""
+        # entry: bound, negative depth, misfit so far, open pairs (node, row), assigned pairs (node, value)
         heap: list[tuple[float, int, float, tuple[tuple[int, int], ...], tuple[tuple[int, int], ...]]] = []
         if np.isfinite(self._ahead[0][0]):
             heappush(heap, (float(self._ahead[0][0]), 0, 0.0, ((0, 0),), ()))
@@ -250,7 +277,9 @@ class BestFirst:
                 heappush(heap, (max(ahead, bound), depth - 1, so_far, then, (*taken, (number, int(node.places[at])))))
 
     def _teeth(self, taken: Sequence[tuple[int, int]]) -> Iterator[dict[str, int]]:
-        """Yield all assignments of tooth counts that produce the given values of the variables."""
+        """Yield all assignments of tooth counts that produce the given products. `taken` contains pairs of the number
+        of a node and the index of a product of its variable.
+        """
         if not taken:
             yield {}
             return

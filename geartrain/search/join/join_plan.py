@@ -16,7 +16,7 @@ from math import inf, isinf, log, prod
 
 import numpy as np
 
-from geartrain.numerics.arrays import Floats, Ints
+from geartrain.numerics.arrays import Floats
 from geartrain.numerics.bounded_polynomials import bounded_quotient, products_of
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.graphs import joined_groups
@@ -24,7 +24,6 @@ from geartrain.search.constraints.count_conditions import Condition, CountConstr
 from geartrain.search.join.polynomial_constraints import PolynomialConstraint
 from geartrain.search.join.product_lists import Domains, Factors, Weights, forecast
 from geartrain.search.join.wheel_monomials import (
-    Function,
     Interval,
     IntervalConstraint,
     find_polynomial_constraints,
@@ -59,8 +58,6 @@ class PlanNode:
     """
     children: tuple[PlanNode, ...]
     """Child nodes. No two of them have a common constraint."""
-    reach: tuple[int, ...]
-    """Indices of all constraints of this node and of its subtree."""
 
     def decided(self) -> Iterator[int]:
         """Yield the indices of the constraints whose last variable is assigned at this node, and then of those whose
@@ -75,7 +72,9 @@ class PlanNode:
 
 @dataclass(frozen=True)
 class JoinProblem:
-    """Complete description of a join. It can be pickled and sent to worker processes."""
+    """Complete description of a join: wheels with their admissible tooth counts, constraints, variables, and plan. It
+    can be pickled and sent to worker processes.
+    """
 
     domains: Domains
     """Admissible tooth counts of each wheel, in ascending order."""
@@ -129,85 +128,73 @@ def find_join_problem(
     domains: Domains,
     requested: Sequence[IntervalConstraint],
     rules: Sequence[CountConstraint],
-    probabilities: Mapping[str, float],
     weights: Weights | None = None,
+    probabilities: Mapping[str, float] | None = None,
 ) -> JoinProblem:
     """Return the join problem whose plan has the minimum expected cost.
 
     The plans that are compared differ in the constraints that are evaluated last.
 
-    probabilities   approximate fraction of the assignments that satisfy a constraint, keyed by the name of the
-                    constraint
     weights         integer weights of tooth counts, as in `JoinProblem`
-    """
-    found = [_planned(domains, requested, early, late, probabilities) for early, late in _rule_partitions(rules)]
-    return replace(min(found, key=lambda question: question.steps), weights=weights or {})
-
-
-def _rule_partitions(
-    rules: Sequence[CountConstraint],
-) -> Iterator[tuple[tuple[CountConstraint, ...], tuple[CountConstraint, ...]]]:
-    """Yield partitions of the constraints on tooth counts into two groups: constraints evaluated as soon as possible,
-    and constraints evaluated last.
+    probabilities   fraction of the assignments that satisfy a constraint, keyed by the name of the constraint; by
+                    default it is estimated
     """
     equations = tuple(rule for rule in rules if isinstance(rule, CountEquation))
     conditions = tuple(rule for rule in rules if isinstance(rule, Condition))
     # a rule evaluated early makes its wheels separate variables, which may cost more than it saves
-    yield tuple(rules), ()
+    choices: list[tuple[tuple[CountConstraint, ...], tuple[CountConstraint, ...]]] = [(tuple(rules), ())]
     if conditions:
-        yield equations, conditions
+        choices.append((equations, conditions))
     if equations:
-        yield (), tuple(rules)
+        choices.append(((), tuple(rules)))
+    if probabilities is None:
+        probabilities = estimate_probabilities(domains, requested, rules)
+    found = [_Planner(domains, requested, early, late, probabilities).problem() for early, late in choices]
+    return replace(min(found, key=lambda question: question.steps), weights=weights or {})
 
 
-def _planned(
-    domains: Domains,
-    requested: Sequence[IntervalConstraint],
-    early: tuple[CountConstraint, ...],
-    late: tuple[CountConstraint, ...],
-    probabilities: Mapping[str, float],
-) -> JoinProblem:
-    alone = frozenset(wheel for rule in early for wheel in rule.wheels)
-    recipes = find_recipes(find_wheel_monomials(tuple(domains), requested, alone), domains)
-    polynomials = find_polynomial_constraints(requested, recipes, domains)
-    planner = _Planner(domains, recipes, early, polynomials, probabilities)
-    node, steps = planner.plan()
-    steps += sum(planner.sizes)
-    steps += sum(forecast(recipe, domains)[1] / 4 for recipe in recipes)
-    if late:
-        left = prod(len(counts) for counts in domains.values())
-        steps += 3 * left * prod(probabilities.get(one.name, 1.0) for one in (*early, *polynomials))
-    return JoinProblem(domains, tuple(requested), early, late, recipes, node, steps)
-
-
-@dataclass
 class _Planner:
-    """Generator of a join plan and its expected cost, which is the expected number of partial assignments."""
+    """Search for the plan of a join. The constraints `early` are evaluated as soon as their variables are assigned, and
+    the constraints `late` at the end.
+    """
 
-    domains: Domains
-    recipes: Sequence[Factors]
-    rules: Sequence[CountConstraint]
-    polynomial_constraints: Sequence[PolynomialConstraint]
-    probabilities: Mapping[str, float]
-    sizes: list[int] = field(init=False)
-    scopes: list[Items] = field(init=False)
-    likely: list[float] = field(init=False)
-
-    def __post_init__(self) -> None:
-        self.sizes = [forecast(recipe, self.domains)[0] for recipe in self.recipes]
+    def __init__(
+        self,
+        domains: Domains,
+        requested: Sequence[IntervalConstraint],
+        early: tuple[CountConstraint, ...],
+        late: tuple[CountConstraint, ...],
+        probabilities: Mapping[str, float],
+    ) -> None:
+        self.domains, self.requested, self.rules, self.late = domains, requested, early, late
+        alone = frozenset(wheel for rule in early for wheel in rule.wheels)
+        self.recipes = find_recipes(find_wheel_monomials(tuple(domains), requested, alone), domains)
+        self.polynomial_constraints = find_polynomial_constraints(requested, self.recipes, domains)
+        self.sizes = [forecast(recipe, domains)[0] for recipe in self.recipes]
         at = {wheel: item for item, recipe in enumerate(self.recipes) for wheel, _ in recipe}
-        self.scopes = [frozenset(at[wheel] for wheel in rule.wheels) for rule in self.rules]
+        self.scopes: list[Items] = [frozenset(at[wheel] for wheel in rule.wheels) for rule in early]
         self.scopes += [frozenset(one.items) for one in self.polynomial_constraints]
-        self.likely = [self.probabilities.get(one.name, 1.0) for one in (*self.rules, *self.polynomial_constraints)]
+        self.likely = [probabilities.get(one.name, 1.0) for one in (*early, *self.polynomial_constraints)]
 
-    def plan(self) -> tuple[PlanNode, float]:
-        """Return the root of the plan and its expected cost."""
-        node, cost = self._grow(frozenset(range(len(self.recipes))), frozenset(), 1.0)
+    def problem(self) -> JoinProblem:
+        """Return the join problem with the plan and its expected number of steps."""
+        plan, steps = self._grow(frozenset(range(len(self.recipes))), frozenset(), 1.0)
         # constraints without variables are evaluated at the root
         constant = tuple(at for at, scope in enumerate(self.scopes) if not scope)
-        return replace(node, checks=constant + node.checks, reach=constant + node.reach), cost
+        plan = replace(plan, checks=constant + plan.checks)
+        steps += sum(self.sizes)
+        steps += sum(forecast(recipe, self.domains)[1] / 4 for recipe in self.recipes)
+        if self.late:
+            left = prod(len(counts) for counts in self.domains.values())
+            steps += 3 * left * prod(self.likely)
+        return JoinProblem(self.domains, tuple(self.requested), self.rules, self.late, self.recipes, plan, steps)
 
     def _grow(self, open_: Items, known: Items, rows: float) -> tuple[PlanNode, float]:
+        """Return the plan of the unassigned variables `open_` and its expected number of examined partial assignments.
+
+        known   variables that are already assigned
+        rows    expected number of partial assignments of these variables
+        """
         active = [at for at, scope in enumerate(self.scopes) if scope & open_]
         item = self._next(open_, active)
         complete = [at for at in active if self.scopes[at] & open_ == {item}]
@@ -216,31 +203,27 @@ class _Planner:
         interface = sorted({other for at in active for other in self.scopes[at] & known})
         # equal rows on the interface are merged
         rows = min(rows, prod(self.sizes[other] for other in interface))
-        examined = rows * self.sizes[item] * (self._share(item, guide) if guide >= 0 else 1.0)
+        examined = rows * self.sizes[item]
+        if guide >= 0:
+            # an equation selects one value
+            examined *= 1 / self.sizes[item] if guide < len(self.rules) else self.likely[guide]
         kept = examined * prod((self.likely[at] for at in checks), start=1.0)
         rest = open_ - {item}
         children, cost = [], rows + (examined if rest or checks or guide < 0 else 0)
-        for part in joined_groups(sorted(rest), (self.scopes[at] for at in active)):
+        parts = map(frozenset, joined_groups(sorted(rest), (self.scopes[at] for at in active)))
+        # subtrees with few constraints first, because they are cheap and may reject rows early
+        for part in sorted(parts, key=lambda part: sum(bool(self.scopes[at] & part) for at in active)):
             # a lower limit of the expected rows, because rough estimates would make later nodes appear free
-            child, more = self._grow(frozenset(part), known | {item}, max(kept, 1e-3))
+            child, more = self._grow(part, known | {item}, max(kept, 1e-3))
             children.append(child)
             cost += more
-        # subtrees with few constraints first, because they are cheap and may reject rows early
-        children.sort(key=lambda child: len(child.reach))
         prunes = [at for at in active if len(self.scopes[at] & open_) > 1 and at >= len(self.rules)]
-        node = PlanNode(
-            item, tuple(interface), guide, tuple(checks), tuple(prunes), tuple(children), tuple(sorted(active))
-        )
-        return node, cost
-
-    def _share(self, item: int, guide: int) -> float:
-        """Return the expected fraction of the values of variable `item` that constraint `guide` selects."""
-        return 1 / self.sizes[item] if guide < len(self.rules) else self.likely[guide]
+        return PlanNode(item, tuple(interface), guide, tuple(checks), tuple(prunes), tuple(children)), cost
 
     def _next(self, open_: Items, active: Sequence[int]) -> int:
-        """Return the next variable to be assigned. This is a variable that an equation determines, if there is one. If
-        there is none, it is the variable that occurs in most constraints, among the variables of the constraint with
-        the lowest cost.
+        """Return the index of the variable that is assigned next: a variable that an equation determines, if there is
+        one, or the variable that occurs in most constraints, among the unassigned variables of the constraint with the
+        lowest cost.
         """
         for at in active:
             left = self.scopes[at] & open_
@@ -262,9 +245,7 @@ class _Planner:
 
     def _guide(self, item: int, complete: Sequence[int]) -> int:
         """Return the index of the equation that determines variable `item`. If there is none, return the index of the
-        most selective constraint for which the admissible values of the variable form index ranges.
-
-        Return -1 if there is no such equation or constraint.
+        most selective constraint that admits an index range of the values of the variable; -1 if there is none either.
         """
         for at in complete:
             if at < len(self.rules) and isinstance(self.rules[at], CountEquation):
@@ -285,45 +266,31 @@ _NEIGHBOURS = 40  # number of nearest values for a density; fewer hits give too 
 _EXACT = 1e-7  # width of an exact value in logarithms
 
 
-@dataclass(frozen=True, slots=True)
-class SelectivitySample:
-    """Random sample of assignments, drawn with a fixed seed, from which the selectivity of constraints is estimated."""
-
-    domains: Domains
-    columns: Mapping[str, Ints]
-    """Sampled tooth counts of each wheel, shape (drawn,), where `drawn` is the sample size."""
-
-    @classmethod
-    def of(cls, domains: Domains) -> SelectivitySample:
-        """Draw a sample of assignments uniformly from the admissible tooth counts."""
-        # fixed seed, so that a plan and its tasks are reproducible
-        draw = np.random.default_rng(0)
-        return cls(domains, {wheel: draw.choice(np.array(counts), _DRAWN) for wheel, counts in domains.items()})
-
-    def of_rule(self, rule: CountConstraint) -> float:
-        """Return an estimate of the fraction of assignments that satisfy a constraint on tooth counts."""
+def estimate_probabilities(
+    domains: Domains, requested: Sequence[IntervalConstraint], rules: Sequence[CountConstraint]
+) -> dict[str, float]:
+    """Return an estimate of the fraction of assignments that satisfy each constraint, keyed by the name of the
+    constraint. The estimates are based on a random sample of assignments.
+    """
+    # fixed seed, so that a plan and its tasks are reproducible
+    draw = np.random.default_rng(0)
+    columns = {wheel: draw.choice(np.array(counts), _DRAWN) for wheel, counts in domains.items()}
+    found = {}
+    for rule in rules:
         if isinstance(rule, CountEquation):
             # an equation fixes one count; a sample would contain too few solutions
-            return 1 / max(len(self.domains[wheel]) for wheel in rule.wheels)
-        return max(float(rule.holds(self.columns).mean()), 1 / _DRAWN)
-
-    def of_demand(self, requested: IntervalConstraint) -> float:
-        """Return an estimate of the fraction of assignments that satisfy an interval constraint.
-
-        If few sampled assignments satisfy the constraint, the estimate is based on the density of nearby values.
-        """
-        speeds = self.speeds(requested.function)
-        minimum = 1 / prod(len(self.domains[wheel]) for wheel in requested.function.wheels)
-        return min(1.0, max(minimum, sum(_interval_share(speeds, interval) for interval in requested.intervals)))
-
-    def speeds(self, function: Function) -> Floats:
-        """Return the values of a function of tooth counts for the sampled assignments. Values that are not finite are
-        omitted.
-        """
-        product = products_of([self.columns[wheel].astype(np.float64) for wheel in function.wheels])
+            found[rule.name] = 1 / max(len(domains[wheel]) for wheel in rule.wheels)
+        else:
+            found[rule.name] = max(float(rule.holds(columns).mean()), 1 / _DRAWN)
+    for one in requested:
+        function = one.function
+        product = products_of([columns[wheel].astype(np.float64) for wheel in function.wheels])
         values, _ = bounded_quotient(function.numerator, function.denominator, [1] * len(function.wheels), product)
         values = np.broadcast_to(values, _DRAWN)
-        return np.asarray(values[np.isfinite(values)])
+        speeds = np.asarray(values[np.isfinite(values)])
+        minimum = 1 / prod(len(domains[wheel]) for wheel in function.wheels)
+        found[one.name] = min(1.0, max(minimum, sum(_interval_share(speeds, each) for each in one.intervals)))
+    return found
 
 
 def _as_float64(value: Fraction) -> float:

@@ -6,8 +6,8 @@ The condition is a disjunction of a few cases, such as D > 0, N - (1-t) w D >= 0
 of inequalities sense * polynomial >= 0, where sense is 1 or -1. If only one variable is free, each case admits one
 index range of the values of this variable. The ends of the range are determined by exact signs.
 
-If several variables are free, only the bounds of their values are used. A row (partial assignment) is removed if no
-values within the bounds satisfy the constraint. The sum of the extreme values of all terms bounds the polynomial.
+If several variables are free, a row (partial assignment) is removed if the sum of the extreme values of all terms,
+which bounds the polynomial, violates the constraint.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, cached_property
-from typing import Any
+from math import prod
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,10 +26,7 @@ from geartrain.numerics.bounded_polynomials import Monomial, sum_and_size
 from geartrain.numerics.rounding_bounds import UNIT_ROUNDOFF
 from geartrain.search.join.product_lists import PartialAssignments
 
-# Exact signs of polynomials at very many points. Every bound on an output is the sign of a polynomial in the
-# variables: N/D <= v is N - v D <= 0 if D > 0. A float64 value with a bound of its rounding error decides almost all
-# points; Python integers decide the rest.
-
+# A float64 value with a bound of its rounding error decides almost all signs; Python integers decide the rest.
 
 Signs = NDArray[np.int8]
 
@@ -38,8 +35,8 @@ ROUNDING = 2 * UNIT_ROUNDOFF  # doubled, so that second-order terms are covered
 
 @dataclass(frozen=True)
 class SignPolynomial:
-    """Polynomial in the variables with integer coefficients, whose sign is computed exactly. All powers are at least
-    1.
+    """Polynomial in the variables of a join with integer coefficients, whose sign is computed exactly. All powers are
+    at least 1.
     """
 
     terms: tuple[tuple[int, Monomial], ...]
@@ -64,7 +61,9 @@ class SignPolynomial:
 
     @cached_property
     def rounding(self) -> float:
-        """Upper bound of the rounding error of `values`, divided by the sum of the magnitudes of the terms."""
+        """Upper bound of the rounding error of the value that `values` returns, divided by the sum of the magnitudes of
+        the terms.
+        """
         degree = max((sum(power for _, power in monomial) for _, monomial in self.terms), default=0)
         # each variable and each product has one rounding; the remaining terms cover squares and the bound itself
         return (4 * degree + len(self.terms) + 8) * ROUNDING
@@ -86,8 +85,8 @@ class SignPolynomial:
         return SignPolynomial.of((*mine, *theirs))
 
     def values(self, rows: PartialAssignments, scale: int | None = None) -> tuple[Floats, Floats]:
-        """Return, for each row, the value of the polynomial divided by `scale`, and the sum of the magnitudes of its
-        terms divided by `scale`.
+        """Return, for each row, the value of the polynomial and the sum of the magnitudes of its terms, both divided by
+        `scale`. If `scale` is None, the attribute `scale` is used.
         """
         # scaled, so that large coefficients do not overflow float64
         over = scale or self.scale
@@ -102,18 +101,13 @@ class SignPolynomial:
         found: Signs = np.sign(value).astype(np.int8)
         doubtful = np.flatnonzero(np.abs(value) <= self.rounding * size)
         if len(doubtful):
-            found[doubtful] = np.sign(self._whole(rows.pick(doubtful))).astype(np.int8)
+            # exact values as Python integers
+            few, total = rows.pick(doubtful), np.zeros(len(doubtful), dtype=object)
+            for coefficient, monomial in self.terms:
+                powers = (few.value(item).astype(object) ** power for item, power in monomial)
+                total += prod(powers, start=np.full(len(doubtful), coefficient, dtype=object))
+            found[doubtful] = np.sign(total).astype(np.int8)
         return found
-
-    def _whole(self, rows: PartialAssignments) -> NDArray[Any]:
-        """Return the exact value of the polynomial for each row, as Python integers."""
-        total = np.zeros(rows.size, dtype=object)
-        for coefficient, monomial in self.terms:
-            term = np.full(rows.size, coefficient, dtype=object)
-            for item, power in monomial:
-                term = term * rows.value(item).astype(object) ** power
-            total = total + term
-        return total
 
 
 def _term(coefficient: float, monomial: Monomial, rows: PartialAssignments) -> Floats:
@@ -142,7 +136,7 @@ class PolynomialInequality:
     strict: bool = False
 
     def met(self, signs: Signs) -> Bools:
-        """Return whether the inequality is satisfied for each exact sign of the polynomial."""
+        """Return, for each given sign (-1, 0 or 1) of the polynomial, whether the inequality is satisfied."""
         found: Bools = (signs * self.sense > 0) if self.strict else (signs * self.sense >= 0)
         return found
 
@@ -162,19 +156,6 @@ class PolynomialInequality:
             # rounding errors must not exclude a row
             best += _term(factor + slack * abs(factor), tuple(powers.items()), rows)
         return np.asarray(best >= 0)
-
-
-def find_window(case: Sequence[PolynomialInequality], rows: PartialAssignments, item: int) -> tuple[Ints, Ints]:
-    """Return, for each row, the exact half-open index range of the values of variable `item` that satisfy all
-    inequalities of a case.
-
-    The two arrays contain the starts and the ends of the ranges, indices into `rows.items[item]`, shape (rows,).
-    """
-    start, end = np.zeros(rows.size, dtype=np.int64), np.full(rows.size, len(rows.items[item]))
-    for inequality in case:
-        first, last = _ray(inequality, rows, item)
-        start, end = np.maximum(start, first), np.minimum(end, last)
-    return start, np.maximum(start, end)
 
 
 def _ray(inequality: PolynomialInequality, rows: PartialAssignments, item: int) -> tuple[Ints, Ints]:
@@ -258,9 +239,17 @@ class PolynomialConstraint:
         return np.asarray(above / below)
 
     def windows(self, rows: PartialAssignments, item: int) -> list[tuple[Ints, Ints]]:
-        """Return, for each case, the half-open index range of the admissible values of variable `item` in each row.
+        """Return, for each case of the constraint, the half-open index range of the admissible values of variable
+        `item` in each row.
 
         The two arrays of a case contain the starts and the ends of the ranges, indices into `rows.items[item]`, shape
         (rows,).
         """
-        return [find_window(case, rows, item) for case in self.cases]
+        found = []
+        for case in self.cases:
+            start, end = np.zeros(rows.size, dtype=np.int64), np.full(rows.size, len(rows.items[item]))
+            for inequality in case:
+                first, last = _ray(inequality, rows, item)
+                start, end = np.maximum(start, first), np.minimum(end, last)
+            found.append((start, np.maximum(start, end)))
+        return found

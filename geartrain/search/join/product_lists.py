@@ -2,8 +2,8 @@
 values.
 
 An output depends on most wheels only through one monomial, such as a c / (b d). The join therefore assigns variables
-instead of wheels. A variable (class `Item`) is a list of products of tooth counts: here one variable for a c, and
-another one for b d. A wheel in a constraint on tooth counts is a separate variable.
+(class `Item`) instead of wheels: here one variable for a c, and another one for b d. A wheel in a constraint on tooth
+counts is a separate variable.
 """
 
 from __future__ import annotations
@@ -38,8 +38,8 @@ _REMEMBERED = 20_000_000  # maximum number of values of all cached variables
 
 
 def forecast(wheels: Sequence[tuple[str, int]], domains: Mapping[str, Sequence[int]]) -> tuple[int, int]:
-    """Return the number of distinct products of tooth counts, and the number of products that must be formed to list
-    them. Large numbers are estimates.
+    """Return the number of distinct products of tooth counts, and the number of multiplications that are needed to list
+    them. `wheels` contains pairs (wheel, power). Large numbers are estimates.
     """
     return _forecast(tuple(tuple(count**power for count in domains[wheel]) for wheel, power in wheels))
 
@@ -50,7 +50,7 @@ def _forecast(factors: tuple[tuple[int, ...], ...]) -> tuple[int, int]:
     for at, some in enumerate(factors):
         examined = sizes[-1] * len(some)
         cost += examined
-        if cost <= _TRIED and len(values) == sizes[-1] and maximum(factors[: at + 1]) < 1 << 62:
+        if cost <= _TRIED and len(values) == sizes[-1] and prod(map(max, factors[: at + 1])) < 1 << 62:
             values = np.unique(np.multiply.outer(values, np.array(some, dtype=np.int64)))
             sizes.append(len(values))
         else:
@@ -61,14 +61,11 @@ def _forecast(factors: tuple[tuple[int, ...], ...]) -> tuple[int, int]:
     return sizes[-1], cost
 
 
-def maximum(factors: Sequence[Sequence[int]]) -> int:
-    """Return the largest product of factors, with one factor from each list."""
-    return prod(max(some) for some in factors)
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class ProductStep:
-    """Transitions from the products of some wheels to the products of these wheels and one more wheel."""
+    """Multiplication of all products of some wheels by the tooth counts of one more wheel, as a list of transitions
+    from one product to another.
+    """
 
     wheel: str
     choices: Ints
@@ -83,7 +80,7 @@ class ProductStep:
     """Step of the previous wheel; None if there is no previous wheel."""
 
     def chain(self) -> Iterator[ProductStep]:
-        """Yield this step, followed by the previous steps in reverse order."""
+        """Yield this step, and then the steps of all previous wheels, last wheel first."""
         yield self
         if self.before is not None:
             yield from self.before.chain()
@@ -132,27 +129,21 @@ class Item:
             found[self.wheels[level][0]] = self.counts[level][factor]
         return owner, found
 
-    def last_step(self, indices: Ints) -> ProductStep:
-        """Return the last step of the multiplication that leads from the empty product to the distinct products at the
-        given indices.
-        """
-        step = self._step(len(self.wheels) - 1, self.values[indices])
-        assert step is not None, "a variable has at least one wheel"
-        return step
+    def last_step(self, values: Ints, level: int = -1) -> ProductStep:
+        """Return the last step of the multiplication that leads from the empty product to the given distinct products.
 
-    def _step(self, level: int, values: Ints) -> ProductStep | None:
-        if level < 0:
-            return None
+        level   index of the last wheel in these products; by default the last wheel of the variable
+        """
+        level %= len(self.wheels)
         children, choices, rest = _divided(values, self.powers[level], self.levels[level])
-        before, parents = np.unique(rest, return_inverse=True)
-        return ProductStep(
-            self.wheels[level][0], choices, children, parents, len(values), self._step(level - 1, before)
-        )
+        products, parents = np.unique(rest, return_inverse=True)
+        before = self.last_step(products, level - 1) if level else None
+        return ProductStep(self.wheels[level][0], choices, children, parents, len(values), before)
 
 
 def _multiplied(values: Ints, times: Tallies, factors: Ints, weights: Tallies) -> tuple[Ints, Tallies]:
-    """Return the distinct products of two lists and their weights. The products are computed block by block to save
-    memory.
+    """Return the distinct products of an element of `values` and an element of `factors`, and the total weight of each
+    product. The products are computed block by block to save memory.
     """
     step = max(1, _LONGEST // len(values))
     found: list[tuple[Ints, Tallies]] = []
@@ -177,8 +168,8 @@ def _distinct(values: Ints, times: Tallies) -> tuple[Ints, Tallies]:
 
 
 def _divided(rest: Ints, factors: Ints, shorter: Ints) -> tuple[Ints, Ints, Ints]:
-    """Return all exact divisions of products by factors as three arrays: index in `rest`, index of the factor, and
-    quotient.
+    """Return all divisions of a product in `rest` by a factor in `factors` whose quotient is an element of `shorter`,
+    as three arrays: index of the product, index of the factor, and quotient.
     """
     found = []
     step = max(1, _LONGEST // len(factors))
@@ -197,7 +188,7 @@ _ITEMS: OrderedDict[Hashable, Item] = OrderedDict()
 
 
 def find_item(recipe: Factors, domains: Domains, weights: Weights, dtype: Any) -> Item:
-    """Return the variable with the definition `recipe`, from the cache if it is available."""
+    """Return the variable whose values are the products of the wheels in `recipe`, from the cache if possible."""
     key = recipe, tuple((domains[wheel], weights.get(wheel)) for wheel, _ in recipe), dtype is object
     if key not in _ITEMS:
         _ITEMS[key] = Item(recipe, domains, weights, dtype)
@@ -212,7 +203,7 @@ def find_item(recipe: Factors, domains: Domains, weights: Weights, dtype: Any) -
 
 
 class PartialAssignments:
-    """Partial assignments. Each row contains the index of the value of every assigned variable.
+    """Table of partial assignments. Each row contains, for every assigned variable, the index of its value.
 
     columns   index of the value for each row, shape (size,), keyed by assigned variable
     """
@@ -240,18 +231,18 @@ class PartialAssignments:
         return PartialAssignments(self.items, columns, size)
 
     def plus(self, parents: Ints, item: int, indices: Ints) -> PartialAssignments:
-        """Return rows extended by variable `item`. `parents` contains the indices of the original rows, and `indices`
-        the indices of the values of the variable.
+        """Return partial assignments extended by a value of variable `item`. `parents` contains the index of the
+        original row of each extension, and `indices` the index of its value.
         """
         columns = {known: column[parents] for known, column in self.columns.items()}
         return PartialAssignments(self.items, {**columns, item: indices}, len(parents))
 
-    def distinct(self, items: Sequence[int]) -> tuple[PartialAssignments, Ints | None]:
+    def distinct(self, items: Sequence[int]) -> tuple[PartialAssignments, Ints | slice]:
         """Return the distinct rows with respect to the given variables, and for each original row the index of its
-        distinct row. The indices are None if the rows are unchanged.
+        distinct row. The indices are `slice(None)` if the rows are unchanged.
         """
         if len(items) == len(self.columns):
-            return self, None
+            return self, slice(None)
         key, most = np.zeros(self.size, dtype=np.int64), 1
         for item in items:
             values = len(self.items[item])
@@ -264,8 +255,8 @@ class PartialAssignments:
         return PartialAssignments(self.items, {item: self.columns[item][first] for item in items}, len(first)), inverse
 
     def blocks(self, sizes: Tallies) -> Iterator[tuple[int, int]]:
-        """Yield half-open ranges of rows such that the sum of `sizes` in each range is at most about `BLOCK`. A row
-        with a larger size forms a range by itself.
+        """Yield half-open ranges of consecutive rows, in each of which the sum of `sizes` is at most about `BLOCK`. A
+        row with a larger size forms a range by itself.
         """
         ends = np.cumsum(sizes)
         at = 0

@@ -14,12 +14,11 @@ from geartrain.errors import Problem, RangeError
 from geartrain.kinematics.formulas.rational_functions import proportional_classes
 from geartrain.numerics.bounded_polynomials import Monomial, WholeTerm
 from geartrain.search.join.polynomial_constraints import (
-    Extents,
     PolynomialConstraint,
     PolynomialInequality,
     SignPolynomial,
 )
-from geartrain.search.join.product_lists import Domains, Factors, PartialAssignments, forecast, maximum
+from geartrain.search.join.product_lists import Domains, Factors, PartialAssignments, forecast
 
 Interval = tuple[Fraction | None, Fraction | None]
 """Closed interval (minimum, maximum). None denotes an infinite bound."""
@@ -72,8 +71,9 @@ WheelMonomial = Mapping[str, int]
 def find_wheel_monomials(
     wheels: Sequence[str], requested: Sequence[IntervalConstraint], alone: frozenset[str]
 ) -> list[WheelMonomial]:
-    """Return the monomials that combine as many wheels as possible. Each wheel in `alone` forms a monomial by itself
-    with power 1.
+    """Return the monomials of tooth counts through which all functions in `requested` depend on the wheels. Each
+    monomial combines as many wheels as possible, except that each wheel in `alone` is a monomial by itself with power
+    1.
 
     Wheels are combined if their powers, relative to the first term of each function and listed over all terms of all
     functions, are proportional.
@@ -94,7 +94,7 @@ def find_wheel_monomials(
 
 
 def find_recipes(monomials: Sequence[WheelMonomial], domains: Domains) -> tuple[Factors, ...]:
-    """Return the definitions of the variables for the monomials. The numerator and the denominator of a monomial are
+    """Return the definitions of the variables of a join. The numerator and the denominator of each monomial are
     separate variables.
     """
     # a list of quotients would be longer, and `PartialAssignments.distinct` merges rows with equal quotients anyway
@@ -109,12 +109,12 @@ def find_recipes(monomials: Sequence[WheelMonomial], domains: Domains) -> tuple[
 
 
 def _listable_groups(wheels: Factors, domains: Domains) -> Iterator[Factors]:
-    """Yield groups of wheels whose products can be listed. A group whose products cannot be listed is divided into two
-    halves.
+    """Yield groups of wheels whose products are few enough to be listed in memory. A group with too many products is
+    divided into two halves.
     """
     if not wheels:
         return
-    short = maximum([[domains[wheel][-1] ** power] for wheel, power in wheels]) < _LARGEST
+    short = math.prod(domains[wheel][-1] ** power for wheel, power in wheels) < _LARGEST
     values, cost = forecast(wheels, domains) if short else (0, 0)
     if short and values <= _MOST_VALUES and cost <= _MOST_WORK:
         yield wheels
@@ -135,7 +135,12 @@ def find_polynomial_constraints(
     requested: Sequence[IntervalConstraint], recipes: Sequence[Factors], domains: Domains
 ) -> list[PolynomialConstraint]:
     """Convert interval constraints on functions of tooth counts to polynomial constraints in variables."""
-    extents = [extent(recipe, domains) for recipe in recipes]
+    minima, maxima = (
+        [float(math.prod(domains[wheel][end] ** power for wheel, power in recipe)) for recipe in recipes]
+        for end in (0, -1)
+    )
+    extents = list(zip(minima, maxima, strict=True))
+    nothing = PartialAssignments((), {}, 1)
     constraints = []
     for one in requested:
         function = one.function
@@ -144,8 +149,11 @@ def find_polynomial_constraints(
         polynomials = [(term[0], monomial) for term, monomial in zip(terms, monomials, strict=True)]
         N = SignPolynomial.of(polynomials[: len(function.numerator)])
         D = SignPolynomial.of(polynomials[len(function.numerator) :])
-        cases = _feasible(list(_cases(N, D, one)), extents)
-        constraints.append(PolynomialConstraint(one.name, cases, (N, D) if one.graded else None))
+        cases = list(_cases(N, D, one))
+        feasible = [case for case in cases if PolynomialConstraint("", (case,)).possible(nothing, extents)[0]]
+        # one impossible case is kept, so that the constraint still depends on its variables
+        kept = tuple(feasible or cases[:1])
+        constraints.append(PolynomialConstraint(one.name, kept, (N, D) if one.graded else None))
     return constraints
 
 
@@ -154,14 +162,10 @@ def is_within(value: Fraction, intervals: Iterable[Interval]) -> bool:
     return any((low is None or value >= low) and (high is None or value <= high) for low, high in intervals)
 
 
-def extent(recipe: Factors, domains: Domains) -> tuple[float, float]:
-    """Return the minimum and the maximum value of a variable as floats, accurate up to rounding errors."""
-    low, high = (math.prod(domains[wheel][end] ** power for wheel, power in recipe) for end in (0, -1))
-    return float(low), float(high)
-
-
 def _monomials(wheels: Sequence[str], terms: Sequence[WholeTerm], recipes: Sequence[Factors]) -> list[Monomial]:
-    """Return each term as a monomial in the variables. A factor common to all terms is divided out."""
+    """Return each term of a function as a monomial in the variables of a join. A factor common to all terms is divided
+    out.
+    """
     rows: list[list[tuple[int, int]]] = [[] for _ in terms]
     for item, recipe in enumerate(recipes):
         wheel, power = recipe[0]
@@ -189,15 +193,3 @@ def _cases(
             if high is not None:
                 inequalities.append(PolynomialInequality(N.plus(D, -high), -sense, requested.strict))
             yield tuple(inequalities)
-
-
-def _feasible(
-    cases: Sequence[tuple[PolynomialInequality, ...]], extents: Extents
-) -> tuple[tuple[PolynomialInequality, ...], ...]:
-    """Return the cases of a constraint that some tooth counts can satisfy; the first case if there is no such case.
-
-    One case is kept so that the constraint still depends on its variables.
-    """
-    nothing = PartialAssignments((), {}, 1)
-    kept = [case for case in cases if PolynomialConstraint("", (case,)).possible(nothing, extents)[0]]
-    return tuple(kept or cases[:1])

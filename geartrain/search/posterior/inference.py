@@ -17,7 +17,7 @@ from geartrain.errors import Problem, QuestionError, RangeError, suggest
 from geartrain.numerics.work import Execution, Journal
 from geartrain.search.join.exact_join import BudgetSpentError, ExactJoin
 from geartrain.search.join.inside_outside import AssignmentSums, BestFirst, CountWeights, RecordedNode, record_join
-from geartrain.search.join.join_plan import JoinProblem, SelectivitySample, find_join_problem
+from geartrain.search.join.join_plan import JoinProblem, find_join_problem
 from geartrain.search.posterior.inference_problem import (
     InferenceProblem,
     LikelihoodKind,
@@ -329,9 +329,8 @@ def _join_problem(question: InferenceProblem, graded: bool) -> JoinProblem:
         *(observation_constraint(one, question.soft, graded) for one in question.witnesses),
         *question.conditions,
     ]
-    sample = SelectivitySample.of(domains)
     weights = {wheel: uncertainty.weights for wheel, uncertainty in uncertainties.items()}
-    return find_join_problem(domains, requested, (), {one.name: sample.of_demand(one) for one in requested}, weights)
+    return find_join_problem(domains, requested, (), weights)
 
 
 def _recorded(question: InferenceProblem, limit: float) -> tuple[RecordedNode, int]:

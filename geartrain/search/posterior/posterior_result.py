@@ -10,9 +10,9 @@ from typing import Any, ClassVar, Literal, NotRequired, TypedDict
 
 from geartrain.numerics.exact import as_float, decimal
 from geartrain.numerics.results import Key, Result, Tabular
+from geartrain.search.information import relative_entropy
 from geartrain.search.posterior.inference_problem import ToothCountPrior
 from geartrain.search.train.output_requirements import OutputRequirement
-from geartrain.search.weighted_alternatives import relative_entropy
 
 Method = Literal["exact", "sample"]
 

@@ -18,16 +18,15 @@ from geartrain.search.integer_columns import distinct_quotients, spread
 from geartrain.search.stern_brocot import farey_neighbours
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from geartrain.numerics.arrays import Bools, Ints
 
-    Places = NDArray[np.int64]
-    Ints = NDArray[np.int64]
+MOST_STAGES = 5
+_LARGEST = 1 << 52
+"""Upper limit of products. Integers below this limit are represented exactly in float64."""
+_MOST_ROWS = 12 * 10**6  # maximum number of rows of the tables in memory
 
 
-# Index ranges of products within windows of ratios, and relative errors of ratios.
-
-
-def cuts(products: Ints, factors: Ints, low: Fraction, high: Fraction) -> tuple[Places, Places]:
+def cuts(products: Ints, factors: Ints, low: Fraction, high: Fraction) -> tuple[Ints, Ints]:
     """Return, for each factor f, the half-open index range of the `products` with low f <= product <= high f, by exact
     comparison.
 
@@ -46,7 +45,7 @@ def cuts(products: Ints, factors: Ints, low: Fraction, high: Fraction) -> tuple[
     return np.searchsorted(products, first), np.searchsorted(products, last, side="right")
 
 
-def _floors(factors: Ints, edge: Fraction, cap: int) -> tuple[Ints, NDArray[np.bool_]]:
+def _floors(factors: Ints, edge: Fraction, cap: int) -> tuple[Ints, Bools]:
     """Return, for each factor, floor(factor x edge), limited to `cap`, and whether factor x edge is an integer.
 
     The remainder factor n - floor d, with edge = n/d, is computed modulo 2^64. Since d is below 2^52, and the float64
@@ -55,18 +54,15 @@ def _floors(factors: Ints, edge: Fraction, cap: int) -> tuple[Ints, NDArray[np.b
     n, d = edge.numerator, edge.denominator
     near = factors * float(edge)
     found = np.minimum(near, cap).astype(np.int64)
-    rest = factors * _wrapped(n) - found * d
+    # n modulo 2^64, as a signed int64
+    wrapped = np.int64((n + (1 << 63)) % (1 << 64) - (1 << 63))
+    rest = factors * wrapped - found * d
     more = rest // d
     beyond = near > cap
     return np.where(beyond, cap, found + more), (rest == more * d) & ~beyond
 
 
-def _wrapped(number: int) -> np.int64:
-    """Return an integer modulo 2^64, represented as a signed int64."""
-    return np.int64((number + (1 << 63)) % (1 << 64) - (1 << 63))
-
-
-def error_places(tops: Ints, beneaths: Ints, value: Fraction) -> Places:
+def error_places(tops: Ints, beneaths: Ints, value: Fraction) -> Ints:
     """Return, for each ratio tops / beneaths, the rank of its absolute error with respect to `value`, by exact
     comparison. Equal errors have equal ranks.
     """
@@ -74,14 +70,6 @@ def error_places(tops: Ints, beneaths: Ints, value: Fraction) -> Places:
     misses = [abs(ratio / value - 1) for ratio in ratios]
     places = {miss: at for at, miss in enumerate(sorted(set(misses)))}
     return np.array([places[miss] for miss in misses], dtype=np.int64)[which]
-
-
-def reach_of_errors(value: Fraction, low: Fraction, high: Fraction) -> tuple[Fraction, Fraction]:
-    """Return the minimum and maximum absolute relative error with respect to `value` of all ratios between `low` and
-    `high`.
-    """
-    first, last = low / value - 1, high / value - 1
-    return max(first, -last, Fraction(0)), max(last, -first)
 
 
 def rounded_up(bound: float | Fraction) -> Fraction:
@@ -92,12 +80,6 @@ def rounded_up(bound: float | Fraction) -> Fraction:
     power = count_digits(exact.numerator) - count_digits(exact.denominator) - 3
     unit = Fraction(10) ** power
     return -(-exact // unit) * unit
-
-
-MOST_STAGES = 5
-_LARGEST = 1 << 52
-"""Upper limit of products. Integers below this limit are represented exactly in float64."""
-_MOST_ROWS = 12 * 10**6  # maximum number of rows of the tables in memory
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -135,7 +117,7 @@ class ProductWindows:
     """Offset of the table of upper partial products with which each lower partial product is combined, shape
     (rows,).
     """
-    starts: Places
+    starts: Ints
     """Index of the first upper partial product with which each lower partial product is combined, shape (rows,)."""
     step: int
     """Difference between consecutive offsets, larger than every upper partial product."""
@@ -144,7 +126,7 @@ class ProductWindows:
         """Return the exact number of multisets of tooth counts with a product less than `bound`."""
         return int((_ends(self, bound) - self.starts).sum())
 
-    def values(self, low: int, high: int) -> tuple[Ints, Places]:
+    def values(self, low: int, high: int) -> tuple[Ints, Ints]:
         """Return the n distinct products in [low, high) in ascending order, shape (n,), and cumulative numbers of
         multisets, shape (n + 1,). Entry i is the number of multisets in this interval with a product below product i,
         and the last entry is their total number.
@@ -173,7 +155,7 @@ class ProductWindows:
 
 
 @lru_cache(maxsize=4)
-def _ends(products: ProductWindows, bound: int) -> Places:
+def _ends(products: ProductWindows, bound: int) -> Ints:
     """Return, for each lower partial product, the index after the last upper partial product with which the product is
     below `bound`, shape (rows,).
     """
@@ -220,11 +202,11 @@ def products_of(counts: tuple[int, ...], size: int) -> ProductWindows:
     return ProductWindows(counts, size, rows, lows, highs, uppers, keys, offsets[table], starts, step)
 
 
-def _rows(numbers: Ints, below: int) -> tuple[Ints, Ints, Places]:
+def _rows(numbers: Ints, below: int) -> tuple[Ints, Ints, Ints]:
     """Return every combination of a number and a multiset of `below` numbers that do not exceed it.
 
-    The three arrays contain the product of the numbers, the numbers, and the index of the first-mentioned number, with
-    one row for each combination.
+    The three arrays have one row for each combination. They contain the product of all numbers, the numbers in
+    ascending order, and the index of the largest number.
     """
     parts = [_by_product(_chosen(numbers[: at + 1], below)) for at in range(len(numbers))]
     table = np.repeat(np.arange(len(numbers)), [len(part) for part in parts])
@@ -269,4 +251,4 @@ def check_products(counts: tuple[int, ...], size: int) -> None:
         raise RangeError(Problem(what, "the products of the counts must be below 2^52", fix))
     if rows > _MOST_ROWS:
         what = f"{number} counts are too many for {size} stages"
-        raise RangeError(Problem(what, "the tables would not fit in memory", fix))
+        raise RangeError(Problem(what, "the tables of products of counts would not fit in memory", fix))

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import partial
 from itertools import combinations_with_replacement
-from math import comb, factorial, isqrt, log
+from math import ceil, comb, factorial, floor, isqrt, log
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -24,13 +24,12 @@ from geartrain.search.integer_columns import spread_in_blocks
 from geartrain.search.ratio.product_windows import (
     ProductWindows,
     cuts,
+    error_places,
     multisets,
-    reach_of_errors,
     rounded_up,
     row_products,
 )
 from geartrain.search.ratio.stage_problem import (
-    BestStages,
     StageProblem,
     StageRank,
     first_of,
@@ -55,6 +54,7 @@ _WIDER = 16  # factor between tolerances; all passes before the last then cost l
 _ENOUGH = 2 * 10**9
 """Number of tested pairs of multisets at which a search without a given tolerance stops increasing its tolerance."""
 _SLACK = 1e-12  # relative margin of float comparisons
+_MARGIN = 1e-14  # relative bound of the rounding error of a ratio
 _MOST = 1e11
 """Maximum number of pairs of multisets that may be tested one by one."""
 
@@ -100,11 +100,10 @@ def search_segment(packed: bytes, segment: Sequence[int]) -> dict[str, Any]:
 def _search_sums(question: StageProblem, low: int, high: int) -> dict[str, Any]:
     """Search the reverted trains in which the sum of the tooth counts of a stage is in [low, high). The result has the
     keys described in `search_segment`.
-
-    For each sum, every multiset of stages is generated once, from a lower and an upper half, by a meet in the middle on
-    the ratios. Candidates near the tolerance are compared as Fractions, all others as floats.
     """
-    judge, size = StageFilter(question), question.stages
+    # meet in the middle on the ratios: for each sum, every multiset of stages is generated once, from a lower and an
+    # upper half. Candidates near the tolerance are compared as Fractions, all others as floats
+    judge, size, limit = StageFilter(question), question.stages, float(question.tolerance)
     first, last = map(float, question.edges)
     for total in range(low, high):
         pairs = [(count, total - count) for count in question.top if total - count in question.beneath]
@@ -121,8 +120,12 @@ def _search_sums(question: StageProblem, low: int, high: int) -> dict[str, Any]:
             once = lower[i, -1] <= upper[j, 0] if size > 1 else np.full(len(i), True)
             chosen = stages[np.concatenate([lower[i[once]], upper[j[once]]], axis=1)]
             tops, beneaths = np.sort(chosen[:, :, 0], axis=1), np.sort(chosen[:, :, 1], axis=1)
-            p, q = (row_products(each) for each in (tops, beneaths))
-            inside = _are_within(p, q, question)
+            p, q = row_products(tops), row_products(beneaths)
+            errors = np.abs(p / q / float(question.value) - 1)
+            inside = errors <= limit
+            for at in np.flatnonzero(np.abs(errors - limit) <= _SLACK * (1 + limit)):
+                exact = abs(Fraction(int(p[at]), int(q[at])) / question.value - 1)
+                inside[at] = exact <= question.tolerance
             judge.see(tops[inside], beneaths[inside], p[inside], q[inside])
     return judge.outcome()
 
@@ -133,18 +136,6 @@ def _multisets(number: int, size: int) -> Ints:
     """
     found = list(combinations_with_replacement(range(number), size))
     return np.array(found, dtype=np.int64).reshape(len(found), size)
-
-
-def _are_within(over: Ints, under: Ints, question: StageProblem) -> NDArray[np.bool_]:
-    """Return whether each ratio over / under is within the tolerance of the requested ratio. Ratios near the tolerance
-    are compared as Fractions, all others as floats.
-    """
-    limit, value = float(question.tolerance), question.value
-    errors = np.abs(over.astype(np.float64) / under.astype(np.float64) / float(value) - 1)
-    inside = np.asarray(errors <= limit)
-    for at in np.flatnonzero(np.abs(errors - limit) <= _SLACK * (1 + limit)):
-        inside[at] = abs(Fraction(int(over[at]), int(under[at])) / value - 1) <= question.tolerance
-    return inside
 
 
 def pieces(products: ProductWindows, low: int, high: int, most: int) -> Iterator[Range]:
@@ -162,15 +153,16 @@ def pieces(products: ProductWindows, low: int, high: int, most: int) -> Iterator
 
 
 class StageFilter:
-    """Filter that tests pairs of multisets of tooth counts against the constraints, counts the solutions and keeps the
-    best solutions.
+    """Filter that tests pairs of multisets of tooth counts against the constraints, counts the solutions, and keeps the
+    best solutions in bounded memory.
     """
 
     def __init__(self, question: StageProblem) -> None:
         self.question = question
-        self.best = BestStages(question.best, question.value)
         self.removed: dict[str, int] = {}
         self.count = 0
+        # rows: primary criterion, products of numerator and denominator, tooth counts of numerator and denominator
+        self._rows: list[Ints] = []
 
     def see(self, tops: Ints, beneaths: Ints, over: Ints, under: Ints) -> None:
         """Test and rank n pairs of multisets. The arguments are the tooth counts of numerator and denominator, shape
@@ -190,16 +182,39 @@ class StageFilter:
         self.count += len(at)
         if len(at):
             first = first_of(self.question.by, tops[at], beneaths[at], fit)
-            self.best.add(np.column_stack([first, over[at], under[at], tops[at], beneaths[at]]))
+            self._rows.append(np.column_stack([first, over[at], under[at], tops[at], beneaths[at]]))
+            # several times the list length is stored between two sorts, which amortises their cost
+            if sum(map(len, self._rows)) > max(4 * self.question.best, 1 << 17):
+                self._rows = [self._best_rows()]
 
     def outcome(self) -> dict[str, Any]:
         """Return the number of solutions, the number of rejected pairs of multisets for each reason, and the best
-        solutions as plain data.
+        solutions, as plain data with the keys that are described in `search_segment`.
         """
-        return {"count": self.count, "listed": self.count, "removed": self.removed, "rows": self.best.plain()}
+        rows, stages = self._best_rows().tolist() if self._rows else [], self.question.stages
+        best = [[row[0], row[3 : 3 + stages], row[3 + stages :]] for row in rows]
+        return {"count": self.count, "listed": self.count, "removed": self.removed, "rows": best}
+
+    def _best_rows(self) -> Ints:
+        """Sort all stored rows exactly, and return the requested number of best rows."""
+        rows, best, value = np.concatenate(self._rows), self.question.best, self.question.value
+        if len(rows) > best:
+            # errors in floats select slightly too many rows, which are then compared as Fractions
+            first, over, under = rows[:, 0], rows[:, 1], rows[:, 2]
+            error = np.abs(over.astype(np.float64) / under.astype(np.float64) / float(value) - 1)
+            last = np.lexsort((error, first))[best - 1]
+            near = error <= error[last] + _MARGIN * (1 + error[last])
+            rows = rows[(first < first[last]) | ((first == first[last]) & near)]
+        first, over, under, *counts = rows.T
+        sizes = np.max(counts, axis=0), np.sum(counts, axis=0)
+        # lexsort takes its last key first
+        order = np.lexsort((*counts[::-1], *sizes, error_places(over, under, value), first))
+        return rows[order[:best]]
 
     def _filter(self, at: Ints, good: NDArray[np.bool_], reason: str) -> Ints:
-        """Return the indices for which `good` is True. The other indices are counted as rejected under `reason`."""
+        """Return the indices in `at` for which `good` is True. The other pairs of multisets are counted as rejected for
+        `reason`.
+        """
         if not good.all():
             self.removed[reason] = self.removed.get(reason, 0) + int((~good).sum())
         return at[good]
@@ -235,20 +250,31 @@ class SweepOutcome:
 
 
 def solve(question: StageProblem, tolerance: Fraction | None, means: Execution) -> SweepOutcome:
-    """Count all solutions within a tolerance and keep the best. If the tolerance is None, find the solutions with the
-    smallest absolute errors.
+    """Count all solutions of a search problem within a tolerance, and keep the best solutions. If the tolerance is
+    None, find the solutions with the smallest absolute errors.
 
     `question.tolerance` is ignored. If there are many solutions, only solutions near the requested ratio are listed.
     The tolerance of the list is increased until it includes enough solutions, so all other solutions have larger
     errors.
     """
-    minimum, most = reach_of_errors(question.value, *question.reach)
+    # minimum and maximum absolute relative error of the possible ratios
+    first, last = (ratio / question.value - 1 for ratio in question.reach)
+    minimum, most = max(first, -last, Fraction(0)), max(last, -first)
     if tolerance is not None:
         most = tolerance
         if not (question.by == "error" and replace(question, tolerance=tolerance).loose):
-            _check(question, tolerance)
+            pairs = float(tolerance) * _density(question)
+            if pairs > _MOST:
+                raise RangeError(
+                    Problem(
+                        f"about {pairs:.1g} candidates are within the tolerance",
+                        f"with these constraints or this order, each is tested, and at most {_MOST:.0g} can be tested",
+                        f"reduce the tolerance to {float(tolerance) * _MOST / pairs:.1g} or less",
+                    )
+                )
             minimum = tolerance
-    step = _start(question)
+    # about 16 times the requested number of solutions are expected within the first tolerance
+    step = rounded_up(max(min(16 * question.best / _density(question), 1.0), 1e-18))
     while True:
         # the nearest possible ratio may be far away; the tolerance starts there
         near = min(minimum + step, most)
@@ -270,29 +296,9 @@ def _density(question: StageProblem) -> float:
     return 2 * question.candidates / max(question.stages * span, 1e-3)
 
 
-def _start(question: StageProblem) -> Fraction:
-    """Return an initial tolerance, at most 1, within which about 16 times the requested number of solutions is
-    expected.
-    """
-    return rounded_up(max(min(16 * question.best / _density(question), 1.0), 1e-18))
-
-
-def _check(question: StageProblem, tolerance: Fraction) -> None:
-    """Raise `RangeError` if too many pairs of multisets must be tested one by one."""
-    pairs = float(tolerance) * _density(question)
-    if pairs > _MOST:
-        raise RangeError(
-            Problem(
-                f"about {pairs:.1g} candidates are within the tolerance",
-                f"with these constraints or this order, each is tested, and at most {_MOST:.0g} can be tested",
-                f"reduce the tolerance to {float(tolerance) * _MOST / pairs:.1g} or less",
-            )
-        )
-
-
 def _sweep(question: StageProblem, near: Fraction, means: Execution) -> SweepOutcome:
-    """Search all segments and merge their results. After a keyboard interrupt, return the results obtained until
-    then.
+    """Search all segments with the tolerance `near` of the list, and return their merged results. After a keyboard
+    interrupt, the results obtained until then are returned.
     """
     work, tasks = partial(search_segment, pickle.dumps((question, near))), _segments(question)
     # a single task runs in this process, without the overhead of an executor
@@ -312,22 +318,26 @@ def _sweep(question: StageProblem, near: Fraction, means: Execution) -> SweepOut
 
 
 def _segments(question: StageProblem) -> list[Sequence[int]]:
-    """Divide the search into segments. Every pair of products within the tolerance is in exactly one segment.
-
-    If all stages must have equal sums of tooth counts, a segment is a range of sums. It contains eight sums if there
-    are four or more stages, because this search is slow, and all sums if there are fewer stages.
+    """Return the segments into which the search is divided. Every pair of products within the tolerance is in exactly
+    one segment.
     """
     size = question.stages
     if question.of_equal_sums:
+        # eight sums a segment for four or more stages, because this search is slow
         low, high = question.top[0] + question.beneath[0], question.top[-1] + question.beneath[-1] + 1
         return [(at, min(at + 8, high)) for at in range(low, high, 8)] if size > 3 else [(low, high)]
     if not question.reachable:
         return []
     # more products if the tables have many rows
     most = max(BLOCK, PER_ROW * multisets(max(len(question.top), len(question.beneath)), (size + 1) // 2))
-    whole = question.beneath_within(question.beneath[0] ** size, question.beneath[-1] ** size + 1)
-    return [
-        (*beneath, *top)
-        for beneath in pieces(question.under, *whole, most)
-        for top in pieces(question.over, *question.tops_for(*beneath), most)
-    ]
+    smallest, largest = question.edges
+    minimum, maximum = question.top[0] ** size, question.top[-1] ** size
+    # denominators for which a numerator may exist
+    first = max(question.beneath[0] ** size, ceil(minimum / largest))
+    last = min(question.beneath[-1] ** size, floor(maximum / smallest))
+    found: list[Sequence[int]] = []
+    for low, high in pieces(question.under, first, last + 1, most):
+        # numerators that may match these denominators
+        tops = max(ceil(low * smallest), minimum), min(floor((high - 1) * largest), maximum) + 1
+        found += [(low, high, *top) for top in pieces(question.over, *tops, most)]
+    return found

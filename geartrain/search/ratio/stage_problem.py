@@ -13,13 +13,13 @@ from fractions import Fraction
 from functools import cached_property, lru_cache
 from itertools import combinations, permutations, product
 from math import prod
-from typing import TYPE_CHECKING, Any, Literal, get_args
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.results import Result
-from geartrain.search.ratio.product_windows import ProductWindows, error_places, multisets, products_of
+from geartrain.search.ratio.product_windows import ProductWindows, multisets, products_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -31,7 +31,6 @@ if TYPE_CHECKING:
 
 Set = tuple[int, ...]
 Pairs = tuple[tuple[int, int], ...]
-_MARGIN = 1e-14  # relative bound of the rounding error of a ratio
 
 
 @dataclass(frozen=True, slots=True)
@@ -171,24 +170,6 @@ class StageProblem:
         sums = Counter(a + b for a in self.top for b in self.beneath)
         return sum(multisets(stages, self.stages) for stages in sums.values())
 
-    def beneath_within(self, low: int, high: int) -> tuple[int, int]:
-        """Return the part of the range [low, high) of denominator products for which a matching numerator product may
-        exist, as a half-open range.
-        """
-        first, last = self.edges
-        minimum, most = self.top[0] ** self.stages, self.top[-1] ** self.stages
-        return max(low, -(-minimum * last.denominator // last.numerator)), min(
-            high, most * first.denominator // first.numerator + 1
-        )
-
-    def tops_for(self, low: int, high: int) -> tuple[int, int]:
-        """Return the half-open range of the numerator products that may match denominator products in [low, high)."""
-        first, last = self.edges
-        minimum, most = self.top[0] ** self.stages, self.top[-1] ** self.stages
-        return max(-(-low * first.numerator // first.denominator), minimum), min(
-            (high - 1) * last.numerator // last.denominator, most
-        ) + 1
-
     @property
     def loose(self) -> bool:
         """True if every pair of multisets whose ratio is within the tolerance is a solution."""
@@ -235,9 +216,7 @@ def _arrangements(size: int, internal: int) -> tuple[Ints, Bools]:
     return np.array([order for order, _ in both], dtype=np.int64), np.array([rings for _, rings in both], dtype=bool)
 
 
-def best_pairing(
-    top: tuple[int, ...], beneath: tuple[int, ...], fit: StageConstraints | None = None, *, centres: bool = False
-) -> Pairs | None:
+def best_pairing(top: Set, beneath: Set, fit: StageConstraints, centres: bool) -> Pairs | None:
     """Return the best pairing of numerator and denominator counts that satisfies the constraints, or None if no pairing
     satisfies them.
 
@@ -246,10 +225,9 @@ def best_pairing(
     ratio. The last `fit.internal` pairs are internal. The external pairs and the internal pairs are each in ascending
     order.
 
-    >>> best_pairing((39, 73, 91), (15, 34, 38))  # 39 and 15 have a common divisor
+    >>> best_pairing((39, 73, 91), (15, 34, 38), StageConstraints(), centres=False)  # 39 and 15 have a common divisor
     ((39, 34), (73, 15), (91, 38))
     """
-    fit = fit or StageConstraints()
     orders, rings = _arrangements(len(top), fit.internal)
     possible, coprime, kinds = (each[0] for each in pairings(np.array([top]), np.array([beneath]), fit))
     # one integer for a lexicographic order, because `coprime` is at most len(top)
@@ -287,19 +265,6 @@ the numerator and tooth counts of the denominator.
 """
 
 
-def check_order(by: str) -> None:
-    """Raise `QuestionError` if the name of an order of solutions is unknown."""
-    if by not in get_args(StageOrder):
-        known = ", ".join(get_args(StageOrder))
-        raise QuestionError(
-            Problem(
-                f"solutions cannot be sorted by '{by}'",
-                "solutions are sorted by one of the predefined criteria",
-                f"use one of {known}",
-            )
-        )
-
-
 def first_of(by: str, tops: Ints, beneaths: Ints, fit: StageConstraints) -> Ints:
     """Return the primary sort criterion of n solutions (smaller is better), shape (n,). It is 0 for the order by error.
 
@@ -322,53 +287,9 @@ def first_of(by: str, tops: Ints, beneaths: Ints, fit: StageConstraints) -> Ints
     return np.zeros(len(tops), dtype=np.int64)
 
 
-def cut(rows: Ints, best: int, value: Fraction) -> Ints:
-    """Sort the rows of a table of `BestStages` exactly, and return the first `best` of them."""
-    if len(rows) > best:
-        # errors in floats select slightly too many rows, which are then compared as Fractions
-        first, over, under = rows[:, 0], rows[:, 1], rows[:, 2]
-        error = np.abs(over.astype(np.float64) / under.astype(np.float64) / float(value) - 1)
-        last = np.lexsort((error, first))[best - 1]
-        near = error <= error[last] + _MARGIN * (1 + error[last])
-        rows = rows[(first < first[last]) | ((first == first[last]) & near)]
-    first, over, under, *counts = rows.T
-    sizes = np.max(counts, axis=0), np.sum(counts, axis=0)
-    # lexsort takes its last key first
-    order = np.lexsort((*counts[::-1], *sizes, error_places(over, under, value), first))
-    return rows[order[:best]]
-
-
 def key_of(first: int, top: Sequence[int], beneath: Sequence[int], value: Fraction) -> StageRank:
-    """Return the sort key of one solution. `first` is the primary criterion of the order."""
+    """Return the sort key of a solution: the primary criterion `first`, absolute error, sum of tooth counts, largest
+    tooth count, and tooth counts. `value` is the requested ratio.
+    """
     miss = abs(Fraction(prod(top), prod(beneath)) / value - 1)
     return first, miss, sum(top) + sum(beneath), max(*top, *beneath), tuple(top), tuple(beneath)
-
-
-class BestStages:
-    """List of the n best rows (solutions) among all rows that are added, in bounded memory.
-
-    The columns of a row are the primary criterion of the order (smaller is better), the products of numerator and
-    denominator, and the tooth counts of numerator and denominator, each in ascending order.
-    """
-
-    def __init__(self, best: int, value: Fraction) -> None:
-        self.best, self.value = best, value
-        self._parts: list[Ints] = []
-
-    def add(self, rows: Ints) -> None:
-        """Add rows, which are candidates for the list, to the list."""
-        self._parts.append(rows)
-        # several times the list length is stored between two sorts, which amortises their cost
-        if sum(map(len, self._parts)) > max(4 * self.best, 1 << 17):
-            self._parts = [self._settled()]
-
-    def plain(self) -> list[list[Any]]:
-        """Return the n best rows in order as plain data: primary criterion, numerator counts, and denominator
-        counts.
-        """
-        rows = self._settled().tolist() if self._parts else []
-        stages = (len(rows[0]) - 3) // 2 if rows else 0
-        return [[row[0], row[3 : 3 + stages], row[3 + stages :]] for row in rows]
-
-    def _settled(self) -> Ints:
-        return cut(np.concatenate(self._parts), self.best, self.value)

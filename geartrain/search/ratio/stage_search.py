@@ -2,12 +2,9 @@
 that are proved to be the best.
 
 A train of k stages has the ratio P / Q, where P and Q are products of k tooth counts each. For every denominator
-product Q, the numerator products P within the tolerance are a contiguous range of a sorted list. This
-meet-in-the-middle search finds all solutions with the effort of sorting the products. The ends of the ranges are
-determined by integer arithmetic. Products are generated for segments of their value, which limits the memory and gives
-independent tasks. A search for four stages with 200 admissible tooth counts (69 million multisets for the numerator and
-for the denominator) requires less than 0.2 GB. Five stages (2800 million multisets) require less than 0.4 GB, or less
-than 0.5 GB with constraints or with orders other than "error".
+product Q, the numerator products P within the tolerance are a contiguous range of a sorted list (meet in the middle).
+Products are generated for segments of their value, which limits the memory and gives independent tasks. With 200
+admissible tooth counts, four stages (69 million multisets) need less than 0.2 GB, and five less than 0.5 GB.
 """
 
 from __future__ import annotations
@@ -17,15 +14,15 @@ from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import prod
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal, get_args
 
-from geartrain.errors import Problem, QuestionError, RangeError
+from geartrain.errors import Problem, QuestionError, RangeError, suggest
 from geartrain.numerics.exact import decimal, plural
 from geartrain.numerics.results import Key, Result, Tabular
 from geartrain.numerics.work import Execution, Journal
 from geartrain.search.ratio.product_windows import MOST_STAGES, check_products, multisets, rounded_up
 from geartrain.search.ratio.search_segments import SweepOutcome, solve
-from geartrain.search.ratio.stage_problem import StageConstraints, StageProblem, StageRank, best_pairing, check_order
+from geartrain.search.ratio.stage_problem import StageConstraints, StageOrder, StageProblem, StageRank, best_pairing
 from geartrain.search.search_outcome import GearStages, Shortfall
 from geartrain.search.target_ratio import TargetRatio
 from geartrain.search.tooth_count_ranges import CountRuns, Counts
@@ -264,20 +261,32 @@ def _question(
     by: str,
     fit: StageConstraints,
 ) -> tuple[StageProblem, str]:
-    """Return the search problem, and a note on assumptions; the note is empty if there are none."""
-    check_order(by)
-    if not 1 <= stages <= MOST_STAGES:
-        raise _question_error(
+    """Return the search problem, and a note on the tolerance that is used if none is given; the note is empty if it is
+    not needed.
+    """
+    for valid, what, why, fix in (
+        (
+            by in get_args(StageOrder),
+            f"solutions cannot be sorted by '{by}'",
+            "no such criterion is computed for a solution",
+            suggest(by, get_args(StageOrder)),
+        ),
+        (
+            1 <= stages <= MOST_STAGES,
             f"stages is {stages}",
             f"1 to {MOST_STAGES} gear pairs in series are supported",
             f"give stages from 1 to {MOST_STAGES}",
-        )
-    if best < 1:
-        raise _question_error(f"best is {best}", "a list has at least one solution", "give best >= 1")
-    if tolerance is not None and tolerance < 0:
-        raise _question_error(
-            f"the tolerance is {tolerance}", "a tolerance must not be negative", "give 0 or more, such as 1e-6"
-        )
+        ),
+        (best >= 1, f"best is {best}", "a list has at least one solution", "give best >= 1"),
+        (
+            tolerance is None or tolerance >= 0,
+            f"the tolerance is {tolerance}",
+            "a tolerance must not be negative",
+            "give 0 or more, such as 1e-6",
+        ),
+    ):
+        if not valid:
+            raise QuestionError(Problem(what, why, fix))
     fit.check(stages)
     given = [tuple(CountRuns.of(each).as_array().tolist()) for each in counts]
     top, beneath = given if wanted.value >= 1 else given[::-1]
@@ -291,6 +300,12 @@ def _question(
 def _findings(
     wanted: TargetRatio, question: StageProblem, outcome: SweepOutcome, shortfall: Shortfall, note: str
 ) -> StageFindings:
+    solutions = []
+    for *_, top, beneath in outcome.keys:
+        ratio = Fraction(prod(top), prod(beneath))
+        pairs = best_pairing(top, beneath, question.fit, centres=question.by == "centres")
+        assert pairs is not None  # the search lists only solutions with a feasible pairing
+        solutions.append(GearStages(top, beneath, ratio, ratio / question.value - 1, pairs))
     return StageFindings(
         wanted,
         question.stages,
@@ -301,23 +316,15 @@ def _findings(
         outcome.tolerance,
         outcome.complete,
         outcome.count,
-        tuple(_stages(key, question) for key in outcome.keys),
+        tuple(solutions),
         shortfall,
         note,
     )
 
 
-def _stages(key: StageRank, question: StageProblem) -> GearStages:
-    top, beneath = key[4:]
-    ratio = Fraction(prod(top), prod(beneath))
-    pairs = best_pairing(top, beneath, question.fit, centres=question.by == "centres")
-    assert pairs is not None  # the search lists only solutions with a feasible pairing
-    return GearStages(top, beneath, ratio, ratio / question.value - 1, pairs)
-
-
 def _wrong_sense(question: StageProblem) -> Shortfall:
-    """Return the numbers of rejected candidates for a search whose external and internal meshes contradict the
-    requested sense of rotation.
+    """Return the numbers of rejected candidates, and suggestions, for a search in which the output turns in the wrong
+    sense for all tooth counts.
     """
     stages, internal = question.stages, question.fit.internal
     # one more or one less internal mesh reverses the sense
@@ -349,20 +356,7 @@ def _check_reach(question: StageProblem) -> None:
         )
 
 
-def _question_error(what: str, why: str, fix: str) -> QuestionError:
-    return QuestionError(Problem(what, why, fix))
-
-
 # ------------------------------------- explanation of short results: nearest miss and constraints to relax
-
-
-def account(question: StageProblem, outcome: SweepOutcome) -> Mapping[str, int]:
-    """Return the number of rejected pairs of multisets for each reason. The sum of these numbers and of the number of
-    solutions is the number of candidates.
-    """
-    removed = {"no pairing with equal centre distances": question.considered - question.candidates}
-    removed[OUTSIDE] = question.candidates - sum(outcome.removed.values()) - outcome.count
-    return {reason: number for reason, number in {**removed, **outcome.removed}.items() if number}
 
 
 def explain(question: StageProblem, outcome: SweepOutcome, sense: int, means: Execution) -> Shortfall:
@@ -373,7 +367,13 @@ def explain(question: StageProblem, outcome: SweepOutcome, sense: int, means: Ex
         return Shortfall(
             question.considered, {}, advice="the search was interrupted; resume it, or narrow the range of counts"
         )
-    removed = account(question, outcome)
+    # the sum of these numbers and of the number of solutions is the number of candidates
+    removed = {
+        "no pairing with equal centre distances": question.considered - question.candidates,
+        OUTSIDE: question.candidates - sum(outcome.removed.values()) - outcome.count,
+        **outcome.removed,
+    }
+    removed = {reason: number for reason, number in removed.items() if number}
     if outcome.count:
         return Shortfall(question.considered, removed)
     # the journal belongs to the search itself, not to its explanation
@@ -388,8 +388,8 @@ def explain(question: StageProblem, outcome: SweepOutcome, sense: int, means: Ex
 
 
 def _nearest(question: StageProblem, miss: SweepOutcome, plain: SweepOutcome) -> str:
-    """Return a description of the nearest miss. If the best solution without constraints differs from the nearest miss,
-    it is described too.
+    """Return a description of the nearest miss, the first solution in `miss`. If the best solution without constraints,
+    the first in `plain`, differs from it, it is described too.
     """
     parts = []
     if miss.keys and miss.complete:
@@ -402,7 +402,9 @@ def _nearest(question: StageProblem, miss: SweepOutcome, plain: SweepOutcome) ->
 
 
 def in_words(key: StageRank, value: Fraction) -> str:
-    """Format the tooth counts, the ratio and the error of one solution."""
+    """Format the tooth counts of one solution, their ratio, and the error of this ratio with respect to the requested
+    ratio `value`.
+    """
     top, beneath = key[4:]
     ratio = Fraction(prod(top), prod(beneath))
     counts = f"{' x '.join(map(str, top))} / {' x '.join(map(str, beneath))}"

@@ -22,8 +22,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geartrain.numerics.arrays import Bools, Floats
+from geartrain.search.integer_columns import sums_by
 from geartrain.search.reconstruct.train_topology import AddedKind, AddedWheels, Dials, Quotients
-from geartrain.search.weighted_alternatives import sums_by
 
 # Number of choices of added tooth counts with a given quotient of products. For drivers y and driven wheels x, prod y /
 # prod x = num / den in lowest terms if and only if prod y = num m and prod x = den m for an integer m. The number of

@@ -14,13 +14,13 @@ from typing import Literal, NamedTuple, get_args
 
 from geartrain.numerics.exact import whole_multiple
 from geartrain.numerics.results import Key, Result
+from geartrain.search.information import entropy
 from geartrain.search.reconstruct.candidate_names import NamedArbor, named_candidate
 from geartrain.search.reconstruct.dropped_facts import ChangedCount, MissingExplanation
 from geartrain.search.reconstruct.reconstruction_problem import ReconstructionProblem
 from geartrain.search.reconstruct.reconstruction_search import Reconstructions, topology_prior
 from geartrain.search.reconstruct.search_tasks import TopologyTrains
 from geartrain.search.reconstruct.train_topology import Topology
-from geartrain.search.weighted_alternatives import entropy
 from geartrain.train import Train
 
 FactKind = Literal["mesh", "pair", "driver", "pointer", "count", "added", "needed", "used"]

@@ -10,7 +10,7 @@ from math import prod
 
 from geartrain.errors import Problem, QuestionError, RangeError, suggest
 from geartrain.kinematics.formulas.output_formulas import Formulas, find_formulas
-from geartrain.kinematics.judged_outputs import RatioGoal, error_against, goal_of, in_plain_units, unit_seconds
+from geartrain.kinematics.judged_outputs import error_against, goal_of, in_plain_units, unit_seconds
 from geartrain.numerics.exact import decimal
 from geartrain.numerics.graphs import joined_groups
 from geartrain.numerics.quantity import Figure
@@ -45,18 +45,6 @@ class SpeedRequirement:
     approached: bool = False
     target: bool = False
 
-    @classmethod
-    def of(cls, goal: RatioGoal, share: Fraction | None) -> SpeedRequirement:
-        """Return the speed requirement of a declared target.
-
-        share   relative tolerance of the speed; None if the error is minimised
-        """
-        said = "" if share is None else f" within {decimal(share, 3)}"
-        demand = cls(goal.words + said, goal.speed, goal.signed, None, True, True, True)
-        if share is None:
-            return demand.loosened()
-        return replace(demand, allowed=demand.within(share), approached=False)
-
     def loosened(self) -> SpeedRequirement:
         """Return the requirement without its tolerance, so that its error is minimised. Only the sense of rotation is
         still required.
@@ -75,8 +63,8 @@ class SpeedRequirement:
     def within(self, share: Fraction | None) -> tuple[Interval, ...] | None:
         """Return the intervals of admissible speeds; None if all speeds are admissible.
 
-        If `share` is not None, a requirement that grades speeds admits only speeds whose relative deviation from the
-        required speed is at most `share`.
+        If `share` is not None and `graded` is True, only speeds with a relative error of at most `share` are
+        admissible.
         """
         if share is None or not self.graded:
             return self.allowed
@@ -177,7 +165,7 @@ class OutputRequirement:
     def requested(self, share: Fraction | None, strict: bool = False) -> IntervalConstraint | None:
         """Return the interval constraint on the speed of the output; None if every speed is admissible.
 
-        share    relative tolerance of graded requirements; None if there is no common tolerance
+        share    common relative tolerance of all requirements from which an error is computed; None if there is none
         strict   True to exclude the end points of the intervals
         """
         common: tuple[Interval, ...] = ((None, None),)  # all speeds
@@ -187,8 +175,8 @@ class OutputRequirement:
         return None if common == ((None, None),) else IntervalConstraint(self.text, self.function, common, strict)
 
     def reached(self, speed: Fraction) -> ReachedSpeed:
-        """Return a speed with its error. The error is that with respect to the graded requirement with the largest
-        absolute error.
+        """Return a speed with its error, which refers to the requirement with the largest absolute error, among the
+        requirements from which errors are computed.
         """
         graded = [demand for demand in self.demands if demand.graded] or self.demands
         worst = max(graded, key=lambda demand: abs(demand.error(speed)))
@@ -261,9 +249,11 @@ def _demands(
     if output.published is not None:
         yield _printed(train, output.published, drive, not requested)
     for target in requested:
-        yield SpeedRequirement.of(
-            goal_of(train, target), tolerance if target.tolerance is None else target.tolerance.base
-        )
+        goal = goal_of(train, target)
+        share = tolerance if target.tolerance is None else target.tolerance.base
+        words = goal.words if share is None else f"{goal.words} within {decimal(share, 3)}"
+        demand = SpeedRequirement(words, goal.speed, goal.signed, None, graded=True, target=True)
+        yield demand.loosened() if share is None else replace(demand, allowed=demand.within(share))
 
 
 def _half(value: Figure, tolerance: Figure | None) -> Fraction:
@@ -273,7 +263,8 @@ def _half(value: Figure, tolerance: Figure | None) -> Fraction:
 def _printed(train: Train, published: Published, drive: Fraction | None, graded: bool) -> SpeedRequirement:
     """Return the speed requirement that corresponds to a published value.
 
-    drive   speed of the only turning input, with which a published ratio is compared; None if there is no such input
+    drive    speed of the only turning input, with which a published ratio is compared; None if there is no such input
+    graded   True if the error of the output is computed from this requirement
     """
     label, unit, signed = f"published {published.value} {published.as_}", unit_seconds(train), not published.unsigned
     printed = in_plain_units(published.value, unit)
@@ -291,15 +282,11 @@ def _printed(train: Train, published: Published, drive: Fraction | None, graded:
     low, high = _around(printed.value, half)
     allowed = tuple(_inverse(low if signed else max(low, Fraction(0)), high, scale))
     if not signed:
-        wanted, allowed = abs(wanted), (*allowed, *map(_mirrored, allowed))
+        # also the speeds with opposite sign; None is an unbounded end
+        mirrored = ((None if high is None else -high, None if low is None else -low) for low, high in allowed)
+        wanted, allowed = abs(wanted), (*allowed, *mirrored)
     # a ratio of 0 corresponds to no finite speed, so no error can be computed
     return SpeedRequirement(label, wanted, signed, allowed, graded and bool(wanted))
-
-
-def _mirrored(interval: Interval) -> Interval:
-    """Return the interval of the speeds with opposite sign."""
-    low, high = interval
-    return None if high is None else -high, None if low is None else -low
 
 
 def _inverse(low: Fraction, high: Fraction, drive: Fraction) -> Iterator[Interval]:
@@ -338,18 +325,6 @@ class SearchPart:
         return prod(len(counts) for counts in self.domains.values())
 
 
-@dataclass(frozen=True, slots=True)
-class TrainRequirements:
-    """Requirements on the outputs of a train in one or several states."""
-
-    requirements: tuple[OutputRequirement, ...]
-    conditions: tuple[IntervalConstraint, ...]
-    remarks: tuple[str, ...]
-    """Remarks on outputs whose speeds are undetermined, and on outputs that depend on no varied wheel and violate their
-    requirements.
-    """
-
-
 def find_domains(train: Train, free: str | Sequence[str]) -> dict[str, tuple[int, ...]]:
     """Return the admissible tooth counts of each varied wheel in ascending order, keyed by wheel in the order of
     declaration.
@@ -357,45 +332,30 @@ def find_domains(train: Train, free: str | Sequence[str]) -> dict[str, tuple[int
     `free` has the same meaning as in `search_train`. `QuestionError` is raised if no wheel is varied, or if a wheel
     named in `free` has no range of tooth counts.
     """
-    if isinstance(free, str) and free not in ("search", "uncertain"):
-        free = [free]
-    if not isinstance(free, str):
-        unknown = [name for name in free if name not in train.wheels]
-        if unknown:
-            fix = suggest(unknown[0], train.wheels)
-            raise QuestionError(
-                Problem(f"'{train.name}' has no wheel '{unknown[0]}'", "only declared wheels can be varied", fix)
-            )
+    names = None if free in ("search", "uncertain") else [free] if isinstance(free, str) else free
+    for name in names or ():
+        if name not in train.wheels:
+            what, why = f"'{train.name}' has no wheel '{name}'", "only declared wheels can be varied"
+            raise QuestionError(Problem(what, why, suggest(name, train.wheels)))
     found = {}
     for wheel, (link, declared) in train.wheels.items():
         teeth = declared.teeth if isinstance(declared.teeth, Teeth) else Teeth(value=declared.teeth)
-        chosen = wheel in free if not isinstance(free, str) else teeth.search is not None or free == "uncertain"
+        chosen = teeth.search is not None or free == "uncertain" if names is None else wheel in names
         # the train cannot be solved without the count of a wheel, so wheels without a count are always varied
         counts = tuple(_counts(train, wheel, link, teeth)) if chosen or teeth.value is None else ()
         if counts:
             found[wheel] = counts
-        elif chosen and not isinstance(free, str):
+        elif names is not None and chosen:
+            what = f"the tooth count of wheel '{wheel}' cannot be varied"
             why = f"its count is declared as {teeth.value}, without search, range or choices"
-            fix = "declare it as {search: [15, 80]}"
-            raise QuestionError(
-                Problem(
-                    f"the tooth count of wheel '{wheel}' cannot be varied",
-                    why,
-                    fix,
-                    train.place("links", link, "wheels", wheel),
-                )
-            )
+            place = train.place("links", link, "wheels", wheel)
+            raise QuestionError(Problem(what, why, "declare it as {search: [15, 80]}", place))
     if not found:
+        what = f"'{train.name}' has no wheel whose tooth count is varied"
         fix = "declare `teeth: {search: [15, 80]}` for the wheels to search"
         if free == "search" and any(train.uncertain_wheels()):
             fix += ", or use --free uncertain"
-        raise QuestionError(
-            Problem(
-                f"'{train.name}' has no wheel whose tooth count is varied",
-                "no selected wheel has a range of tooth counts",
-                fix,
-            )
-        )
+        raise QuestionError(Problem(what, "no selected wheel has a range of tooth counts", fix))
     return found
 
 
@@ -409,14 +369,22 @@ def _counts(train: Train, wheel: str, link: str, teeth: Teeth) -> Iterable[int]:
     if len(counts) > _MOST_COUNTS:
         why = f"{counts[0]} to {counts[-1]} has more than {_MOST_COUNTS} counts"
         place = train.place("links", link, "wheels", wheel)
-        raise RangeError(Problem(f"the range of wheel '{wheel}' is too wide", why, "narrow the range", place))
+        raise RangeError(
+            Problem(f"the range of wheel '{wheel}' is too wide", why, "give a narrower range, such as [15, 80]", place)
+        )
     return counts
 
 
-def find_requirements(
-    train: Train, state: str | None, domains: Domains, tolerance: Fraction | None
-) -> TrainRequirements:
-    """Return all requirements on the outputs in one state; in all states if `state` is None."""
+def find_parts(
+    train: Train, state: str | None, domains: Domains, rules: Sequence[CountConstraint], tolerance: Fraction | None
+) -> tuple[list[SearchPart], tuple[str, ...]]:
+    """Return the connected components of the varied wheels in the order of declaration, with all requirements in one
+    state, or in all states if `state` is None. A wheel without connection to other varied wheels is a component by
+    itself.
+
+    The second result contains remarks on outputs whose speeds are undetermined, and on outputs that depend on no varied
+    wheel and violate their requirements.
+    """
     train.check_state(state)
     states: Sequence[str | None] = tuple(train.states) or (None,) if state is None else (state,)
     requirements: list[OutputRequirement] = []
@@ -427,41 +395,30 @@ def find_requirements(
         case, formulas = train.case(one), find_formulas(train, one, domains)
         conditions |= dict.fromkeys(find_turning_conditions(train, formulas))
         for requirement in find_output_requirements(train, case, formulas.outputs, tolerance):
-            requirement = OutputRequirement(prefix + requirement.name, requirement.function, requirement.demands)
+            requirement = replace(requirement, name=prefix + requirement.name)
             if requirement.function.wheels:
                 requirements.append(requirement)
-            else:
-                remarks.extend(_idle(requirement))
+            elif (speed := requirement.function.value({})) is not None and not requirement.fits(speed):
+                reached = requirement.reached(speed)
+                remarks.append(
+                    f"no varied wheel influences '{requirement.name}', which violates its requirement: its speed is "
+                    f"{speed}, with an error of {decimal(reached.error, 3)} ({reached.label})"
+                )
         remarks.extend(f"the inputs do not determine '{prefix}{name}'" for name in formulas.undetermined)
-    return TrainRequirements(tuple(requirements), tuple(conditions), tuple(remarks))
-
-
-def _idle(requirement: OutputRequirement) -> Iterator[str]:
-    """Yield a remark on an output that depends on no varied wheel, if its speed violates its requirements."""
-    speed = requirement.function.value({})
-    if speed is not None:
-        reached = requirement.reached(speed)
-        if not reached.met:
-            said = f"its speed is {speed}, with an error of {decimal(reached.error, 3)} ({reached.label})"
-            yield f"no varied wheel influences '{requirement.name}', which violates its requirement: {said}"
-
-
-def find_parts(demands: TrainRequirements, domains: Domains, rules: Sequence[CountConstraint]) -> Iterator[SearchPart]:
-    """Yield the connected components of the varied wheels in the order of declaration. A wheel without connection to
-    other varied wheels is a component by itself.
-    """
     scopes = chain(
-        (requirement.function.wheels for requirement in demands.requirements),
-        (condition.function.wheels for condition in demands.conditions),
+        (one.function.wheels for one in requirements),
+        (one.function.wheels for one in conditions),
         (rule.wheels for rule in rules),
     )
+    found = []
     for wheels in joined_groups(domains, scopes):
         group = set(wheels)
-        yield SearchPart(
-            {wheel: domains[wheel] for wheel in wheels},
-            tuple(
-                requirement for requirement in demands.requirements if not group.isdisjoint(requirement.function.wheels)
-            ),
-            tuple(one for one in demands.conditions if not group.isdisjoint(one.function.wheels)),
-            tuple(rule for rule in rules if not group.isdisjoint(rule.wheels)),
+        found.append(
+            SearchPart(
+                {wheel: domains[wheel] for wheel in wheels},
+                tuple(one for one in requirements if not group.isdisjoint(one.function.wheels)),
+                tuple(one for one in conditions if not group.isdisjoint(one.function.wheels)),
+                tuple(rule for rule in rules if not group.isdisjoint(rule.wheels)),
+            )
         )
+    return found, tuple(remarks)

@@ -25,9 +25,8 @@ from geartrain.numerics.work import Journal, run
 from geartrain.search.constraints.count_conditions import CountConstraint
 from geartrain.search.integer_columns import distinct_quotients
 from geartrain.search.join.exact_join import AssignmentColumns, BudgetSpentError, ExactJoin
-from geartrain.search.join.join_plan import JoinProblem, PlanNode, SelectivitySample, find_join_problem
+from geartrain.search.join.join_plan import JoinProblem, PlanNode, find_join_problem
 from geartrain.search.join.product_lists import Domains, Tallies, forecast
-from geartrain.search.join.wheel_monomials import IntervalConstraint
 from geartrain.search.train.output_requirements import OutputRequirement, SearchPart
 from geartrain.search.train.train_findings import Assignment, By
 
@@ -44,11 +43,11 @@ Task = dict[str, Any]
 
 
 def cut(question: JoinProblem, limit: float) -> tuple[list[Task], float]:
-    """Return the tasks of a pass, and the fraction of the pass that they cover. The fraction is below 1 if the limit of
-    steps is exceeded.
+    """Return the tasks into which the join of a pass is divided, and the fraction of the join that they cover. The
+    fraction is below 1 if the join needs more than `limit` steps.
 
-    A task covers an interval of the values of the first variable and, if this variable has few values, of its child in
-    the plan. If the limit is exceeded, the tasks are a random sample with a fixed seed.
+    A task covers an interval of the values of the first variable and, if this variable has few values, of the next
+    variable in the plan. If the limit is exceeded, the tasks are a random sample with a fixed seed.
     """
     if question.steps <= _SMALL <= limit:
         return [{"parts": [[question.plan.item, 0, 1]], "budget": limit, "pieces": 1}], 1.0
@@ -68,9 +67,7 @@ def cut(question: JoinProblem, limit: float) -> tuple[list[Task], float]:
 
 def _chain(question: JoinProblem, wanted: float) -> list[tuple[int, int]]:
     """Return variables from the root of the plan downwards, each with the number of intervals into which its values are
-    divided.
-
-    The product of these numbers is about `wanted`.
+    divided. The product of these numbers is about `wanted`.
     """
     node: PlanNode | None = question.plan
     found: list[tuple[int, int]] = []
@@ -131,8 +128,8 @@ def do_task(packed: bytes, task: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _slices(join: ExactJoin, parts: Sequence[Sequence[int]], pieces: int) -> Iterator[dict[int, tuple[int, int]]]:
-    """Yield, for each piece of a task, the half-open range of values of each variable. The range of the first variable
-    is divided into pieces.
+    """Yield, for each piece of a task, the half-open index range of the values of each variable in `parts`. The range
+    of the first variable is divided into pieces.
     """
     runs = {item: (len(join.items[item]) * at // of, len(join.items[item]) * (at + 1) // of) for item, at, of in parts}
     item = parts[0][0]
@@ -145,9 +142,10 @@ def _slices(join: ExactJoin, parts: Sequence[Sequence[int]], pieces: int) -> Ite
 
 def _do_piece(join: ExactJoin, pool: BestAssignments, most: int) -> tuple[int, Counter[str], bool]:
     """Return the number of assignments in a piece of a task that satisfy all constraints, the number rejected by each
-    constraint, and whether the assignments were added to the pool.
+    constraint, and whether the assignments were added to the list `pool` of the best assignments.
 
-    The assignments are enumerated only if there are at most `most`, or if they must be tested against late constraints.
+    The assignments are enumerated only if there are at most `most`, or if the join has constraints that are evaluated
+    last.
     """
     question = join.question
     counts, gone = join.count(question.plan, join.start())
@@ -229,7 +227,9 @@ class _Section:
 
 @dataclass(slots=True)
 class PassResult:
-    """Result of one pass of a search: sums over its tasks, and the best assignments of tooth counts."""
+    """Result of one pass, which searches a part of a train with a fixed tolerance: sums over its tasks, and the best
+    assignments of tooth counts.
+    """
 
     share: Fraction | None = None
     """Common relative tolerance of the outputs in this pass; None if there is no common tolerance."""
@@ -262,7 +262,9 @@ class PassResult:
 
 @dataclass
 class PartSearch:
-    """Search of one part of a train in several passes."""
+    """Search of one part of a train in several passes with different tolerances. A part consists of varied wheels that
+    are connected by outputs or constraints.
+    """
 
     part: SearchPart
     order: AssignmentOrder
@@ -279,7 +281,9 @@ class PartSearch:
         alone = []
         for rule in self.part.rules:
             if len(rule.wheels) == 1:
-                narrowed = narrow(domains, rule)
+                (wheel,) = rule.wheels
+                counts = np.array(domains[wheel], dtype=np.int64)
+                narrowed = {**domains, wheel: tuple(counts[rule.holds({wheel: counts})].tolist())}
                 alone.append((rule.name, size_of(domains) - size_of(narrowed)))
                 domains = narrowed  # later constraints are counted on what is left
         self.removed_first, self.domains = tuple(alone), domains
@@ -294,34 +298,20 @@ class PartSearch:
             rules=tuple(one for one in self.part.rules if one.name != rule),
             requirements=tuple(one for one in self.part.requirements if one is not requirement),
         )
-        return PartSearch(part, self.order, self.runner, self.limit)
-
-    def requested(self, share: Fraction | None, strict: bool = False) -> tuple[IntervalConstraint, ...]:
-        """Return all interval constraints of a pass with the relative tolerance `share`; None means that there is no
-        common tolerance.
-        """
-        found = [requirement.requested(share, strict) for requirement in self.part.requirements]
-        return (*self.part.conditions, *(one for one in found if one is not None))
-
-    def probabilities(self, requested: Sequence[IntervalConstraint]) -> dict[str, float]:
-        """Return an estimate of the fraction of assignments that satisfy each constraint or requirement, keyed by its
-        name.
-        """
-        sample = SelectivitySample.of(self.domains)
-        probabilities = {rule.name: sample.of_rule(rule) for rule in self.rules}
-        return probabilities | {one.name: sample.of_demand(one) for one in requested}
+        return replace(self, part=part)
 
     def run(self, share: Fraction | None, most: float, *, strict: bool = False) -> PassResult:
         """Run one pass. All solutions are counted, and the best solutions are listed if there are at most `most`
         solutions.
 
-        share    common relative tolerance of graded requirements; None if there is no common tolerance
-        strict   True to exclude the end points of intervals
+        share    common relative tolerance of the outputs; None if there is no common tolerance
+        strict   True to exclude the end points of the admissible intervals of speeds
         """
         if not size_of(self.domains):
             return PassResult(share)
-        requested = self.requested(share, strict)
-        question = find_join_problem(self.domains, requested, self.rules, self.probabilities(requested))
+        constraints = (requirement.requested(share, strict) for requirement in self.part.requirements)
+        requested = (*self.part.conditions, *(one for one in constraints if one is not None))
+        question = find_join_problem(self.domains, requested, self.rules)
         tasks, searched = cut(question, self.limit)
         # `most` may be infinite
         packed = pickle.dumps((question, self.order, int(min(most, 1 << 62))))
@@ -348,16 +338,6 @@ def size_of(domains: Domains) -> int:
     return prod(len(counts) for counts in domains.values())
 
 
-def narrow(domains: Domains, rule: CountConstraint) -> Domains:
-    """Return the admissible tooth counts of all wheels after application of a constraint on one wheel."""
-    (wheel,) = rule.wheels
-    counts = domains[wheel]
-    if not counts:
-        return domains
-    met = rule.holds({wheel: np.array(counts, dtype=np.int64)})
-    return {**domains, wheel: tuple(count for count, good in zip(counts, met.tolist(), strict=True) if good)}
-
-
 # --------------------------------------------------- the best of many assignments: bounds in floats, exact errors
 
 
@@ -368,9 +348,7 @@ class AssignmentOrder:
     """
 
     by: By
-    """Primary criterion. Ties are broken by error, sum of tooth counts, largest tooth count, and the tooth counts in
-    the order of the wheels.
-    """
+    """Name of the primary criterion."""
     best: int
     """Number of assignments to be kept."""
     requirements: tuple[OutputRequirement, ...]
@@ -420,26 +398,22 @@ class AssignmentOrder:
         found = np.zeros(len(next(iter(columns.values()))), dtype=np.int64)
         if self.level:
             return found
-        exact = [_exact_errors(requirement, columns) for requirement in self.requirements]
+        exact = []
+        for requirement in self.requirements:
+            function = requirement.function
+            terms = (_whole(function.wheels, each, columns) for each in (function.numerator, function.denominator))
+            # the error of each distinct speed, and the index of the speed of each assignment
+            speeds, which = distinct_quotients(*terms)
+            exact.append(([abs(requirement.reached(speed).error) for speed in speeds], which))
         rank = {error: at for at, error in enumerate(sorted({error for errors, _ in exact for error in errors}))}
         for errors, which in exact:
             found = np.maximum(found, np.array([rank[error] for error in errors], dtype=np.int64)[which])
         return found
 
 
-def _exact_errors(requirement: OutputRequirement, columns: AssignmentColumns) -> tuple[list[Fraction], Ints]:
-    """Return the exact absolute error for each distinct speed of an output, and the index of the speed of each
-    assignment.
-    """
-    function = requirement.function
-    above, below = (_whole(function.wheels, terms, columns) for terms in (function.numerator, function.denominator))
-    speeds, which = distinct_quotients(above, below)
-    return [abs(requirement.reached(speed).error) for speed in speeds], which
-
-
 def _whole(wheels: Sequence[str], terms: Sequence[WholeTerm], columns: AssignmentColumns) -> Tallies:
-    """Return the exact sum of some terms for each assignment, as int64 if all sums fit, or as Python integers if they
-    do not.
+    """Return the sum of some terms for each assignment, as int64 if all sums fit, or as Python integers if they do not.
+    A term is a coefficient with the power of each wheel.
     """
     most = {wheel: int(columns[wheel].max()) for wheel in wheels}
     bound = sum(

@@ -15,7 +15,6 @@ from geartrain.numerics.results import Key, Result, Tabular
 from geartrain.search.search_outcome import CountSizes, Shortfall
 
 By = Literal["error", "total", "largest", "distinct", "change"]
-ORDERS: tuple[By, ...] = ("error", "total", "largest", "distinct", "change")
 
 
 @dataclass(frozen=True, slots=True)
@@ -292,14 +291,12 @@ class TrainFindings(Tabular, Result):
 
 def _together(parts: Sequence[Sequence[Assignment]], by: By, best: int) -> Iterator[Assignment]:
     """Yield the best combinations of one solution from each part, with the best combination first, by a search with a
-    priority queue.
-
-    The solutions of every part are sorted. The next best combination therefore differs from a combination that was
-    already visited by one step in the list of one part. The number of distinct tooth counts is not the sum of the
-    numbers for the parts, so the order by distinct tooth counts is approximate.
+    priority queue. The order by distinct tooth counts is approximate.
     """
     if not parts or not all(parts):
         return
+    # the solutions of every part are sorted, so that the next best combination differs from a visited combination by
+    # one step in the list of one part; the number of distinct tooth counts is not a sum over the parts
     start = (0,) * len(parts)  # the best solution of every part
     heap = [(_joined(parts, start).measure(by), start)]
     seen = {start}

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
+from functools import partial
 from math import ceil, floor
+from typing import get_args
 
 from geartrain.errors import Problem, QuestionError, suggest
 from geartrain.numerics.exact import decimal, log10
@@ -20,10 +22,9 @@ from geartrain.search.train.output_requirements import (
     SearchPart,
     find_domains,
     find_parts,
-    find_requirements,
 )
 from geartrain.search.train.search_passes import AssignmentOrder, PartSearch, PassResult, PassRunner, size_of
-from geartrain.search.train.train_findings import ORDERS, Assignment, By, PartFindings, Standing, TrainFindings
+from geartrain.search.train.train_findings import Assignment, By, PartFindings, Standing, TrainFindings
 from geartrain.train import Train
 
 # Choice of a tolerance that includes the requested number of assignments, and not too many to list.
@@ -39,8 +40,8 @@ _WIDEST = Fraction(10**6)
 
 
 def solve(search: PartSearch) -> tuple[PassResult, tuple[Assignment, ...], bool]:
-    """Return the pass that counts the solutions of a part, the best assignments, and whether these are proved to be the
-    best.
+    """Return the result of the pass that counts the solutions of a part of a train, the best assignments, and whether
+    these are proved to be the best.
     """
     if any(requirement.approached for requirement in search.part.requirements):
         passed = widened(search)
@@ -56,8 +57,8 @@ def solve(search: PartSearch) -> tuple[PassResult, tuple[Assignment, ...], bool]
 
 
 def widened(search: PartSearch) -> PassResult:
-    """Return a pass that lists all assignments within its tolerance. The tolerance includes at least the requested
-    number of assignments or, if there are fewer, all assignments.
+    """Return the result of a pass that lists all assignments within its tolerance. The tolerance includes at least the
+    requested number of assignments or, if there are fewer, all assignments.
 
     If no tolerance is suitable, because too many assignments have the same error, the pass lists the assignments that
     it can enumerate within its limit of steps.
@@ -89,40 +90,25 @@ def _list_limit(search: PartSearch) -> int:
     return max(_LISTED, 4 * search.order.best)
 
 
-def relaxed_search(search: PartSearch) -> PartSearch:
-    """Return a search in which the tolerances of graded requirements are removed and the errors are minimised
-    instead.
-    """
-    requirements = tuple(
-        replace(requirement, demands=tuple(one.loosened() if one.graded else one for one in requirement.demands))
-        for requirement in search.part.requirements
-    )
-    part = replace(search.part, requirements=requirements)
-    order = replace(search.order, by="error", best=1, requirements=requirements)
-    return PartSearch(part, order, search.runner, search.limit)
-
-
 # Explanation of short results: rejected assignments, nearest miss, constraints to relax.
 
 
 def find_shortfall(search: PartSearch, passed: PassResult) -> Shortfall:
-    """Return the number of assignments of a pass that were rejected for each reason. If there is no solution, the
-    result also contains the nearest miss and suggestions.
+    """Return the number of assignments rejected by each constraint and requirement, in the order of evaluation. If
+    there is no solution, the result also contains the nearest miss and suggestions.
     """
-    found = tallied(search, passed)
-    if passed.count or not passed.complete:
-        return found
-    # the explanation must not cost more than the search
-    nearest, advice = _explain(PartSearch(search.part, search.order, search.runner, search.limit / 4))
-    return found if search.runner.stopped else replace(found, nearest=nearest, advice=advice)
-
-
-def tallied(search: PartSearch, passed: PassResult) -> Shortfall:
-    """Return the number of assignments rejected by each constraint and requirement, in the order of evaluation."""
     removed = dict(search.removed_first)
     for reason, number in passed.removed.items():
         removed[reason] = removed.get(reason, 0) + number
-    return Shortfall(search.part.considered, removed)
+    found = Shortfall(search.part.considered, removed)
+    if passed.count or not passed.complete:
+        return found
+    try:
+        # the explanation must not cost more than the search
+        nearest, advice = _explain(replace(search, limit=search.limit / 4))
+    except KeyboardInterrupt:
+        search.runner.stopped = True
+    return found if search.runner.stopped else replace(found, nearest=nearest, advice=advice)
 
 
 def _explain(search: PartSearch) -> tuple[str, str]:
@@ -137,9 +123,14 @@ def _explain(search: PartSearch) -> tuple[str, str]:
     others = "; ".join(_relaxations(search))
     if best is None:
         return "", others or "no single requirement is the cause: widen the ranges of the wheels"
+    counts = ", ".join(f"{wheel} {count}" for wheel, count in best.teeth.items())
+    errors = ", ".join(
+        f"{name} {'meets' if reached.met else 'misses'} {reached.label} by {decimal(reached.error, 3)}"
+        for name, reached in best.outputs.items()
+    )
     # with one output it would repeat the nearest miss
     alone = "; ".join(_individual_errors(search)) if len(search.part.requirements) > 1 else ""
-    nearest = f"{_teeth(best)}: {_errors(best)}" + (f" (individually, {alone})" if alone else "")
+    nearest = f"{counts}: {errors}" + (f" (individually, {alone})" if alone else "")
     advice = f"a relative tolerance of {_rounded_up(best.error)} includes it"
     return nearest, advice + (f"; {others}" if others else "")
 
@@ -148,18 +139,23 @@ def _has_wrong_sense(search: PartSearch, requirement: OutputRequirement) -> bool
     """Return whether the required sense of rotation of an output is impossible with all admissible tooth counts."""
     loose = replace(requirement, demands=tuple(demand.loosened() for demand in requirement.demands))
     part = replace(search.part, requirements=(loose,), conditions=(), rules=())
-    passed = PartSearch(part, replace(search.order, requirements=(loose,)), search.runner, search.limit).run(None, 0)
+    passed = replace(search, part=part, order=replace(search.order, requirements=(loose,))).run(None, 0)
     return passed.complete and not passed.count
 
 
 def _nearest(search: PartSearch) -> Assignment | None:
-    """Return the assignment with the minimum error among the assignments that satisfy all constraints on tooth counts.
-
-    Return None if no such assignment was found within the limit of steps.
+    """Return the assignment with the minimum error among the assignments that satisfy all constraints on tooth counts;
+    None if no such assignment was found within the limit of steps.
     """
     if not search.part.requirements or not size_of(search.domains):
         return None
-    best = widened(relaxed_search(search)).best
+    requirements = tuple(
+        replace(requirement, demands=tuple(one.loosened() if one.graded else one for one in requirement.demands))
+        for requirement in search.part.requirements
+    )
+    order = replace(search.order, by="error", best=1, requirements=requirements)
+    relaxed = replace(search, part=replace(search.part, requirements=requirements), order=order)
+    best = widened(relaxed).best
     return search.order.assignment(best[0].teeth) if best else None
 
 
@@ -168,7 +164,7 @@ def _individual_errors(search: PartSearch) -> Iterator[str]:
     for requirement in search.part.requirements:
         part = replace(search.part, requirements=(requirement,))
         order = replace(search.order, requirements=(requirement,))
-        best = _nearest(PartSearch(part, order, search.runner, search.limit))
+        best = _nearest(replace(search, part=part, order=order))
         if best is not None:
             yield f"{requirement.name} has an error of {decimal(best.error, 3)}"
 
@@ -195,17 +191,6 @@ def _solution_count(passed: PassResult) -> str:
     count = passed.count
     minimum = "" if passed.complete else "at least "
     return f"is {minimum}1 solution" if count == 1 else f"are {minimum}{count} solutions"
-
-
-def _teeth(assignment: Assignment) -> str:
-    return ", ".join(f"{wheel} {count}" for wheel, count in assignment.teeth.items())
-
-
-def _errors(assignment: Assignment) -> str:
-    return ", ".join(
-        f"{name} {'meets' if reached.met else 'misses'} {reached.label} by {decimal(reached.error, 3)}"
-        for name, reached in assignment.outputs.items()
-    )
 
 
 def _rounded_up(error: Fraction) -> str:
@@ -305,37 +290,31 @@ def search_train(
     >>> dict(jupiter.solutions[0].teeth)
     {'JO1': 31, 'JO2': 55, 'JX': 31}
     """
-    if by not in ORDERS:
-        raise QuestionError(
-            Problem(
-                f"solutions cannot be sorted by '{by}'",
-                "solutions are sorted by one of the predefined criteria",
-                suggest(by, ORDERS),
-            )
-        )
+    if by not in get_args(By):
+        what = f"solutions cannot be sorted by '{by}'"
+        raise QuestionError(Problem(what, "no such criterion is computed for a solution", suggest(by, get_args(By))))
     domains = find_domains(train, free)
-    demands = find_requirements(train, state, domains, tolerance)
     if rules is None or isinstance(rules, ConstraintOptions):
         rules = find_constraints(train, domains, rules or ConstraintOptions())
-    if not demands.requirements and not rules:
-        fix = "declare `targets`, or an `expect`, at an output that the wheels influence"
+    parts, remarks = find_parts(train, state, domains, rules, tolerance)
+    if not rules and not any(part.requirements for part in parts):
         raise QuestionError(
             Problem(
                 "no requirement restricts the tooth counts that are varied",
                 "no output with a requirement depends on the varied wheels, and no constraint applies",
-                fix,
+                "declare `targets`, or an `expect`, at an output that the wheels influence",
             )
         )
     declared = {wheel: count for wheel in domains if (count := train.wheels[wheel][1].count) is not None}
     runner = PassRunner(executor, journal, tell)
     searches = [
         PartSearch(part, AssignmentOrder(by, max(best, 1), part.requirements, declared), runner, float(limit))
-        for part in find_parts(demands, domains, rules)
+        for part in parts
     ]
-    parts = tuple(_found(one) for one in searches)
+    findings = tuple(_found(one) for one in searches)
     runner.release()
     links = {wheel: train.wheels[wheel][0] for wheel in domains}
-    return TrainFindings(train.name, by, best, parts, links, demands.remarks, (), _Standings(tuple(searches)).find)
+    return TrainFindings(train.name, by, best, findings, links, remarks, (), partial(_standing, searches))
 
 
 def _found(search: PartSearch) -> PartFindings:
@@ -357,16 +336,8 @@ def _found(search: PartSearch) -> PartFindings:
         ranked,
         _reason(search, passed, ranked),
         solutions,
-        _shortfall(search, passed),
+        find_shortfall(search, passed),
     )
-
-
-def _shortfall(search: PartSearch, passed: PassResult) -> Shortfall:
-    try:
-        return find_shortfall(search, passed)
-    except KeyboardInterrupt:
-        search.runner.stopped = True
-        return tallied(search, passed)
 
 
 def _reason(search: PartSearch, passed: PassResult, ranked: bool) -> str:
@@ -386,26 +357,26 @@ def _reason(search: PartSearch, passed: PassResult, ranked: bool) -> str:
     return "" if ranked else f"too many solutions to list them all within {search.limit:.1e} steps"
 
 
-@dataclass(frozen=True, slots=True)
-class _Standings:
-    """Calculator of the rank of an assignment. It counts the assignments with smaller errors."""
-
-    searches: tuple[PartSearch, ...]
-
-    def find(self, part: int, teeth: Mapping[str, int]) -> Standing:
-        """Return the rank of an assignment in the part with index `part`. `teeth` must include all wheels of this
-        part.
-        """
-        search = self.searches[part]
-        own = {wheel: teeth[wheel] for wheel in search.part.domains}
-        assignment = search.order.assignment(own)
-        refused = tuple(_refusals(search.part, own, assignment))
-        rank = None if refused or assignment is None else _rank(search, assignment)
-        return Standing(tuple(own), assignment, rank, refused)
+def _standing(searches: Sequence[PartSearch], part: int, teeth: Mapping[str, int]) -> Standing:
+    """Return the rank of an assignment in the part with index `part`. `teeth` must include all wheels of this part."""
+    search = searches[part]
+    own = {wheel: teeth[wheel] for wheel in search.part.domains}
+    assignment = search.order.assignment(own)
+    refused = tuple(_refusals(search.part, own, assignment))
+    rank = None
+    if assignment is not None and not refused:
+        rank = 1
+        if assignment.error and search.part.requirements:
+            # strict: assignments with an equal error are not counted
+            better = search.run(assignment.error, 0, strict=True)
+            rank = better.count + 1 if better.complete else None
+    return Standing(tuple(own), assignment, rank, refused)
 
 
 def _refusals(part: SearchPart, teeth: Mapping[str, int], assignment: Assignment | None) -> list[str]:
-    """Return the descriptions of all constraints and requirements that an assignment violates."""
+    """Return the descriptions of all constraints and requirements that the tooth counts `teeth` violate. `assignment`
+    contains the resulting speeds; it is None if the train is locked or free.
+    """
     import numpy as np
 
     columns = {wheel: np.array([count], dtype=np.int64) for wheel, count in teeth.items()}
@@ -426,12 +397,3 @@ def _refusals(part: SearchPart, teeth: Mapping[str, int], assignment: Assignment
         if not reached.met:
             found.append(f"{requirements[name].text}: error {decimal(reached.error, 3)}")
     return found
-
-
-def _rank(search: PartSearch, assignment: Assignment) -> int | None:
-    """Return 1 plus the number of assignments with a smaller error; None if this number is not completely known."""
-    if not assignment.error or not search.part.requirements:
-        return 1
-    # strict: assignments with an equal error are not counted
-    passed = search.run(assignment.error, 0, strict=True)
-    return passed.count + 1 if passed.complete else None

@@ -85,7 +85,12 @@ def run(
 
     answer = SearchAnswer.of(json, out, force, pick)
     train = read_declaration(file)
-    _check_kept(file, answer.out.path)
+    out_path = answer.out.path
+    # the solution extends the declaration in the input file
+    if out_path is not None and out_path.exists() and Path(file).exists() and out_path.samefile(file):
+        raise option_error(
+            "-o", f"'{out_path}' is the input file", "write to another file", "the solution extends this file"
+        )
     varied = free if free in ("search", "uncertain") else tuple(name.strip() for name in free.split(","))
     rules = read_constraint_options(
         planets=planets,
@@ -133,14 +138,6 @@ def _assignment(text: str) -> dict[str, int]:
         raise option_error(
             "--where", f"'{text}' is not an assignment", "give wheels with their counts, such as W=32,X=50"
         ) from None
-
-
-def _check_kept(file: str, out: Path | None) -> None:
-    """Raise `QuestionError` if the output file is the file of the train, because the solution extends the declaration
-    in this file.
-    """
-    if out is not None and out.exists() and Path(file).exists() and out.samefile(file):
-        raise option_error("-o", f"'{out}' is the input file", "write to another file")
 
 
 def _parent(file: str, out: Path | None) -> str:

@@ -21,8 +21,7 @@ if TYPE_CHECKING:
 def measured_motion(
     train: GearTrain, state: str | None = None, outputs: Sequence[str] = (), without: Sequence[str] = ()
 ) -> Motion:
-    """Return the motion of a train with its wheels as measured. It includes tables, fixed errors and filing, but not
-    random errors.
+    """Return the motion of a train with the measured teeth, fixed errors and filing of its wheels.
 
     The arguments `state`, `outputs` and `without` are described in `GearTrain.motion`. Raises `QuestionError` if no
     wheel has measured teeth or fixed errors, and `RangeError` if a pair jams or disengages.

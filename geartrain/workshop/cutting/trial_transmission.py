@@ -45,15 +45,10 @@ class TrialTransmissionFunction(TransmissionFunction):
 
     @abstractmethod
     def _evaluate(self, S: Floats, rows: Ints) -> tuple[Floats, Floats]:
-        """Return the transmission errors [rad of the driven wheel] and the speed ratios of the selected trials at
-        driver angles S [rad].
-        """
+        """Return transmission errors [rad of the driven wheel] and speed ratios of trials `rows` at angles S [rad]."""
 
     def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Return transmission errors [rad of the driven wheel] and speed ratios at driver angles S [rad].
-
-        The error is -inf if no teeth touch.
-        """
+        """Return transmission errors (-inf if no teeth touch) and speed ratios at driver angles S [rad]."""
         angles = np.asarray(S, dtype=float)
         S = angles.ravel()
         rows = np.broadcast_to(self.rows, S.shape) if self.measured else self.rows
@@ -76,9 +71,7 @@ class TrialTransmissionFunction(TransmissionFunction):
         raise QuestionError(Problem(what, why, "give positive turns, or omit the measured teeth"))
 
     def picked(self, columns: Ints) -> TrialTransmissionFunction:
-        """Return the transmission functions of the selected columns. Their transmission errors are also recorded in the
-        shared array `last`.
-        """
+        """Return the transmission functions of the selected columns, which share the array `last`."""
         if self.measured:
             return self
         found = copy(self)
@@ -94,15 +87,11 @@ class TrialTransmissionFunction(TransmissionFunction):
         return self.error_and_speed(S)[1]
 
     def error_moments(self) -> tuple[float, float]:
-        """Return the mean transmission error of perfect wheels [rad] and the rms deviation 0, as the superposition of
-        errors requires. For a single trial, return the mean and the rms deviation of its samples.
-        """
+        """Return mean and rms deviation of the transmission error of a trial, or for many trials `even` and 0 [rad]."""
         return (float(self._samples.mean()), float(self._samples.std())) if self.measured else (self.even, 0.0)
 
     def error_range(self) -> tuple[float, float]:
-        """Return infinite limits, because the range of the transmission error is unknown before all trials are
-        evaluated. For a single trial, return the limits of its samples [rad].
-        """
+        """Return the limits of the transmission error of a trial, or infinite limits for many trials [rad]."""
         return (float(self._samples.min()), float(self._samples.max())) if self.measured else (-inf, inf)
 
     @cached_property
@@ -111,16 +100,12 @@ class TrialTransmissionFunction(TransmissionFunction):
         return self.error(np.linspace(0, self.period, _SAMPLES * self.count, endpoint=False))
 
     def speed_range(self) -> tuple[float, float]:
-        """Return the limits 0 and infinity of the speed ratio, because its range is unknown before all trials are
-        evaluated.
-        """
+        """Return the limits 0 and infinity, because the range of the speed ratio is not known before."""
         return 0.0, inf
 
 
 class CutTrialTransmission(TrialTransmissionFunction):
-    """Transmission function of triangular teeth. The arrays of each wheel of `pair` have shape (trials, z), or (z,) if
-    they are common to all trials.
-    """
+    """Transmission function of triangular teeth. Arrays of the wheels have shape (trials, z), or (z,) if common."""
 
     def __init__(self, pair: CutGearPair, even: float, rows: Ints) -> None:
         super().__init__((pair.sizes.z1, pair.sizes.z2), even, rows)
@@ -145,9 +130,7 @@ class CutTrialTransmission(TrialTransmissionFunction):
         return -lag, self._speed(rows, first, (first - n) * pitch - u)
 
     def _lag(self, rows: Ints, k: Ints, ahead: Floats) -> Floats:
-        """Return the lag of the driven wheel due to tooth pairs k [rad]; inf before contact, and constant after
-        contact.
-        """
+        """Return the lag of the driven wheel due to tooth pairs k [rad]; inf before contact, constant after it."""
         pair, sizes = self.pair, self.pair.sizes
         i, j = k % sizes.z1, k % sizes.z2
         place = of_teeth(pair.first.place, rows, i)
@@ -165,7 +148,7 @@ class CutTrialTransmission(TrialTransmissionFunction):
         reach = tooth_pairs.reach
         with np.errstate(all="ignore"):
             inside = np.clip(x, -reach, reach)
-            return np.where(np.abs(x) <= reach, tooth_pairs.tau(inside, tooth_pairs.approaches(inside)), 0.0)
+            return np.where(np.abs(x) <= reach, tooth_pairs.tau(inside), 0.0)
 
     def _tooth_pairs(self, rows: Ints, i: Ints, j: Ints) -> CutToothPairs:
         one, two, sizes = self.pair.first, self.pair.second, self.pair.sizes
@@ -189,7 +172,6 @@ class DisplacedTrialTransmission(TrialTransmissionFunction):
         step = _SLOPE * self.pitches[0]
         with np.errstate(invalid="ignore"):
             # inf - inf where no teeth touch
-            slope = (self.pair.lag(rows, rest + step, tooth_pair) - self.pair.lag(rows, rest - step, tooth_pair)) / (
-                2 * step
-            )
+            before, after = (self.pair.lag(rows, rest + sign * step, tooth_pair) for sign in (-1, 1))
+            slope = (after - before) / (2 * step)
         return -lag, np.where(np.isfinite(slope), float(self.ratio) - slope, 0.0)

@@ -32,9 +32,7 @@ def run(file: File, json: Json = False, out: Out = None, force: Force = False) -
 
 
 def find_measured_wheels(train: Train) -> dict[str, WheelEstimate]:
-    """Return the estimates for all wheels with measured angles, keyed by wheel name. Raises `QuestionError` if there
-    are none.
-    """
+    """Return the estimates of all wheels with measured angles, by wheel. Raises `QuestionError` if there are none."""
     cut = {name: (wheel.count, wheel.cutting.measured) for name, (_, wheel) in train.wheels.items() if wheel.cutting}
     found = {name: estimate_measured(each, z) for name, (z, each) in cut.items() if z and each and each.angles}
     if not found:

@@ -36,11 +36,10 @@ _ROUNDING = 1e-15  # rad: minimum standard deviation, that of the angles of a pe
 
 
 def closed_steps(steps: Any) -> Floats:
-    """Return the deviations of teeth that are marked out one after another with the step errors `steps`, shape (...,
-    z).
+    """Return the deviations, with mean 0, of teeth marked out one after another with the step errors `steps`, (..., z).
 
-    The sum of all steps is a full turn, so the mean step error is subtracted (Brownian bridge). The mean deviation is
-    0. The covariance is equation (5) of docs/cut-by-hand.md.
+    The sum of all steps is a full turn, so the mean step error is subtracted (Brownian bridge). The covariance is
+    equation (5) of docs/cut-by-hand.md.
     """
     walk = np.cumsum(steps - np.mean(steps, axis=-1, keepdims=True), axis=-1)
     closed: Floats = walk - walk.mean(axis=-1, keepdims=True)
@@ -48,9 +47,7 @@ def closed_steps(steps: Any) -> Floats:
 
 
 def stepped_covariance(teeth: Ints, z: int) -> Floats:
-    """Return the covariance matrix of the deviations that `closed_steps` returns, for the teeth with given indices
-    among z teeth, if the steps have variance 1.
-    """
+    """Return the covariance matrix of `closed_steps` for the given teeth among z teeth, if steps have variance 1."""
     apart = np.abs(teeth[:, None] - teeth)
     found: Floats = (z * z - 1) / (12 * z) - apart * (z - apart) / (2 * z)
     return found
@@ -204,9 +201,7 @@ def estimate_wheel(
 
 
 def estimate_measured(measured: MeasuredTeeth, count: int) -> WheelEstimate:
-    """Return the estimates from the measured angles declared for a wheel, with the deviation model that von Neumann's
-    ratio indicates.
-    """
+    """Return the estimates from the measured angles that are declared for a wheel with `count` teeth."""
     angles = [None if each is None else each.si for each in measured.angles or ()]
     return estimate_wheel(angles, count, 0.0 if measured.error is None else measured.error.si)
 

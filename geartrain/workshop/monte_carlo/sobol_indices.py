@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -139,7 +140,7 @@ def find_sobol_indices(
         raise QuestionError(Problem(what, why, "name another output: --of NAME"))
     rows: list[Any] = []
     # no journal: its tasks are identified by block and trials, and would be confused with those of the trials
-    for part in replace(means, journal=None).run(SobolBlock(plan, seed, output, by), trial_tasks(trials)):
+    for part in replace(means, journal=None).run(partial(work_samples, plan, seed, output, by), trial_tasks(trials)):
         rows += part
     values = np.array(rows, dtype=float)
     # outputs are infinite in trials in which no teeth touch
@@ -150,8 +151,7 @@ def find_sobol_indices(
 
 
 def saltelli_indices(values: Floats, seed: int) -> list[tuple[IntervalEstimate, IntervalEstimate]]:
-    """Return the first-order and total index of each input variable with bootstrap intervals; 0 if the values do not
-    vary.
+    """Return the first-order and total index of each input variable with bootstrap intervals.
 
     values   f(A), f(AB(1)), ..., f(AB(d)), f(B) in columns, (samples, d + 2)
     seed     seed of the bootstrap resamples
@@ -169,7 +169,7 @@ def saltelli_indices(values: Floats, seed: int) -> list[tuple[IntervalEstimate, 
 
 
 def _saltelli(values: Floats) -> Floats:
-    """Return first-order and total Sobol indices of d input variables, shape (2, d)."""
+    """Return first-order and total Sobol indices of d input variables, shape (2, d); 0 if the values do not vary."""
     # columns f(A), f(AB(1)), ..., f(AB(d)), f(B)
     a, b, mixed = values[:, :1], values[:, -1:], values[:, 1:-1]
     # A and B have the same distribution, so their pooled variance is the better estimate
@@ -199,29 +199,15 @@ def error_groups(plan: TrialPlan, output: int, by: By) -> list[tuple[str, Stream
     return [*found, ("position", ((plan.position,), EVERY))]
 
 
-@dataclass(frozen=True)
-class SobolBlock:
-    """Task function that computes the errors of an output in base samples [rad]. The result has one row for each sample
-    and the columns A, AB(i) and B.
-    """
-
-    plan: TrialPlan
-    seed: int
-    output: int
-    by: By
-
-    def __call__(self, task: Sequence[int]) -> list[list[float]]:
-        """Return the output errors in the samples of one task as plain data."""
-        first, trials = task
-        inputs = [theirs for _, theirs in error_groups(self.plan, self.output, self.by)]
-        samples: tuple[Streams, ...] = (((), ()), *inputs, (EVERY, EVERY))
-        columns = [self._errors(first, trials, each) for each in samples]
-        found: list[list[float]] = np.stack(columns, axis=1).tolist()
-        return found
-
-    def _errors(self, first: int, trials: int, second: Streams) -> Floats:
-        streams = RandomStreams(self.seed, _STREAMS + first // BLOCK, second)
-        drawn = draw_trial_wheels(self.plan, streams, trials, first % BLOCK)
-        found = trial_pointers(drawn, np.arange(drawn.trials), (self.output,))
-        errors: Floats = found.errors(input_positions(drawn))[0]
-        return errors
+def work_samples(plan: TrialPlan, seed: int, output: int, by: By, task: Sequence[int]) -> list[list[float]]:
+    """Return the errors of an output [rad] in the base samples of one task, in rows f(A), f(AB(1)), ..., f(B)."""
+    first, trials = task
+    samples: list[Streams] = [((), ()), *(streams for _, streams in error_groups(plan, output, by)), (EVERY, EVERY)]
+    columns = []
+    for second in samples:
+        streams = RandomStreams(seed, _STREAMS + first // BLOCK, second)
+        drawn = draw_trial_wheels(plan, streams, trials, first % BLOCK)
+        pointers = trial_pointers(drawn, np.arange(trials), (output,))
+        columns.append(pointers.errors(input_positions(drawn))[0])
+    found: list[list[float]] = np.stack(columns, axis=1).tolist()
+    return found

@@ -223,9 +223,12 @@ class CutToothPairs(ToothPair):
         # the phase of contact is the one with the smaller angle; far out of reach one of the angles is NaN
         return np.fmin(self.angle(APPROACH, x, np), self.angle(RECESS, x, np))
 
-    def tau(self, x: Any) -> Any:
-        """Return the speed ratio tau at the driver angle x [rad]; inf if jamming teeth overlap below the flank."""
-        approaches = self.angle(APPROACH, x, np) < self.angle(RECESS, x, np)
+    def approaches(self, x: Any) -> Any:
+        """Return a mask that is True for tooth pairs in the approach phase at the driver angle x [rad]."""
+        return self.angle(APPROACH, x, np) < self.angle(RECESS, x, np)
+
+    def tau(self, x: Any, approaches: Any) -> Any:
+        """Return the speed ratio at the driver angle x [rad] in approach (`approaches`) or recess; it may be inf."""
         return np.where(approaches, self.speed(APPROACH, x, np), self.speed(RECESS, x, np))
 
     def picked(self, pick: Callable[[Any], Any]) -> CutToothPairs:

@@ -148,7 +148,7 @@ class CutTrialTransmission(TrialTransmissionFunction):
         reach = tooth_pairs.reach
         with np.errstate(all="ignore"):
             inside = np.clip(x, -reach, reach)
-            return np.where(np.abs(x) <= reach, tooth_pairs.tau(inside), 0.0)
+            return np.where(np.abs(x) <= reach, tooth_pairs.tau(inside, tooth_pairs.approaches(inside)), 0.0)
 
     def _tooth_pairs(self, rows: Ints, i: Ints, j: Ints) -> CutToothPairs:
         one, two, sizes = self.pair.first, self.pair.second, self.pair.sizes

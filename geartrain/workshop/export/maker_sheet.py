@@ -1,7 +1,7 @@
 """Workshop drawings: a drawing of each plate with a datum and a hole table, and a table of all wheels.
 
-Plates are drawn at full scale (1:1), in mm. Holes are drawn in their finished size, without kerf compensation. The
-datum is the centre of a hole, because the edge of a plate has few straight parts.
+Plates are drawn at full scale in mm, with holes in their finished size. The datum is the centre of a hole, because the
+edge of a plate has few straight parts.
 """
 
 from __future__ import annotations
@@ -55,10 +55,8 @@ def maker_sheets(work: SolidModel) -> Iterator[tuple[str, str, Callable[[], byte
 
 
 def hole_rows(plate: FlatPlate) -> list[tuple[str, ...]]:
-    """Return number, name, x and y relative to the datum [mm] and diameter [mm] of each hole of a plate, as text.
-
-    The datum is the first hole of an axis, or the first hole if the plate has no axis.
-    """
+    """Return number, name, x and y relative to the datum, and diameter of each hole of a plate, as text [mm]."""
+    # the datum is the first hole of an axis, or the first hole if the plate has no axis
     holes = _ordered(plate)
     x, y = holes[0].at
     return [
@@ -73,9 +71,7 @@ def _ordered(plate: FlatPlate) -> list[Hole]:
 
 
 def wheel_rows(work: SolidModel) -> list[tuple[str, ...]]:
-    """Return the sizes of each shape of wheel [mm]: transverse module and diameters. The inside diameter of a ring is
-    its tip diameter.
-    """
+    """Return the cells of the table of wheels (`_WHEELS`) for each shape; inside of a ring is its tip diameter."""
     rows = []
     for sheet in wheel_sheets(work.blanks.wheels):
         blank = work.blanks.wheels[sheet.parts[0]]

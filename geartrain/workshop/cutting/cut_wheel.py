@@ -158,7 +158,7 @@ class CutWheel:
 
 
 def of_teeth(each: Floats, rows: Ints, teeth: Ints) -> Any:
-    """Return the entries of an array of tooth data for one tooth in each given trial."""
+    """Return the entries [rows, teeth] of an array of shape (trials, z), or [teeth] of an array of shape (z,)."""
     if each.ndim == 1:
         return each[teeth] if each.any() else 0.0  # a scalar saves memory
     return each[rows, teeth]
@@ -206,7 +206,11 @@ class CutToothPairs(ToothPair):
 
     @classmethod
     def of(cls, sizes: TriangularSizes, tips: tuple[Any, Any], flanks: tuple[Any, Any], shift: Any) -> CutToothPairs:
-        """Return tooth pairs with nominal sizes plus the errors of tip heights, flank angles and centre distance."""
+        """Return tooth pairs of given nominal sizes, changed by errors.
+
+        tips, flanks   errors of the tip heights, and of the half angles (rad), of the driver and of the driven wheel
+        shift          increase of the centre distance
+        """
         R1, R2 = sizes.signed_radii
         return cls(
             R1 + tips[0],
@@ -219,7 +223,10 @@ class CutToothPairs(ToothPair):
         )
 
     def contact(self, x: Any) -> Any:
-        """Return the angle of the driven tooth for the driving tooth at the angle x, |x| <= `reach` [rad]."""
+        """Return the angle of the driven tooth [rad] if the angle of the driving tooth is x, |x| <= `reach` [rad].
+
+        Both are the angles of the tips from the line of centres, positive on the entry side.
+        """
         # the phase of contact is the one with the smaller angle; far out of reach one of the angles is NaN
         return np.fmin(self.angle(APPROACH, x, np), self.angle(RECESS, x, np))
 
@@ -232,7 +239,7 @@ class CutToothPairs(ToothPair):
         return np.where(approaches, self.speed(APPROACH, x, np), self.speed(RECESS, x, np))
 
     def picked(self, pick: Callable[[Any], Any]) -> CutToothPairs:
-        """Return selected or reordered tooth pairs. The function `pick` is applied to every array."""
+        """Return the tooth pairs that the function `pick` selects or reorders; it is applied to every array."""
         # without __init__, which would recompute every constant
         found = CutToothPairs.__new__(CutToothPairs)
         found.leans, found.mirror, found.sign2, found.side = False, self.mirror, self.sign2, self.side
@@ -241,12 +248,15 @@ class CutToothPairs(ToothPair):
         return found
 
     def rolled(self, n: int) -> CutToothPairs:
-        """Return the tooth pairs shifted cyclically, so that each is replaced by the pair n places before it."""
+        """Return the tooth pairs in cyclically shifted order: entry k is the previous entry k - n."""
         return self if n == 0 else self.picked(lambda each: np.roll(each, n, -1) if np.ndim(each) else each)
 
 
 def _half_sine(R1: Any, R2: Any, D: Any, delta: Any) -> Any:
-    """Return the sine of half the maximum contact angle of wheel 1, equation (4) of Sorge; 0 if tips do not meet."""
+    """Return the sine of half the maximum contact angle of wheel 1, equation (4) of Sorge; 0 if tips do not meet.
+
+    The arguments are those of `CutToothPairs`.
+    """
     # clipped, because delta is negative if the tips do not reach each other
     return np.sqrt(np.clip(delta * (2 * R2 - delta) / (4 * D * R1), 0.0, 1.0))
 
@@ -277,18 +287,21 @@ class CutGearPair:
         return self.sizes.z1, self.sizes.z2
 
     def taken(self, part: slice | Ints) -> CutGearPair:
-        """Return the pairs of the selected trials, which are given by a slice or by indices."""
+        """Return the gear pairs of the selected trials, which are given by a slice or by indices."""
         shift = self.shift if np.ndim(self.shift) == 0 else self.shift[part]
         return CutGearPair(self.sizes, self.first.taken(part), self.second.taken(part), shift)
 
     def filed(self, low: tuple[Floats, Floats]) -> CutGearPair:
-        """Return this pair with the depths `low` removed from the flanks of its wheels, (trials, 2 sides, z)."""
+        """Return this pair with filed flanks.
+
+        low   depths to be removed from the flanks of each wheel, shape (trials, 2, z): leading, trailing flanks
+        """
         wheels = zip((self.first, self.second), low, strict=True)
         first, second = (wheel.filed(each[:, 0], each[:, 1]) for wheel, each in wheels)
         return CutGearPair(self.sizes, first, second, self.shift)
 
     def tooth_pairs(self, k: Any) -> CutToothPairs:
-        """Return the tooth pairs with the numbers k, which count tooth pairs through all turns."""
+        """Return the tooth pairs with the numbers k; pair k joins driving tooth k mod z1 to driven tooth k mod z2."""
         i = k % self.sizes.z1
         j = k % self.sizes.z2
         one, two = self.first, self.second
@@ -297,15 +310,15 @@ class CutGearPair:
         return CutToothPairs.of(self.sizes, tips, (one.leading[..., i], two.trailing[..., j]), shift)
 
     def places(self, k: Any) -> tuple[Floats, Floats]:
-        """Return the pitch deviations of both teeth of each tooth pair k [rad], positive if a tooth is late."""
+        """Return the pitch deviations [rad] of the driving and the driven teeth in tooth pairs k, positive if late."""
         return self.first.place[..., k % self.sizes.z1], self.second.place[..., k % self.sizes.z2]
 
     @cached_property
     def mirrored(self) -> CutGearPair:
         """Mirror image of the pair; its tooth pair -k joins driving tooth k, which is ahead, to driven tooth k + 1.
 
-        If U'(t) is the lag of the image at the driver angle t, the back flanks of this pair meet at the lag
-        -U'(-t) - p2, with the pitch p2 of the driven wheel.
+        If the driven wheel of the image lags by U'(t) at the driver angle t, the coast flanks of this pair meet at the
+        lag -U'(-t) - p2, where p2 is the angular pitch of the driven wheel.
         """
         return CutGearPair(self.sizes, self.first.mirrored(), self.second.mirrored(1), self.shift)
 

@@ -202,7 +202,7 @@ def wheel_errors(train: Train, even: WheelErrors, settings: Sequence[ErrorOverri
 def _with_measured_angles(wheel: WheelErrors, measured: MeasuredTeeth) -> WheelErrors:
     """Return the wheel with pitch deviations and eccentricity estimated from the measured angles of its teeth.
 
-    A tooth that was not measured follows the fitted eccentricity, or an even division if that is not significant.
+    An unmeasured tooth is assumed to follow the fitted eccentricity if it is significant, or else an even division.
     """
     found = estimate_measured(measured, wheel.z)
     depth = wheel.depth / wheel.angle_radius
@@ -249,7 +249,10 @@ def pair_errors(
 
 
 def _scales(even: WheelErrors, wheel: Wheel) -> dict[str, float | None]:
-    """Return the nominal angle [rad] or length [m] of each kind of error; None for a length without a module."""
+    """Return the angle [rad] or length [m] by which each kind of error is divided, keyed by kind.
+
+    A length is None if the wheel has no module.
+    """
     deep = None
     module = wheel.transverse_module
     if module is not None:
@@ -267,7 +270,12 @@ def _scales(even: WheelErrors, wheel: Wheel) -> dict[str, float | None]:
 
 @dataclass(frozen=True, slots=True)
 class _Reader:
-    """Converter of the declared errors of one wheel or pair from angles and lengths to fractions."""
+    """Converter of the declared errors of one wheel or pair from angles and lengths to fractions.
+
+    place    place in the declaration, for error messages
+    name     name of the wheel or pair
+    scales   angle (rad) or length (m) by which each kind of error is divided
+    """
 
     place: str
     name: str

@@ -86,7 +86,7 @@ class DisplacedWheel:
         return found
 
     def flanks(self, trailing: bool) -> tuple[Floats, Floats]:
-        """Return flattening angles [rad] and removed depths [module] of the trailing (`trailing`) or leading flanks."""
+        """Return rotations [rad] and removed depths [module] of the trailing (if `trailing`) or the leading flanks."""
         return (self.trailing, self.trailing_low) if trailing else (self.leading, self.leading_low)
 
     @property
@@ -119,16 +119,16 @@ class DisplacedWheel:
 
 @dataclass(frozen=True)
 class SideTerms:
-    """Lags of the driven wheel due to tooth pairs on the drive or coast flanks, at one driver position in a pitch.
+    """Lags of the driven wheel [rad] due to all tooth pairs on the drive or coast flanks, for one driver angle.
 
-    The lag [rad of the driven wheel] is the sum of one term for each wheel, shape (trials, z). The second index is the
-    number n of pitches that the wheel has passed.
+    The driver angle is within a pitch, to which n whole pitches are added. The lag is the sum of an entry n of
+    `driver` and an entry n of `driven`, both of shape (trials, z).
     """
 
     driver: Any
-    """Term of the driver."""
+    """Terms of the lag that depend on the driver."""
     driven: Any
-    """Term of the driven wheel."""
+    """Terms of the lag that depend on the driven wheel."""
     pitches: int
     """Offset of the tooth numbers: entry n of `driver` belongs to driver tooth n - `pitches`."""
 
@@ -161,7 +161,7 @@ class DisplacedPair:
         return np.broadcast_shapes(self.first.trials, self.second.trials, np.shape(self.shift))
 
     def taken(self, rows: Ints) -> DisplacedPair:
-        """Return the pairs of the trials with the given indices."""
+        """Return the gear pairs of the trials with the given indices."""
         shift = self.shift if np.ndim(self.shift) == 0 else self.shift[rows]
         return DisplacedPair(self.contact, self.first.taken(rows), self.second.taken(rows), shift)
 
@@ -188,7 +188,10 @@ class DisplacedPair:
     # ------------------------------------------------------------------------------------------------- pair by pair
 
     def side_terms(self, u: float, back: bool) -> Iterator[SideTerms]:
-        """Yield the lag terms of all tooth pairs that can touch at the driver angle u within a pitch [rad]."""
+        """Yield the lag terms of all tooth pairs that can touch at the driver angle u, 0 <= u < pitch [rad].
+
+        back   True for the coast flanks, False for the drive flanks
+        """
         sign = -1.0 if back else 1.0
         low, high = self.widest
         pitch = self.contact.pitches[0]
@@ -209,21 +212,23 @@ class DisplacedPair:
         return np.asarray(beyond + at.entering(at.start - at.longer[1] * tip2 - x))
 
     def _along(self, column: Floats, x: Any) -> Any:
-        """Return a column tabulated along the path of contact, interpolated at the driver angle x [rad]."""
+        """Return a quantity at the driver angle x [rad]; `column` has its values along the path of contact."""
         at, last = self.contact, len(column) - 1
         return np.interp(x, at.start + (at.end - at.start) / last * np.arange(last + 1), column)
 
     def _columns(self, x: Any) -> list[Any]:
-        """Return `across`, `along`, `tilt` (both wheels), `normal`, `even` and `apart` at the driver angle x [rad]."""
+        """Return the nine lag factors of `DisplacedContact`, from `across` to `apart`, at the driver angle x [rad]."""
         at = self.contact
         return [self._along(each, x) for each in (*at.across, *at.along, *at.tilt, at.normal, at.even, at.apart)]
 
     def _side(self, u: float, x: float, j: int, back: bool, late: Any = None) -> SideTerms:
-        """Return the lag terms of both wheels at driver angle x, by equation (2) of docs/cut-by-hand.md [rad].
+        """Return the lag terms of both wheels [rad], by equation (2) of docs/cut-by-hand.md.
 
-        The index n of the terms is the tooth number plus j.
-
-        late    (trials, z): angle by which the driver is later for each n (rad); tips are then assumed to be nominal
+        u      angle of the driver within a pitch (rad)
+        x      driver angle at which the contact of these tooth pairs is evaluated (rad)
+        j      number of pitches from u to x; entry n of the terms belongs to driver tooth n - j
+        back   True for the coast flanks, False for the drive flanks
+        late   angles added to x for each n (rad), shape (trials, z); tips are then assumed to be nominal
         """
         at, sign = self.contact, -1.0 if back else 1.0
         one, two = self.first, self.second
@@ -252,7 +257,11 @@ class DisplacedPair:
 
     @staticmethod
     def _eccentric_terms(wheel: DisplacedWheel, turned: float, phase: float, across: float, along: float) -> Any:
-        """Return the lag due to the eccentricity of a wheel [rad], for each number n of pitches passed."""
+        """Return the lag due to the eccentricity of a wheel [rad], for each number n of pitches passed.
+
+        turned, phase   two terms of the angle by which the first tooth is past the line of centres (rad)
+        across, along   lag per unit displacement of the teeth across and along the line of centres (rad/module)
+        """
         if not np.any(wheel.e):
             return 0.0
         angle = np.arange(wheel.z) * (2 * np.pi / wheel.z) + turned + phase
@@ -262,7 +271,7 @@ class DisplacedPair:
     # --------------------------------------------------------------------------------------------- backlash, and jams
 
     def _opposite_pairs(self) -> Iterator[tuple[SideTerms, SideTerms]]:
-        """Yield the lag terms of each two tooth pairs on drive and coast flanks that can touch at the same time."""
+        """Yield the lag terms on drive flanks and on coast flanks for all tooth pairs that can touch together."""
         pitch, (start, end) = self.contact.pitches[0], (self.contact.start, self.contact.end)
         ends = np.mod([start, end, -start, -end], pitch)
         phases = _UNEVEN_PHASES if self._lag_varies else _PHASES
@@ -277,7 +286,7 @@ class DisplacedPair:
         return best + self.contact.backlash
 
     def tight_place(self) -> TightPlace:
-        """Return the position of minimum backlash, and the most protruding of the four flanks in contact there."""
+        """Return the minimum backlash of each trial, and the most protruding of the four flanks in contact there."""
         count = self.trials[0]
         best, where = np.full(count, np.inf), np.zeros((3, count), np.int64)
         gain = np.full(count, float(self.contact.normal.max()))
@@ -290,7 +299,11 @@ class DisplacedPair:
         return TightPlace(best + self.contact.backlash, where[0], where[1], where[2], gain)
 
     def _most_protruding(self, front: SideTerms, back: SideTerms, rows: Ints, n1: Ints, n2: Ints) -> Ints:
-        """Return wheel, tooth and side of the most protruding of four flanks in contact, in the trials `rows`."""
+        """Return wheel, tooth and side of the most protruding of four flanks in contact, shape (3, number of rows).
+
+        rows     indices of the trials
+        n1, n2   indices of the terms of driver and driven wheel with the minimum backlash in these trials
+        """
         z1, z2 = self.teeth
         # contribution of each of the four to the backlash: the smallest belongs to the most protruding flank
         terms = (front.driver, n1), (back.driver, n1), (back.driven, n2), (front.driven, n2)
@@ -302,7 +315,10 @@ class DisplacedPair:
         return np.stack([flank // 2, np.take_along_axis(teeth, flank[None], axis=0)[0], flank % 2])
 
     def filed(self, low: tuple[Floats, Floats]) -> DisplacedPair:
-        """Return this pair with the depths `low` removed from the flanks of its wheels, (trials, 2 sides, z)."""
+        """Return this pair with filed flanks.
+
+        low   depths to be removed from the flanks of each wheel, shape (trials, 2, z): leading, trailing flanks
+        """
         wheels = zip((self.first, self.second), low, strict=True)
         first, second = (wheel.filed(each[:, 0], each[:, 1]) for wheel, each in wheels)
         return DisplacedPair(self.contact, first, second, self.shift)
@@ -342,7 +358,10 @@ class DisplacedPair:
     # ----------------------------------------------------------------------------------------------- angle by angle
 
     def lag(self, rows: Ints, S: Floats, k: Ints, back: bool = False) -> Floats:
-        """Return the lag of the driven wheel due to tooth pairs k at driver angles S; back flanks: its lead [rad]."""
+        """Return the lag of the driven wheel due to tooth pairs k at driver angles S, in the trials `rows` [rad].
+
+        back   True for the lead of the driven wheel due to the coast flanks
+        """
         at, sign = self.contact, -1.0 if back else 1.0
         one, two, ratio = self.first, self.second, float(self.contact.ratio)
         i, j = k % one.z, (k + back) % two.z
@@ -365,7 +384,11 @@ class DisplacedPair:
         return found
 
     def minimum_lag(self, rows: Ints, S: Floats, back: bool = False) -> tuple[Floats, Ints]:
-        """Return the minimum lag at driver angles S [rad], inf if no teeth touch, and the tooth pair that causes it."""
+        """Return the minimum lag at driver angles S [rad], inf if no teeth touch, and the number of its tooth pair.
+
+        rows   indices of the trials, one for each angle
+        back   True for the lead of the driven wheel due to the coast flanks
+        """
         sign, pitch = -1.0 if back else 1.0, self.contact.pitches[0]
         n = np.floor(S / pitch).astype(np.int64)
         low, high = self.widest
@@ -384,7 +407,7 @@ def even_backlash(contact: DisplacedContact) -> float:
 
 
 def mean_lag(contact: DisplacedContact) -> float:
-    """Return the mean lag of a perfect pair [rad]; 0 for conjugate flanks at the nominal centre distance."""
+    """Return the mean lag of the driven wheel of a perfect pair [rad]; 0 for conjugate flanks at nominal distance."""
     if not contact.even.any():
         return 0.0
     pair = DisplacedPair(contact, *(DisplacedWheel.even(wheel.z) for wheel in contact.wheels))
@@ -394,7 +417,10 @@ def mean_lag(contact: DisplacedContact) -> float:
 
 
 def minimum_sum_places(driver: Any, driven: Any, count: int) -> tuple[Floats, Ints, Ints]:
-    """Return the minimum sum as defined by `extreme_sum`, and the tooth indices of its terms, each of (trials,)."""
+    """Return the minimum of `extreme_sum`, and the indices of its driver and driven terms, each of shape (trials,).
+
+    count   number of trials
+    """
     one, two = by_residue(np.atleast_2d(driver), np.atleast_2d(driven))
     rests = one.shape[-1]
     total = one.min(axis=1) + two.min(axis=1)

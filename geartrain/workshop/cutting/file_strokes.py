@@ -75,7 +75,7 @@ def file_to_fit(
 
 
 def tight_place(pair: CutGearPair) -> TightPlace:
-    """Return the position of minimum backlash of triangular pairs, and the most protruding flank in contact there."""
+    """Return the minimum backlash of triangular pairs, and the most protruding flank in contact there."""
     parts = [MeshingCycle(part).tightest() for part in chunks(pair, CHUNK // pair.count)]
     backlash, front, apart = (np.concatenate(each) for each in zip(*parts, strict=True))
     rows, (z1, z2), sizes = np.arange(len(backlash)), pair.teeth, pair.sizes

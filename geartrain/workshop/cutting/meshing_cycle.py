@@ -18,7 +18,7 @@ smooth functions, or is at an end of the common reach.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 from math import erfc, floor, gcd, inf, sqrt
@@ -133,9 +133,10 @@ class BacklashCandidate:
 
 
 def common(front: CutToothPairs, back: CutToothPairs, delta: Any) -> tuple[Any, Any]:
-    """Return the limits of the driver angle of the front tooth at which both tooth pairs can touch [rad].
+    """Return the limits of the angle of the front driving tooth between which both tooth pairs can touch [rad].
 
-    The range is empty if the lower limit exceeds the upper limit.
+    The range is empty if the lower limit exceeds the upper limit. `delta` is the angle from the front to the back
+    driving tooth [rad].
     """
     return np.maximum(-front.reach, delta - back.reach), np.minimum(front.reach, delta + back.reach)
 
@@ -145,7 +146,8 @@ def minimum_backlash_sum(
 ) -> tuple[Any, Any]:
     """Return the minimum backlash of a front and a back tooth pair, each in one phase, and its driver angle [rad].
 
-    The backlash is the sum of their contact functions; it is inf if the pairs never touch at the same time.
+    The backlash is the sum of their contact functions; it is inf if the pairs never touch at the same time. `delta` is
+    the angle from the front to the back driving tooth [rad].
     """
     # Newton's method safeguarded by bisection; the last step improves only the value, by parabolic interpolation
     low, high = common(front, back, delta)
@@ -178,7 +180,10 @@ def _slopes(front: CutToothPairs, back: CutToothPairs, delta: Any, phases: tuple
 
 
 def minimum_sum(front: CutToothPairs, back: CutToothPairs, delta: Any) -> Any:
-    """Return the minimum backlash of a front and a back tooth pair over all phases [rad]; inf if they never touch."""
+    """Return the minimum backlash of a front and a back tooth pair over all phases [rad]; inf if they never touch.
+
+    delta   angle from the front to the back driving tooth (rad)
+    """
     low, high = common(front, back, delta)
     with np.errstate(all="ignore"):
         values = [minimum_backlash_sum(front, back, delta, phases)[0] for phases in PHASES]
@@ -281,11 +286,11 @@ class MeshingCycle:
     # ------------------------------------------------------------------------------------------------------- positions
 
     def ahead(self, n: int) -> Any:
-        """Return the angle from each driving tooth to the one n tooth pairs before it [rad]."""
+        """Return the angle from each driving tooth to the driving tooth n tooth pairs before it [rad]."""
         return n * self.sizes.p1 + (self.driver - np.roll(self.driver, n, -1))
 
     def apart(self, n: int) -> Any:
-        """Return the angle from each driven tooth to the one n tooth pairs before it [rad]."""
+        """Return the angle from each driven tooth to the driven tooth n tooth pairs before it [rad]."""
         return n * self.sizes.p2 + (self.driven - np.roll(self.driven, n, -1))
 
     def _all(self, found: Any) -> Any:
@@ -294,8 +299,8 @@ class MeshingCycle:
     # ------------------------------------------------------------------------------------------------------------ jams
 
     def tightest(self) -> tuple[Floats, Ints, Ints]:
-        """Return the minimum backlash of each trial [rad], its front tooth pair, and the number of pairs back to its
-        back tooth pair.
+        """Return the minimum backlash of each trial [rad], the number of its front tooth pair, and the number of tooth
+        pairs from there back to its back tooth pair.
         """
         # the backlash is estimated for all tooth pairs, and computed exactly for those near the minimum
         rough: dict[int, Any] = {}
@@ -310,7 +315,10 @@ class MeshingCycle:
         return backlash, where[0], where[1]
 
     def _refine(self, backlash: Floats, where: Ints, n: int, rough: Floats) -> None:
-        """Update the minimum backlash and its place with the exact backlash of all pairs whose estimate is near it."""
+        """Replace the estimated minimum `backlash`, and its tooth pairs `where`, by exact values.
+
+        rough   estimated backlash of all front pairs and the back pairs n before them (rad), (trials, tooth pairs)
+        """
         slack, open_ = SLACK * self.sizes.p2, np.isfinite(rough)
         chosen = np.zeros_like(open_)
         chosen[np.arange(self.trials), rough.argmin(axis=1)] = True
@@ -330,7 +338,7 @@ class MeshingCycle:
             slack = max(slack, 2 * float(np.max(rough[rows, columns] - exact)))
 
     def _rough(self, pinch: BacklashCandidate) -> Any:
-        """Return an upper bound of the backlash of every tooth pair [rad]: the backlash at its nominal minimum."""
+        """Return the backlash of every tooth pair at the position of the candidate `pinch`: an upper bound [rad]."""
         delta, back = self.ahead(pinch.n), self.back.rolled(pinch.n)
         low, high = common(self.front, back, delta)
         with np.errstate(all="ignore"):
@@ -339,11 +347,11 @@ class MeshingCycle:
             return np.where(low < high, y, inf) + self._driven_term(pinch.n)
 
     def _driven_term(self, n: int) -> Any:
-        """Return the share of the driven teeth in the backlash of each front pair and the back pair n before it."""
+        """Return the term of the driven teeth in the backlash of front pairs and the back pairs n before them [rad]."""
         return (1 - n) * self.sizes.p2 + (np.roll(self.driven, n - 1, -1) - self.driven)
 
     def _exactly(self, rows: Any, columns: Any, n: int) -> Floats:
-        """Return the exact backlash of front pairs `columns` and the back pairs n before, in trials `rows` [rad]."""
+        """Return the exact backlash of the front pairs `columns` and back pairs n before, in trials `rows` [rad]."""
 
         def at(columns: Any) -> Any:
             return lambda each: self._all(each)[rows, columns] if np.ndim(each) else each
@@ -398,8 +406,9 @@ class MeshingCycle:
         return found
 
     def _before(self, n: int, reach: Any) -> Any:
-        """Return the angle of each driven tooth from the line of centres [rad], as held by the tooth pair n before its
-        own, when its own driving tooth is at the angle `reach`; inf if those teeth do not touch.
+        """Return the angle of each driven tooth from the line of centres [rad] when its mate is at the angle `reach`.
+
+        The tooth pair n pairs earlier determines the angle; it is inf if that pair does not touch.
         """
         before = self.front.rolled(n)
         x = self._all(reach) - self.ahead(n)
@@ -408,7 +417,7 @@ class MeshingCycle:
 
     @staticmethod
     def _held(tooth_pairs: CutToothPairs, x: Any) -> Any:
-        """Return the angle of the driven tooth at the driver angle x, or the last angle after contact ended [rad]."""
+        """Return the angle of the driven tooth at the driver angle x [rad]; after contact, its angle at the exit."""
         with np.errstate(all="ignore"):
             y = tooth_pairs.contact(np.clip(x, -tooth_pairs.reach, tooth_pairs.reach))
             return np.where(x < -tooth_pairs.reach, tooth_pairs.exit_angle, y)
@@ -491,9 +500,10 @@ def extreme_sum(driver: Any, driven: Any, extreme: Any) -> Any:
 
 @lru_cache(maxsize=256)
 def _table(sizes: TriangularSizes, n: int, spread: float) -> Floats:
-    """Return the minimum backlash J_n of a drive-flank pair and the coast-flank pair n before it, as a table [rad].
+    """Return a table of the minimum backlash of a drive-flank pair and the coast-flank pair n before it [rad].
 
-    The angle between the two driving teeth deviates from its nominal value by -`spread` to `spread` [rad].
+    Its entries are for equally spaced deviations of the angle between the two driving teeth, from -`spread` to
+    `spread` [rad].
     """
     nodes = np.linspace(-spread, spread, _NODES)
     tooth_pair = even_tooth_pair(sizes)
@@ -505,7 +515,7 @@ def _table(sizes: TriangularSizes, n: int, spread: float) -> Floats:
 
 
 def _read(table: Floats, spread: float, apart: Floats) -> Floats:
-    """Interpolate a table over -`spread` to `spread` linearly at `apart`; np.interp would search for each node."""
+    """Return linearly interpolated values of a `_table` at the deviations `apart`; np.interp would be slower."""
     at = (apart + spread) * ((_NODES - 1) / (2 * spread))
     low = np.clip(at.astype(np.int64), 0, _NODES - 2)
     found: Floats = table[low] + (table[low + 1] - table[low]) * (at - low)
@@ -513,7 +523,7 @@ def _read(table: Floats, spread: float, apart: Floats) -> Floats:
 
 
 class _EntriesAndExits:
-    """Entries and exits of teeth with pitch deviations only, which have the same contact function."""
+    """Entries and exits of teeth that have only pitch deviations, so that all have the same contact function."""
 
     def __init__(self, pair: CutGearPair) -> None:
         self.pair, self.sizes = pair, pair.sizes
@@ -523,14 +533,14 @@ class _EntriesAndExits:
         self.driver, self.driven = (np.atleast_2d(wheel.place) for wheel in (pair.first, pair.second))
 
     def _between(self, n: int) -> tuple[Any, Any]:
-        """Return the angles from each tooth to the tooth n later, of the driver and of the driven wheel [rad]."""
+        """Return the angles from each tooth to the tooth n teeth later [rad], for driver and driven wheel."""
         driver = n * self.sizes.p1 + np.roll(self.driver, -n, -1) - self.driver
         return driver, n * self.sizes.p2 + np.roll(self.driven, -n, -1) - self.driven
 
     def _entering(self, n: int) -> tuple[Any, Any]:
         """Return two terms, one of each wheel, whose sum is the angle of a driven tooth at its entry [rad].
 
-        The tooth pair n pairs earlier determines the angle, and both terms are indexed by its teeth.
+        The tooth pair n pairs earlier determines the angle, and both terms are indexed by the teeth of that pair.
         """
         driver, driven = self._between(n)
         return self._held(self.reach - driver), driven
@@ -556,7 +566,7 @@ class _EntriesAndExits:
 
     @property
     def doubtful(self) -> Bools:
-        """Mask of the trials in which the next tooth pair may be late, so that all pairs must be compared."""
+        """Mask of the trials in which a tooth pair may touch too late, so that all tooth pairs must be compared."""
         if self.reach < 0:  # the tip circles do not intersect
             return np.zeros(self.pair.trials, bool)
         # far above rounding errors; closer cases are computed pair by pair
@@ -568,20 +578,21 @@ class _EntriesAndExits:
 
     def events(self) -> tuple[Bools, Bools, Floats]:
         """Return masks of clashes and of dwells, and the minimum backlash at entries [rad] (inf without a dwell)."""
-        dwelling = (self._minimum(self._leaving) > -self.tip + self.small).any(axis=1)
-        y = self._minimum(self._entering)
+        dwelling = (self._minimum(entering=False) > -self.tip + self.small).any(axis=1)
+        y = self._minimum(entering=True)
         clash = (y > self.tip + self.small).any(axis=1)
         next_on = self._between(1)[1][:, np.arange(self.pair.count) % self.sizes.z2]
         return clash, dwelling, np.where(dwelling, (y + next_on - self.tip).min(axis=1), inf)
 
-    def _minimum(self, terms: Callable[[int], tuple[Any, Any]]) -> Any:
-        """Return the minimum of the sum of `terms` over neighbouring tooth pairs, shape (trials, tooth pairs)."""
+    def _minimum(self, entering: bool) -> Any:
+        """Return the minimum angle of each driven tooth at its entry (`entering`) or exit [rad], over all tooth pairs
+        that can determine it, shape (trials, tooth pairs).
+        """
         k = np.arange(self.pair.count)
-        coming = terms == self._entering
         spread = float(np.ptp(self.driver))
         found: Any = inf
-        for n in range(1, max(1, int(np.ceil((2 * self.reach + spread) / self.sizes.p1))) + 1 + coming):
-            own, other = terms(n)
-            at = k - n if coming else k
+        for n in range(1, max(1, int(np.ceil((2 * self.reach + spread) / self.sizes.p1))) + 1 + entering):
+            own, other = self._entering(n) if entering else self._leaving(n)
+            at = k - n if entering else k
             found = np.minimum(found, own[:, at % self.sizes.z1] + other[:, at % self.sizes.z2])
         return found

@@ -71,7 +71,7 @@ class TrialTransmissionFunction(TransmissionFunction):
         raise QuestionError(Problem(what, why, "give positive turns, or omit the measured teeth"))
 
     def picked(self, columns: Ints) -> TrialTransmissionFunction:
-        """Return the transmission functions of the selected columns, which share the array `last`."""
+        """Return the transmission functions for the driver angles with the given indices; they share `last`."""
         if self.measured:
             return self
         found = copy(self)
@@ -100,12 +100,15 @@ class TrialTransmissionFunction(TransmissionFunction):
         return self.error(np.linspace(0, self.period, _SAMPLES * self.count, endpoint=False))
 
     def speed_range(self) -> tuple[float, float]:
-        """Return the limits 0 and infinity, because the range of the speed ratio is not known before."""
+        """Return the limits 0 and infinity, because the range of the speed ratio of cut teeth is not known."""
         return 0.0, inf
 
 
 class CutTrialTransmission(TrialTransmissionFunction):
-    """Transmission function of triangular teeth. Arrays of the wheels have shape (trials, z), or (z,) if common."""
+    """Transmission function of cut wheels with triangular teeth.
+
+    Arrays of the wheels have shape (trials, z), or (z,) if they are the same in all trials.
+    """
 
     def __init__(self, pair: CutGearPair, even: float, rows: Ints) -> None:
         super().__init__((pair.sizes.z1, pair.sizes.z2), even, rows)
@@ -130,7 +133,10 @@ class CutTrialTransmission(TrialTransmissionFunction):
         return -lag, self._speed(rows, first, (first - n) * pitch - u)
 
     def _lag(self, rows: Ints, k: Ints, ahead: Floats) -> Floats:
-        """Return the lag of the driven wheel due to tooth pairs k [rad]; inf before contact, constant after it."""
+        """Return the lag of the driven wheel due to tooth pairs k [rad]; inf before contact, constant after it.
+
+        ahead   angle from the line of centres to the nominal position of each driving tooth (rad)
+        """
         pair, sizes = self.pair, self.pair.sizes
         i, j = k % sizes.z1, k % sizes.z2
         place = of_teeth(pair.first.place, rows, i)
@@ -142,7 +148,7 @@ class CutTrialTransmission(TrialTransmissionFunction):
         return np.where((x <= reach) & (reach > -inf), lag, inf)
 
     def _speed(self, rows: Ints, k: Ints, ahead: Floats) -> Floats:
-        """Return the speed ratio of tooth pairs k; 0 after a pair has left contact."""
+        """Return the speed ratio of tooth pairs k; 0 after a pair has left contact. `ahead` is as in `_lag`."""
         i, j = k % self.pair.sizes.z1, k % self.pair.sizes.z2
         x, tooth_pairs = ahead + of_teeth(self.pair.first.place, rows, i), self._tooth_pairs(rows, i, j)
         reach = tooth_pairs.reach
@@ -159,7 +165,7 @@ class CutTrialTransmission(TrialTransmissionFunction):
 
 
 class DisplacedTrialTransmission(TrialTransmissionFunction):
-    """Transmission function of teeth with displaced flanks: the foremost tooth pair drives."""
+    """Transmission function of teeth with displaced flanks: the tooth pair with the smallest lag drives."""
 
     def __init__(self, pair: DisplacedPair, even: float, rows: Ints) -> None:
         super().__init__(pair.teeth, even, rows)

@@ -207,7 +207,13 @@ def estimate_measured(measured: MeasuredTeeth, count: int) -> WheelEstimate:
 
 
 def _estimate(numbers: Ints, off: Floats, z: int, error: float, law: DeviationLaw | None) -> WheelEstimate:
-    """Return the estimates from the deviations `off` of measured teeth from an even division [rad]."""
+    """Return the estimates for a wheel with z teeth.
+
+    numbers   indices of the measured teeth
+    off       deviations of the measured teeth from an even division (rad)
+    error     standard deviation of the measurement error of an angle (rad)
+    law       assumed deviations of the teeth; None to choose by von Neumann's ratio
+    """
     from scipy.special import chdtri, fdtrc, fdtri, ncfdtrinc, stdtrit
 
     gamma, n, freedom = 2 * pi * numbers / z, len(numbers), len(numbers) - 3
@@ -266,6 +272,10 @@ def _successive_ratio(step: Floats, ratio: float, n: int) -> tuple[float, float]
     """Return von Neumann's ratio, scaled to all n - 1 differences, and its 5 % quantile for independent deviations.
 
     The ratio is nearly normal, with the moments of a quotient of quadratic forms of normal variables.
+
+    step    matrix that converts deviations to differences between the residuals of neighbouring teeth
+    ratio   sum of squares of these differences, divided by the sum of squares of the residuals
+    n       number of measured teeth
     """
     if not len(step) or n == FEWEST_ANGLES:  # with one degree of freedom the ratio is constant
         return nan, -inf

@@ -153,7 +153,8 @@ def find_sobol_indices(
 def saltelli_indices(values: Floats, seed: int) -> list[tuple[IntervalEstimate, IntervalEstimate]]:
     """Return the first-order and total index of each input variable with bootstrap intervals.
 
-    values   f(A), f(AB(1)), ..., f(AB(d)), f(B) in columns, (samples, d + 2)
+    values   columns f(A), f(AB(1)), ..., f(AB(d)), f(B) of a model f with d variables, (samples, d + 2); A and B are
+             independent samples of all variables, and AB(i) is A with variable i from B
     seed     seed of the bootstrap resamples
     """
     values = values - values.mean()  # centred values reduce the variance of the estimate of S_i
@@ -169,8 +170,10 @@ def saltelli_indices(values: Floats, seed: int) -> list[tuple[IntervalEstimate, 
 
 
 def _saltelli(values: Floats) -> Floats:
-    """Return first-order and total Sobol indices of d input variables, shape (2, d); 0 if the values do not vary."""
-    # columns f(A), f(AB(1)), ..., f(AB(d)), f(B)
+    """Return first-order and total Sobol indices of d input variables, shape (2, d); 0 if the values do not vary.
+
+    The values are described in `saltelli_indices`.
+    """
     a, b, mixed = values[:, :1], values[:, -1:], values[:, 1:-1]
     # A and B have the same distribution, so their pooled variance is the better estimate
     variance = np.var(values[:, [0, -1]])
@@ -181,7 +184,7 @@ def _saltelli(values: Floats) -> Floats:
 
 
 def error_groups(plan: TrialPlan, output: int, by: By) -> list[tuple[str, Streams]]:
-    """Return the input variables that can affect an output, each with the numbers of its random streams."""
+    """Return name and random streams of each input variable that can affect the output with the index `output`."""
     pairs = plan.reach[output]
     wheels = sorted({wheel for at in pairs for wheel in (plan.pairs[at].first, plan.pairs[at].second)})
     off = [at for at in wheels if not plan.wheels[at].true]
@@ -200,7 +203,10 @@ def error_groups(plan: TrialPlan, output: int, by: By) -> list[tuple[str, Stream
 
 
 def work_samples(plan: TrialPlan, seed: int, output: int, by: By, task: Sequence[int]) -> list[list[float]]:
-    """Return the errors of an output [rad] in the base samples of one task, in rows f(A), f(AB(1)), ..., f(B)."""
+    """Return the errors of an output [rad] in the base samples of one task; each row is as in `saltelli_indices`.
+
+    task   number of the first sample, and number of samples
+    """
     first, trials = task
     samples: list[Streams] = [((), ()), *(streams for _, streams in error_groups(plan, output, by)), (EVERY, EVERY)]
     columns = []

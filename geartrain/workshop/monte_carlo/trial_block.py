@@ -67,13 +67,17 @@ class RandomStreams:
     """Items (wheels or pairs) and kinds of error that are drawn from the second sample for Sobol indices."""
 
     def rng(self, item: int, kind: int) -> np.random.Generator:
-        """Return the random number generator of one kind of error of one item (wheel, pair or input position)."""
+        """Return the random number generator for one kind of error of one item (wheel, pair or input position)."""
         key = (self.block, item, kind, int(item in self.other[0] and kind in self.other[1]))
         # PCG64 by name: numpy's default generator may change, and results must not
         return np.random.Generator(np.random.PCG64(np.random.SeedSequence(self.seed, spawn_key=key)))
 
     def errors(self, item: int, kind: str, off: ErrorSpecification, shape: tuple[int, ...]) -> Floats:
-        """Return errors as fractions of pitch, half angle or depth, shape (trials,) or (trials, teeth)."""
+        """Return errors drawn from the distribution `off`, as fractions of pitch, half angle or depth.
+
+        item    number of the wheel or pair
+        shape   shape of the result: (trials,), or (trials, teeth)
+        """
         if off.way == "value":
             return np.full(shape, off.size)
         rng = self.rng(item, NUMBER[kind])
@@ -84,10 +88,11 @@ class RandomStreams:
 def draw_wheel(
     wheel: WheelErrors, item: int, streams: RandomStreams, rows: slice
 ) -> tuple[CutWheel | DisplacedWheel, Bools]:
-    """Return one wheel drawn for some trials of a block, and a mask of the trials in which it can be cut.
+    """Return one wheel with random errors in some trials of a block, and a mask of the trials in which it can be cut.
 
-    Triangular wheels have tip radius 1, or -1 if they are internal. In trials in which a wheel cannot be cut, its teeth
-    have no errors (displaced flanks: no pitch deviations), so that teeth always have tips in later computations.
+    `item` is the number of the wheel, and `rows` are the numbers of the trials in the block. Triangular wheels have tip
+    radius 1, or -1 if they are internal. In trials in which a wheel cannot be cut, its teeth have no errors (displaced
+    flanks: no pitch deviations), so that teeth always have tips in later computations.
     """
     # a whole block is drawn and then sliced, so that a trial does not depend on the trials computed with it
     shape, trials = (BLOCK, wheel.z), rows.stop - rows.start

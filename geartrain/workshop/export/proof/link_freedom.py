@@ -53,7 +53,8 @@ def prove_freedom(
 ) -> FreedomProof:
     """Return the freedom of all links except frame and inputs, and findings where it contradicts the solved speeds.
 
-    pairs   meshes that were individually proved to turn, by pair; `names` are the names of wheels 1 and 2 of each mesh
+    pairs   outlines of the meshes that were individually proved to turn, keyed by the name of the pair
+    names   names of wheels 1 and 2 of each mesh, keyed by the name of the pair
     """
     try:
         return _Motion(work, pairs, names).prove()
@@ -63,7 +64,7 @@ def prove_freedom(
 
 @dataclass(frozen=True, slots=True)
 class _Constraint:
-    """Constraint of a mesh on the changes of the link angles: low <= weights . changes <= high [rad]."""
+    """Constraint of a mesh on the small changes of the link angles: low <= weights @ changes <= high [rad]."""
 
     pair: str
     weights: Floats
@@ -79,7 +80,7 @@ class _Motion:
         self.case = work.sized.declaration.case(work.sized.declaration.state_or_first(work.state))
 
     def prove(self) -> FreedomProof:
-        """Return the freedom of all links, checked in several poses. Each contradiction is reported once."""
+        """Return the freedom of all links at the first pose, and findings in several poses, each reported once."""
         findings: dict[str, BuildFinding] = {}
         links: tuple[LinkFreedom, ...] = ()
         speeds = {body.id: body.speed for body in self.scene.bodies}
@@ -102,7 +103,7 @@ class _Motion:
     # ------------------------------------------------------------------------------------------------------------ rows
 
     def _constraints(self, pose: Fraction) -> tuple[list[_Constraint], dict[str, float]]:
-        """Return the constraints of all meshes in a pose, and by pair the arc beyond the backlash [mm]."""
+        """Return the constraints of all meshes in a pose, and the arc by which teeth overlap [mm], keyed by pair."""
         angles = scene_pose(self.scene, pose).angles
         rows, off = [], {}
         for circuit in self.work.sized.circuits:
@@ -118,7 +119,7 @@ class _Motion:
         return rows, off
 
     def _ratio_constraint(self, circuit: Circuit) -> Floats:
-        """Return the coefficients of the constraint from the ratio of a circuit without outlines, as a bevel pair."""
+        """Return the coefficients of the exact ratio of a pair whose outlines were not turned, such as a bevel pair."""
         weights = np.zeros(len(self.scene.bodies))
         for link, count in ((circuit.i, circuit.a), (circuit.j, circuit.b), (circuit.carrier, -circuit.a - circuit.b)):
             at = self.bodies[link]
@@ -127,7 +128,10 @@ class _Motion:
         return weights / max(float(np.abs(weights).max()), 1.0)
 
     def _axis_senses(self, circuit: Circuit) -> tuple[int, int, int] | None:
-        """Return the senses (1 or -1) of both wheels and their carrier about the first axis; None for skew axes."""
+        """Return the senses (1 or -1) of both wheels and their carrier about the axis of the first wheel.
+
+        None is returned if the axes are not parallel.
+        """
         one, other = (self.wheels[name] for name in self.names[circuit.id])
         n = np.array(one.direction)
         bodies = (one.body, other.body, self.bodies[circuit.carrier])
@@ -144,7 +148,10 @@ class _Motion:
     def _mesh_constraint(
         self, circuit: Circuit, turned: TurnedPair, senses: tuple[int, int, int], angles: Floats
     ) -> tuple[_Constraint, float]:
-        """Return the constraint of a mesh in a pose, and the angle of its second wheel beyond the backlash [rad]."""
+        """Return the constraint of a mesh for the link angles `angles`, and the angle by which its teeth overlap [rad].
+
+        The overlap is an angle of the second wheel; it is inf if that wheel is nowhere free.
+        """
         one, other = (self.wheels[name] for name in self.names[circuit.id])
         first, second, held = (one.body, other.body, self.bodies[circuit.carrier])
         s1, s2, sk = senses
@@ -166,7 +173,10 @@ class _Motion:
         return _Constraint(circuit.id, weights, low, high), max(low, -high, 0.0) if low == low else inf
 
     def _tooth_angle(self, wheel: SceneWheel, one: SceneWheel, other: SceneWheel, turned: TurnedPair) -> float:
-        """Return the angle about the first axis from the mesh to the first tooth of `wheel` in the zero pose [rad]."""
+        """Return the angle from the line of centres to the first tooth of `wheel` in the zero pose [rad].
+
+        one, other   first and second wheel of the mesh; the angle is positive about the axis of the first wheel
+        """
         n = np.array(one.direction)
         between = np.subtract(other.centre, one.centre) * (-1 if turned.ring else 1)
         x = between - (between @ n) * n
@@ -179,7 +189,7 @@ class _Motion:
 
     @cached_property
     def _fixed_equations(self) -> Floats:
-        """Matrix of the equations of fixed links (except inputs) and of links locked together, one in each row."""
+        """Coefficients of the equations of fixed links (except inputs) and of locked links, one equation per row."""
         count = len(self.scene.bodies)
         rows = []
         frame = self.work.sized.declaration.frame
@@ -193,7 +203,7 @@ class _Motion:
         return np.array(rows)
 
     def _links(self, rows: Sequence[_Constraint]) -> Iterator[LinkFreedom]:
-        """Yield the freedom of each link while the inputs are fixed."""
+        """Yield the freedom of each link under the constraints `rows` while the inputs are fixed."""
         held = np.eye(len(self.scene.bodies))[[self.bodies[link] for link in self.case.inputs]]
         fixed = np.concatenate([self._fixed_equations, held])
         still = {self.work.sized.declaration.frame, *self.case.inputs}
@@ -204,7 +214,12 @@ class _Motion:
             yield LinkFreedom(body.id, ends[1] - ends[0] if np.isfinite(ends).all() else None)
 
     def _maximum_angle(self, rows: Sequence[_Constraint], fixed: Floats, at: int, way: int) -> float:
-        """Return the maximum angle of a link in one direction by linear programming [rad]; inf if it is not limited."""
+        """Return the maximum angle of a link in one direction by linear programming [rad]; infinite without a limit.
+
+        rows    constraints of the meshes
+        fixed   coefficients of further equations, one in each row
+        at      index of the link; `way` is the direction, 1 or -1
+        """
         from scipy.optimize import linprog
 
         cost = np.zeros(len(self.scene.bodies))
@@ -234,7 +249,11 @@ class _Motion:
     def _contradictions(
         self, links: Sequence[LinkFreedom], rows: Sequence[_Constraint], turns: bool
     ) -> Iterator[BuildFinding]:
-        """Yield findings on links for which the teeth contradict the result of `solve`."""
+        """Yield findings on links for which the teeth contradict the solved speeds.
+
+        rows    constraints of the meshes
+        turns   True if any link of the train turns according to the solved speeds
+        """
         speeds = {body.id: body.speed for body in self.scene.bodies}
         for link in links:
             if link.backlash is None and speeds[link.link] is not None:

@@ -89,14 +89,14 @@ class TurnedPair:
         return first, _teeth(inner, self.ring)
 
     def turn(self) -> FreeTurn:
-        """Return the free range of wheel 2 while wheel 1 turns by a pitch, for all different teeth that meet."""
+        """Return the free ranges of wheel 2 while wheel 1 turns by a pitch, for all different teeth that meet."""
         found = [self._measure(tooth_pair) for tooth_pair in self.tooth_pairs]
         worst = max(found, key=lambda each: float(each.overlap.max()))
         return _joined(found, worst.place)
 
     @cached_property
     def tooth_pairs(self) -> list[tuple[int, int]]:
-        """Indices of the tooth of wheel 1 and the space of wheel 2 that meet, for all different teeth."""
+        """Pairs of a tooth of wheel 1 and a space of wheel 2 that meet (indices), one for each different pair."""
         z1, z2 = self.counts
         way = 1 if self.ring else -1
         found: dict[tuple[int, int], tuple[int, int]] = {}
@@ -109,7 +109,10 @@ class TurnedPair:
         return list(found.values())
 
     def free(self, turned: Floats, lags: Floats, tooth_pair: tuple[int, int] = (0, 0)) -> FreeTurn:
-        """Return the free range of wheel 2 near the given lags, at angles `turned` of wheel 1 within a pitch [rad]."""
+        """Return the free range of wheel 2 near the lags `lags` for each angle `turned` of wheel 1 [rad].
+
+        tooth_pair   indices of the tooth of wheel 1 and of the space of wheel 2 on the line of centres
+        """
         t, lag = np.asarray(turned, dtype=float), np.asarray(lags, dtype=float).copy()
         first = _moved(self._contact_region(0, tooth_pair[0]), t, 0.0)
         areas = self._areas(first, t, lag, tooth_pair)
@@ -132,7 +135,10 @@ class TurnedPair:
         return FreeTurn(low, high, np.where(blocked, areas, 0.0), place)
 
     def _measure(self, tooth_pair: tuple[int, int]) -> FreeTurn:
-        """Return the free range of a tooth pair through a pitch, with further positions where wheel 2 is not free."""
+        """Return the free ranges of wheel 2 while a tooth pair turns through a pitch, at equally spaced positions.
+
+        Further positions are added where the wheels overlap between these positions.
+        """
         t = self._positions(_STEPS)
         found = self.free(t, np.zeros(_STEPS), tooth_pair)
         held = np.isfinite(found.low) & np.isfinite(found.high)
@@ -153,9 +159,10 @@ class TurnedPair:
     def _nearest_free_lag(
         self, first: Any, t: float, tooth_pair: tuple[int, int], here: tuple[float, float]
     ) -> tuple[float, float]:
-        """Return the free lag nearest to `here` [rad], or the lag of minimum overlap, and its overlap [mm2].
+        """Return the free lag nearest to the present lag [rad], or the lag of minimum overlap, and its overlap [mm2].
 
-        here   present lag [rad] and area of overlap [mm2]
+        first   region of contact of wheel 1, rotated by its angle t (rad)
+        here    present lag (rad) and its overlap (mm2)
         """
         tries = here[0] + self.pitches[1] * (np.arange(1, _TRIES + 1) - (_TRIES + 1) / 2) / _TRIES
         areas = self._areas(np.full(_TRIES, first), np.full(_TRIES, t), tries, tooth_pair)
@@ -169,7 +176,10 @@ class TurnedPair:
         return float(tries[at]), float(areas[at])
 
     def _last_free_lag(self, first: Any, t: Floats, lag: Floats, way: int, tooth_pair: tuple[int, int]) -> Floats:
-        """Return the last free lag in one direction by bisection [rad]; infinite if it is not limited in a pitch."""
+        """Return the last free lags in one direction (`way`, 1 or -1) from the free lags `lag`, by bisection [rad].
+
+        A lag is infinite if nothing stops wheel 2 within a pitch.
+        """
         free, met = lag.copy(), lag + way * self.pitches[1] / 2
         loose = self._areas(first, t, met, tooth_pair) <= NOTHING
         if loose.any():  # free at half a pitch: the tooth that stops it is nearer or farther than that
@@ -207,7 +217,11 @@ class TurnedPair:
         return acos(min(max(one, -1.0), 1.0)), acos(min(max(two, -1.0), 1.0))
 
     def _contact_region(self, which: int, tooth: int) -> Any:
-        """Return the part of a wheel that can touch its mate while a tooth or space passes the line of centres."""
+        """Return the region of a wheel that can touch its mate while a tooth (wheel 2: a space) is near the line of
+        centres.
+
+        which   0 for wheel 1, 1 for wheel 2
+        """
         kind = which, self._alike[which][tooth]
         if kind in self._cropped:
             return self._cropped[kind]
@@ -231,7 +245,11 @@ class TurnedPair:
     # --------------------------------------------------------------------------------------------------- descriptions
 
     def words(self, place: tuple[float, float], names: tuple[str, str]) -> str:
-        """Return a phrase that gives tip, flank or root and the radius of an overlap on both wheels [mm]."""
+        """Return a phrase with the part (tip, flank or root) and the radius [mm] of an overlap on both wheels.
+
+        place   coordinates of the overlap relative to the axis of wheel 1 (mm)
+        names   names of wheels 1 and 2
+        """
         away = -self.distance if self.ring else self.distance
         radii = hypot(*place), hypot(place[0] - away, place[1])
         parts = [_part(radius, *reach) for radius, reach in zip(radii, self.reaches, strict=True)]
@@ -269,7 +287,10 @@ def _teeth(material: Any, ring: bool) -> tuple[float, float]:
 
 
 def _alike(material: Any, count: int, ring: bool, same: float) -> tuple[int, ...]:
-    """Return the kind of each tooth: always 0 if the wheel is unchanged by a pitch of rotation, else its index."""
+    """Return the kind of each tooth: 0 if a rotation by a pitch leaves the wheel unchanged, otherwise its index.
+
+    same   distance below which two outlines are treated as equal (mm)
+    """
     shapely = plane_geometry()
     lines = _tooth_lines(material, ring)
     shapely.prepare(lines)
@@ -280,7 +301,10 @@ def _alike(material: Any, count: int, ring: bool, same: float) -> tuple[int, ...
 
 
 def _wedge(facing: float, half: float, reach: tuple[float, float]) -> Any:
-    """Return a sector of half angle `half` about the direction `facing` [rad], with margins beyond the teeth."""
+    """Return a sector of half angle `half` about the direction `facing` [rad].
+
+    reach   tip and root radii of the wheel, which the sector exceeds by margins (mm)
+    """
     shapely = plane_geometry()
     height = abs(reach[0] - reach[1])
     steps = np.linspace(-half, half, 9)
@@ -292,7 +316,7 @@ def _wedge(facing: float, half: float, reach: tuple[float, float]) -> Any:
 
 
 def _moved(material: Any, turns: Floats, away: float) -> Any:
-    """Return copies of a shape, each rotated about its axis and then shifted along the x axis."""
+    """Return copies of a shape, rotated by the angles `turns` [rad] and then shifted by `away` along x [mm]."""
     shapely = plane_geometry()
     x, y = shapely.get_coordinates(material).T
     c, s = np.cos(turns)[:, None], np.sin(turns)[:, None]

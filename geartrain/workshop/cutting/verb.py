@@ -36,7 +36,8 @@ def find_measured_wheels(train: Train) -> dict[str, WheelEstimate]:
     cut = {name: (wheel.count, wheel.cutting.measured) for name, (_, wheel) in train.wheels.items() if wheel.cutting}
     found = {name: estimate_measured(each, z) for name, (z, each) in cut.items() if z and each and each.angles}
     if not found:
-        what, why = f"no wheel of '{train.name}' has measured angles", "the estimates are computed from angles"
+        what = f"no wheel of '{train.name}' has measured angles"
+        why = "eccentricity and pitch deviations are estimated from the measured angles of teeth"
         raise QuestionError(Problem(what, why, "declare `cutting: {measured: {csv: FILE}}` for a wheel"))
     return found
 

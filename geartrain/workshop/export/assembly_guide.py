@@ -450,7 +450,11 @@ class AssemblyPictures:
         return "\n".join([*lines, "</g></svg>", ""]).encode("utf-8")
 
     def _plan(self, part: SolidPart, corner: Floats, fine: bool) -> Iterator[str]:
-        """Yield the outlines of a part in the top view; `fine` is True to draw the teeth of a wheel."""
+        """Yield SVG paths of the outlines of a part in the top view.
+
+        corner   upper left corner of the view on the page (mm)
+        fine     True to draw the teeth of a wheel, False for a circle
+        """
         low, high = self.extent
         # round parts, and wheels of earlier steps, are drawn as circles
         radius = part.turned.diameter / 2 if part.turned is not None else 0.0
@@ -472,7 +476,10 @@ class AssemblyPictures:
             yield _closed(x, corner[1] + high[1] - np.array([y0, y0, y1, y1]))
 
     def _names(self, step: AssemblyStep, labels: LabelBoxes, corner: Floats) -> Iterator[str]:
-        """Yield labels of at most `_MOST_NAMED` new parts; a line connects a distant label to its part."""
+        """Yield the SVG labels of the new parts, unless there are more than `_MOST_NAMED`.
+
+        A line connects a distant label to its part. `corner` is the upper left corner of the view on the page [mm].
+        """
         low, high = self.extent
         for name in step.parts if len(step.parts) <= _MOST_NAMED else ():
             x, y, _ = self.boxes[name].mean(axis=0)

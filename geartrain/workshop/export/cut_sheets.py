@@ -143,7 +143,11 @@ def _holes(blank: Blank) -> list[tuple[complex, float]]:
 def _label_off_holes(
     holes: list[tuple[complex, float]], mark: EngravedText, inner: float, outer: float
 ) -> EngravedText:
-    """Return engraved text moved off the holes of a wheel, in the largest size that fits, or else unchanged."""
+    """Return engraved text moved off the holes of a wheel, in the largest size that fits, or else unchanged.
+
+    holes          centre and radius of each hole (mm)
+    inner, outer   radii between which the text must be (mm)
+    """
 
     def free(at: complex, along: complex, height: float) -> bool:
         half, tall = _LETTER_WIDTH * height * len(mark.text) / 2, height / 2
@@ -226,7 +230,7 @@ def _offset(contour: Contour, by: float, is_hole: bool, drawing: FlatDrawing) ->
 def _too_narrow(drawing: FlatDrawing, kerf: float) -> GearTrainError:
     name = drawing.title.split(":")[0]
     what = f"'{name}' has a hole or a slot narrower than the cut"
-    why = f"the kerf is {kerf:g} mm wide"
+    why = f"the cut (kerf) is {kerf:g} mm wide"
     return GearTrainError(Problem(what, why, "give a larger --module or --bore, or another --process", "--process"))
 
 

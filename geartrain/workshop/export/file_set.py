@@ -223,7 +223,7 @@ def export_files(
     unknown = [kind for kind in kinds if kind not in KINDS]
     if unknown:
         what = f"'{unknown[0]}' is not an export format"
-        why = "an export writes files in predefined formats"
+        why = "only these kinds of files can be written"
         raise QuestionError(Problem(what, why, f"use one or more of {', '.join(KINDS)}", "--as"))
     files = [*_sheets(work, kinds)]
     files += [ExportFile(*each) for each in (*maker_sheets(work), *step_pictures(work))] if "svg" in kinds else []

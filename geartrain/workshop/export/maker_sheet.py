@@ -71,7 +71,10 @@ def _ordered(plate: FlatPlate) -> list[Hole]:
 
 
 def wheel_rows(work: SolidModel) -> list[tuple[str, ...]]:
-    """Return the cells of the table of wheels (`_WHEELS`) for each shape; inside of a ring is its tip diameter."""
+    """Return one row of cells of the table of wheels for each shape of wheel; the columns are named in `_WHEELS`.
+
+    The inside diameter of an internal wheel is its tip diameter; that of other wheels is omitted.
+    """
     rows = []
     for sheet in wheel_sheets(work.blanks.wheels):
         blank = work.blanks.wheels[sheet.parts[0]]
@@ -129,7 +132,11 @@ def wheel_sheet(work: SolidModel) -> str:
 
 
 def _marks(plate: FlatPlate, origin: tuple[float, float], page: tuple[float, float, float, float]) -> Iterator[str]:
-    """Yield a centre cross and the number for each hole, and the coordinate axes of the datum at the first hole."""
+    """Yield the SVG elements of a cross and a number for each hole, and of the coordinate axes at the first hole.
+
+    origin   position of the origin of the plate's coordinates on the page (mm)
+    page     limits of the page (mm)
+    """
     labels, spots = LabelBoxes(page, _SIZE), []
     for hole in _ordered(plate):
         x, y, reach = origin[0] + hole.at[0], origin[1] - hole.at[1], hole.diameter / 2 + 0.5
@@ -176,7 +183,11 @@ def _text(text: str, x: float, y: float, style: str = "") -> str:
 
 
 def _page(work: SolidModel, part: str, what: str, remark: str, size: tuple[float, float], lines: Sequence[str]) -> str:
-    """Return a page with a title block below its contents. The page is at least as wide as the title block."""
+    """Return a page as SVG with a title block below its contents. The page is at least as wide as the title block.
+
+    part, what, remark   texts of the title block
+    size                 width and height of the contents (mm); `lines` are their SVG elements
+    """
     declared = work.train.declaration
     title = f"{declared.name}: {declared.title}" if declared.title else declared.name
     block = [title, f"{part}; {what}", f"lengths in mm; process: {work.process.name}", remark]

@@ -91,7 +91,10 @@ class _GlbFile:
         return start
 
     def accessor(self, view: int, start: int, count: int, kind: str, component: int, **more: Any) -> int:
-        """Add an accessor for `count` elements of a buffer view, and return its index."""
+        """Add an accessor for `count` elements of a buffer view from the offset `start`, and return its index.
+
+        kind, component   glTF type ("VEC3", ...) and component type of the elements; `more` are further properties
+        """
         own = {"bufferView": view, "byteOffset": start, "componentType": component, "count": count, "type": kind}
         self.accessors.append(own | more)
         return len(self.accessors) - 1
@@ -168,7 +171,10 @@ def _part(file: _GlbFile, part: SolidPart, origin: Floats) -> int:
 
 
 def _vertices(solid: Solid, steps: np.ndarray[Any, Any]) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
-    """Return the distinct vertices of a mesh (position and normal), and the vertex indices of its triangles."""
+    """Return the distinct vertices of a solid (position and normal), and the vertex indices of its triangles.
+
+    steps   positions of the vertices of the solid, quantised to integers
+    """
     corners, at = solid.vertices[solid.faces], solid.faces.reshape(-1).astype(np.int64)
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     length = np.linalg.norm(normals, axis=1, keepdims=True)
@@ -267,7 +273,7 @@ class Keyframes:
 
     @classmethod
     def of(cls, work: SolidModel, turns: Fraction | None = None) -> Keyframes | None:
-        """Return the motion of a train over `turns` turns of the driving link, or None if nothing turns.
+        """Return the key frames of a train over `turns` turns of the driving link, or None if nothing turns.
 
         The default is one period of the motion; for a long period, it is ten turns, or the maximum number of turns.
         """

@@ -110,7 +110,10 @@ class FeasibilityPlan:
         return self.loads(self.train) if known else None
 
     def loads(self, train: GearTrain) -> PairLoads | None:
-        """Return the torques of a train, infinite if friction locks it; None if the loads do not determine them."""
+        """Return the torques of a train, or None if the loads do not determine them.
+
+        The torque at the crank is infinite if friction locks the train.
+        """
         found = train.torques(self.state)
         crank = found.external.get(self.crank)
         if found.verdict.kind in ("self-locking", "stalled"):
@@ -180,7 +183,8 @@ class FeasibilityPlan:
     def held(self, pair: str) -> Mapping[str, float]:
         """Return the torque on the driven wheel of each pair for a unit torque at the crank [1], without losses.
 
-        The driven link of the pair `pair` is held fixed. The mapping is empty if the torques are not determined.
+        The driven link of the given pair is held fixed. The mapping, keyed by pair, is empty if the torques are not
+        determined.
         """
         gear = self.torques.pairs.get(pair)
         if gear is None or gear.driver not in self.declared.wheels:
@@ -198,7 +202,11 @@ class FeasibilityPlan:
 
 
 def _drawn(law: str, seed: int, trials: int, item: int, kind: int) -> Floats:
-    """Return the random numbers of one stream for all trials, from the generator method `law`, shape (trials,)."""
+    """Return the random numbers of one stream for all trials, shape (trials,).
+
+    law          name of the generator method that draws them, such as "random"
+    item, kind   numbers of the stream, as in `RandomStreams.rng`
+    """
     # whole blocks, so that the numbers do not depend on the number of trials
     blocks = (RandomStreams(seed, block).rng(item, kind) for block in range(-(-trials // BLOCK)))
     found: Floats = np.concatenate([getattr(rng, law)(BLOCK) for rng in blocks])[:trials]

@@ -343,7 +343,10 @@ def run_feasibility(
 
 
 def _columns(plan: FeasibilityPlan, loads: Sequence[Any]) -> tuple[Floats | None, dict[str, Floats], dict[str, Floats]]:
-    """Return the crank torque, and the torque and efficiency of each pair, in arrays with one value for each trial."""
+    """Return the crank torque, and by pair the torque and the efficiency, in arrays with one value for each trial.
+
+    loads   `PairLoads` of each trial, or None if it has no loads
+    """
     if plan.nominal is None:
         return None, {}, {}
     crank = np.array([inf if row is None or row[0] is None else row[0] for row in loads])

@@ -141,7 +141,7 @@ def friction_spreads(declared: Train) -> dict[str, FrictionSpread]:
 
 
 def draw_friction(declared: Train, seed: int, trial: int, per_part: bool = False) -> Train:
-    """Return the train with the friction coefficients drawn for one trial.
+    """Return the train with the random friction coefficients of one trial.
 
     per_part   True if the coefficient that the train declares is drawn separately for each pair
     """
@@ -164,7 +164,11 @@ def draw_friction(declared: Train, seed: int, trial: int, per_part: bool = False
 def _drawn_bearing(
     bearing: BearingFriction, streams: RandomStreams, item: int, row: int, per_part: bool
 ) -> BearingFriction:
-    """Return a bearing with its friction coefficient and its radius drawn for the trial in row `row` of a block."""
+    """Return a bearing with the random friction coefficient and radius of the trial with index `row` in its block.
+
+    item       number of the random stream of the bearing
+    per_part   True if a value that several bearings share is random for each bearing
+    """
 
     def between(low: float, high: float, kind: int) -> str:
         shared = not per_part and ("coefficient" if kind == PIVOT else "radius") in bearing.shared
@@ -209,7 +213,7 @@ def _spread(friction: CoulombFriction) -> FrictionSpread:
 
 
 def _with_coefficient(friction: CoulombFriction, rng: np.random.Generator, row: int) -> CoulombFriction:
-    """Return the friction with its coefficient drawn for the trial in row `row` of a block; at least 0."""
+    """Return the friction with the random coefficient of the trial with index `row` in its block, at least 0."""
     spread = _spread(friction)
     # a whole block is drawn, so that a trial does not depend on the trials computed with it
     if spread.range is not None:

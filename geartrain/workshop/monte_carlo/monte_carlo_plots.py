@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence, Sized
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -51,6 +51,7 @@ _SHARE_LOOKS: dict[str, Mapping[str, Any]] = {
     "first order": DOT,
     "total, with interactions": {"marker": "o", "markersize": 10, "color": BLUE, "markerfacecolor": "none"},
 }
+_TURNING = "give trials in which the pointer turns: larger clearances, or smaller errors (--cutting)"
 _SHARES = ("every trial", "95 % of the trials", "50 %")  # of the trials in a band
 _SHADES = (0.12, 0.22, 0.26)  # opacities of the bands, which are drawn over each other
 _DASHES: Any = (0, (4, 1.2))
@@ -73,8 +74,6 @@ def _picture(findings: MonteCarloResult, picture: str) -> Figure:
     if picture == "errors":
         return error_figure(trials)
     if picture == "course":
-        why = "no pointer errors along a turn were computed"
-        _require(findings.courses, why, "name the outputs to follow: --of NAME")
         return course_figure(findings.courses, trials.plan.driving_link)
     if picture == "convergence":
         return convergence_figure(trials.convergence())
@@ -92,8 +91,8 @@ def _picture(findings: MonteCarloResult, picture: str) -> Figure:
     return _jam_map(findings.cleared)
 
 
-def _require(what: Collection[object], why: str, fix: str) -> None:
-    if not what:
+def _require(drawn: Sized, why: str, fix: str) -> None:
+    if not len(drawn):
         raise QuestionError(Problem("there is nothing to draw", why, fix))
 
 
@@ -119,11 +118,10 @@ def course_figure(courses: Sequence[PointerErrorCourse], driving_link: str = "th
     The thin dashed line shows one trial. Trials in which an error is not finite are excluded. Raises `QuestionError` if
     there is no pointer to draw.
     """
+    _require(courses, "no pointer errors along a turn were computed", "name the outputs to follow: --of NAME")
     given = {each.name: each for each in courses}
     errors = {name: np.degrees(each.errors[np.isfinite(each.errors).all(axis=1)]) for name, each in given.items()}
-    bands = {name: _bands(each) for name, each in errors.items()}
-    if not bands:
-        raise _no_errors("no pointer is given")
+    bands = {name: _bands(name, each) for name, each in errors.items()}
     spread = {name: float(np.ptp(levels[1:-1])) for name, levels in bands.items()}
     largest = sorted(bands, key=lambda name: -spread[name])[:_COURSES]
     shown = {name: levels for name, levels in bands.items() if name in largest}
@@ -152,10 +150,9 @@ def course_figure(courses: Sequence[PointerErrorCourse], driving_link: str = "th
     return figure
 
 
-def _bands(errors: Floats) -> Floats:
-    """Return minimum, `PERCENTS` percentiles and maximum of the errors over the trials, shape (7, positions)."""
-    if not errors.size:
-        raise _no_errors("a pointer cannot turn in any trial")
+def _bands(name: str, errors: Floats) -> Floats:
+    """Return minimum, `PERCENTS` percentiles and maximum of a pointer's errors over the trials, (7, positions)."""
+    _require(errors, f"'{name}' cannot turn in any trial", _TURNING)
     found: Floats = np.percentile(errors, (0, *PERCENTS, 100), axis=0)
     return found
 
@@ -167,8 +164,7 @@ def error_figure(trials: TrialResults) -> Figure:
     """
     shown = [each for each in trials.pointers if each.name in trials.plan.shown]
     for pointer in shown:
-        if not pointer.kept.size:
-            raise _no_errors(f"'{pointer.name}' cannot turn in any trial")
+        _require(pointer.kept, f"'{pointer.name}' cannot turn in any trial", _TURNING)
     ranges = {each.name: np.percentile(np.degrees(each.kept), PERCENTS) for each in shown}
     ranked = sorted(ranges, key=lambda name: ranges[name][0] - ranges[name][-1])
     days = any(trials.plan.shown.values())
@@ -184,10 +180,6 @@ def error_figure(trials: TrialResults) -> Figure:
     label = f"error (deg) at random positions{note}\ndot median, thick 50 %, thin 95 % of the trials"
     label += left if len(ranked) > MOST_ROWS else ""
     return interval_chart({label: rows}, {"median": DOT}, ("median", "95 %", *["days"] * days))
-
-
-def _no_errors(why: str) -> QuestionError:
-    return QuestionError(Problem("the errors cannot be drawn", why, "give trials in which a pointer turns"))
 
 
 # ------------------------------------------------------------------------------------------------- map of probabilities
@@ -231,9 +223,7 @@ def share_figure(shares: Mapping[str, Sequence[IntervalEstimate]], title: str = 
 
     shares   first-order share of the variance of each cause and, if known, its total share with all interactions
     """
-    if not shares:
-        what, why = "the list of causes is empty", "a chart of shares needs at least one cause"
-        raise QuestionError(Problem(what, why, "give the share of at least one cause"))
+    _require(shares, "a chart of shares needs at least one cause", "give the share of a wheel, pair or kind of error")
     ranked = sorted(shares.items(), key=lambda each: -each[1][-1].value)
     shown, rest = ranked[:MOST_ROWS], ranked[MOST_ROWS:]
     rows = [

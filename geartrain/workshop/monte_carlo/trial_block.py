@@ -147,7 +147,7 @@ STOPS, LOST = JAM | CLASH, JAM | DISENGAGED | UNCUT
 
 @dataclass(frozen=True)
 class TrialWheels:
-    """Drawn wheels of some trials of a block."""
+    """Wheels with random errors in consecutive trials of a block."""
 
     plan: TrialPlan
     streams: RandomStreams
@@ -164,9 +164,9 @@ class TrialWheels:
         return int(self.rows.stop - self.rows.start)
 
     def pair(self, at: int, widest: int = 0) -> Any:
-        """Return the gear pair with index `at`, with its drawn wheels in all trials.
+        """Return the gear pair with index `at`, with its random errors in all trials.
 
-        widest   1 for the maximum and -1 for the minimum centre distance within the bearing clearance, 0 for the drawn
+        widest   1 for the maximum and -1 for the minimum centre distance within the bearing clearance, 0 for a random
                  distance
         """
         pair = self.plan.pairs[at]
@@ -177,7 +177,7 @@ class TrialWheels:
 
     @cached_property
     def filing(self) -> dict[int, FilingWork[Any]]:
-        """Filing of each pair that is filed to fit, at its minimum centre distance, keyed by pair index."""
+        """Result of filing each pair that is filed to fit, at its minimum centre distance, keyed by pair index."""
         pairs = enumerate(self.plan.pairs)
         return {at: pair.filed(pair.cut(self.wheels, self._shift(pair, at, -1))) for at, pair in pairs if pair.stroke}
 
@@ -201,7 +201,7 @@ class TrialWheels:
 
 
 def draw_trial_wheels(plan: TrialPlan, streams: RandomStreams, trials: int = BLOCK, start: int = 0) -> TrialWheels:
-    """Return the wheels drawn for consecutive trials of a block, beginning with trial number `start` of the block."""
+    """Return the wheels with random errors in `trials` trials of a block, from the trial with index `start`."""
     rows = slice(start, start + trials)
     found = [draw_wheel(wheel, at, streams, rows) for at, wheel in enumerate(plan.wheels)]
     return TrialWheels(plan, streams, rows, tuple(wheel for wheel, _ in found), tuple(good for _, good in found))
@@ -240,7 +240,7 @@ def input_positions(drawn: TrialWheels) -> Floats:
 
 @dataclass(frozen=True)
 class TrialPointers:
-    """Composed motion of the train with drawn wheels (`cut`) and with perfect wheels (`even`)."""
+    """Motion of the outputs with the random errors of the wheels (`cut`) and with perfect wheels (`even`)."""
 
     cut: ErrorComposition
     even: ErrorComposition
@@ -259,7 +259,7 @@ class TrialPointers:
 def trial_pointers(
     drawn: TrialWheels, rows: NDArray[np.int64], outputs: tuple[int, ...] | None = None
 ) -> TrialPointers:
-    """Return the motion of the outputs with the given indices (None: all) with the drawn wheels.
+    """Return the motion of the outputs with the given indices (None: all) in the trials `drawn`.
 
     rows   index of the trial for each input position
     """

@@ -84,7 +84,7 @@ class TrialPair(ABC):
 
     @abstractmethod
     def cut(self, wheels: Sequence[Any], shift: Any) -> Any:
-        """Return the pair with the drawn wheels, scaled to its sizes, and the centre distance increased by `shift`."""
+        """Return the pair with the given wheels, scaled to its sizes, and the centre distance increased by `shift`."""
 
     @abstractmethod
     def verdicts(self, pair: Any) -> MeshingVerdicts:
@@ -135,7 +135,7 @@ class TriangularTrialPair(TrialPair):
         return *sizes.signed_radii, sizes.beta1, sizes.beta2, sizes.excess
 
     def cut(self, wheels: Sequence[Any], shift: Any) -> CutGearPair:
-        """Return the pair of drawn wheels of tip radius 1 (-1 if internal), scaled to the sizes of this pair."""
+        """Return the pair with the given wheels of tip radius 1 (-1 if internal), scaled to the sizes of this pair."""
         cut = []
         for at, R, beta, mirrored in zip(
             (self.first, self.second), self.sizes.signed_radii, self.sizes.half_angles, self.mirrored, strict=True
@@ -194,7 +194,7 @@ class DisplacedTrialPair(TrialPair):
         return at.start, at.end, float(at.normal[0]), float(at.normal[-1]), at.backlash, float(at.even[0])
 
     def cut(self, wheels: Sequence[Any], shift: Any) -> DisplacedPair:
-        """Return the pair of drawn wheels. Wheels that turn against the numbering of their teeth are mirrored."""
+        """Return the pair with the given wheels. Wheels that turn against the numbers of their teeth are mirrored."""
         pair = zip((self.first, self.second), self.mirrored, strict=True)
         first, second = (wheels[at].mirrored() if turned else wheels[at] for at, turned in pair)
         return DisplacedPair(self.contact, first, second, shift)

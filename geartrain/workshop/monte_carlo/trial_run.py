@@ -76,7 +76,7 @@ def check_trials(trials: int) -> None:
 def trial_tasks(trials: int, cases: int = 1) -> list[list[int]]:
     """Return first trial and number of trials of each task: a block, or a part of a block if there are few blocks.
 
-    cases   number of repetitions of the trials with other sizes
+    cases   number of times that all trials are run, each with other sizes or errors
     """
     # sums are rounded task by task, so the tasks must not depend on the number of workers
     blocks = [range(start, min(start + BLOCK, trials)) for start in range(0, trials, BLOCK)]
@@ -203,7 +203,10 @@ def _pack(array: NDArray[Any]) -> str:
 
 
 def unpack(first: int, packed: Mapping[str, str]) -> TrialRecord:
-    """Return the results of one task, which begins with trial `first`, from packed data of a worker or a journal."""
+    """Return the results of one task, which begins with trial `first`.
+
+    packed   arrays as base64 text of .npy files, from a worker or a journal
+    """
     return TrialRecord(first, **{name: np.load(BytesIO(b64decode(each))) for name, each in packed.items()})
 
 

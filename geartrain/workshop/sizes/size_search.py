@@ -154,9 +154,8 @@ def checked_ranges(free: Mapping[str, Range | None]) -> dict[str, Range]:
             raise QuestionError(Problem(what, why, f"give bounds from {minimum:g} to {most:g} (angles in rad)"))
         found[name] = (float(low), float(high))
     if not found:
-        what = "no parameter is free"
-        why = "a search needs at least one free parameter"
-        raise QuestionError(Problem(what, why, f"free one or more of {', '.join(PARAMETERS)}"))
+        why = "with all parameters fixed, there is only one design"
+        raise QuestionError(Problem("no parameter is free", why, f"free one or more of {', '.join(PARAMETERS)}"))
     return found
 
 

@@ -179,7 +179,11 @@ def clearance(turned: TurnedPair) -> float:
 
 
 def tip_width(material: Any, reach: tuple[float, float], teeth: int) -> float:
-    """Return the mean tip width of a wheel slightly below its tip circle [mm], or the pin diameter of a lantern."""
+    """Return the mean tip width of a wheel slightly below its tip circle [mm], or the pin diameter of a lantern.
+
+    material   shape of the wheel; `reach` are its tip and root radii (mm)
+    teeth      number of teeth
+    """
     shapely = plane_geometry()
     tip, root = reach
     if material.geom_type != "Polygon":
@@ -226,9 +230,8 @@ def _findings(
         )
     if proof.tip_width < _TIP * module:
         what = f"{pair} has tips only {proof.tip_width:.3g} mm wide"
-        yield BuildFinding(
-            "T4", "note", Problem(what, "tips narrower than 0.2 modules burn or break", "shorten the addendum")
-        )
+        why = "tips narrower than 0.2 modules break, or burn in a laser"
+        yield BuildFinding("T4", "note", Problem(what, why, "shorten the addendum"))
 
 
 _LOOSER = "give more backlash, shorter addenda, or another centre distance"

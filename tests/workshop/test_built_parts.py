@@ -50,11 +50,6 @@ def heights(work: SolidModel) -> dict[str, tuple[float, float]]:
     return {part.name: (part.placed.vertices[:, 2].min(), part.placed.vertices[:, 2].max()) for part in work.parts}
 
 
-def test_a_process_that_is_not_known_is_refused() -> None:
-    with pytest.raises(GearTrainError, match="'lazer' is not a manufacturing process"):
-        ManufacturingSizes(process="lazer")
-
-
 # ------------------------------------------------------------------------------------------------------------ the whole
 
 CLEAR = [
@@ -124,7 +119,6 @@ inputs: {a: 1}
 
 
 def test_pillars_keep_clear_of_wheels_and_pivots_and_hold_all_axes() -> None:
-    shapely = pytest.importorskip("shapely")
     for name in ("longcase-clock-cycloidal", "gosper-2005", "watch-going-train"):
         work = workpiece(name)
         frame = work.frame
@@ -182,22 +176,20 @@ def test_a_readme_follows_no_script_from_a_title() -> None:
 
 
 def test_what_cannot_be_built_is_named_with_what_is_in_the_way() -> None:
-    said = " ".join(each.what for each in notices(workpiece("price-1974"), ["svg"]))
-    assert "axis 'A' has no bearings" in said
-    said = " ".join(each.what for each in notices(workpiece("zf-8hp70"), ["svg"]))
-    assert "arbors 'S12' and 'R3S4' cannot be nested" in said
+    expected = {"price-1974": "axis 'A' has no bearings", "zf-8hp70": "arbors 'S12' and 'R3S4' cannot be nested"}
+    for name, text in expected.items():
+        assert text in " ".join(each.what for each in notices(workpiece(name), ["svg"]))
 
 
-def test_without_a_bore_there_are_wheels_alone() -> None:
+def test_requested_sizes_are_made_or_refused() -> None:
     work = SolidModel(geartrain.load(LOCKED), ManufacturingSizes(bore=0))
     assert {part.kind for part in work.parts} == {"wheel"}
     assert all(blank.bore == 0 for blank in work.blanks.wheels.values())
-
-
-def test_plates_of_a_thicker_material_keep_wheels_apart() -> None:
     work = workpiece("watch-going-train", thickness=6.0)
     assert list(overlaps(work)) == []
     assert {part.height for part in work.parts if part.contours} == {6.0}
+    with pytest.raises(GearTrainError, match="'lazer' is not a manufacturing process"):
+        ManufacturingSizes(process="lazer")
 
 
 # ------------------------------------------------------------------------------- axes that a carrier bears side by side
@@ -241,14 +233,11 @@ def test_an_axis_that_no_plate_can_bear_gets_a_bridge() -> None:
     assert faces["p1"][1] < faces["o arbor"][0], "it ends before the wheel that was in its way"
     assert faces["o arbor"][0] < faces["frame bridge"][0] < faces["frame bridge"][1] < faces["o arbor"][1]
     assert arbor.turned is not None
-    holes = {
-        (round(float(c.points[:, 0].mean()), 6), round(float(c.points[:, 1].mean()), 6)): c for c in bridge.contours[1:]
-    }
     stack = work.frame.plan.stack if work.frame is not None else None
     assert stack is not None
     own = stack.flat(tuple(arbor.place)) - np.array(stack.flat(tuple(bridge.place)))
-    (hole,) = [each for at, each in holes.items() if hypot(*(own - np.array(at))) < 1e-5]
-    assert np.ptp(hole.points[:, 0]) - arbor.turned.bands[0].radius * 2 == pytest.approx(0.08, abs=1e-6)
+    (hole,) = [each.points for each in bridge.contours[1:] if hypot(*(own - each.points.mean(axis=0))) < 1e-5]
+    assert np.ptp(hole[:, 0]) - arbor.turned.bands[0].radius * 2 == pytest.approx(0.08, abs=1e-6)
     collars = [parts[f"o {side} collar"] for side in ("lower", "upper")]
     assert faces[collars[0].name][1] < faces["frame bridge"][0], "one below"
     assert faces["frame bridge"][1] < faces[collars[1].name][0], "one above"
@@ -305,57 +294,41 @@ def work(request: pytest.FixtureRequest) -> SolidModel:
     return workpiece(request.param)
 
 
-def test_a_spacer_goes_from_face_to_face(work: SolidModel) -> None:
+def sleeves(work: SolidModel) -> list[Any]:
+    return [part for part in work.parts if part.kind in ("spacer", "collet") and part.turned is not None]
+
+
+def test_spacers_and_collets_stand_at_the_faces_of_their_wheels_with_the_same_bore(work: SolidModel) -> None:
     faces = heights(work)
-    spacers = [part for part in work.parts if part.kind == "spacer"]
-    assert spacers
-    for part in spacers:
-        below, above = part.name.removeprefix("spacer ").split(" to ")
-        assert faces[part.name] == pytest.approx((faces[below][1], faces[above][0]), abs=1e-9)
+    assert {part.kind for part in sleeves(work)} == {"spacer", "collet"}
+    for part in sleeves(work):
+        names = part.name.removeprefix("spacer ").removeprefix("collet of ").split(" to ")
+        low, high = faces[part.name]
+        if part.kind == "spacer":
+            assert (low, high) == pytest.approx((faces[names[0]][1], faces[names[1]][0]), abs=1e-9)
+        else:
+            bottom, top = faces[names[0]]
+            assert low == pytest.approx(top, abs=1e-9) or high == pytest.approx(bottom, abs=1e-9)
+            assert high - low >= 0.5 - 1e-9
+        for bore in (work.blanks.wheels[name].bore for name in names if name in work.blanks.wheels):
+            assert bore == 0 or 2 * part.turned.bands[0].bore == pytest.approx(bore)
+        assert part.turned.bands[0].radius - part.turned.bands[0].bore >= 0.6 - 1e-9
 
 
-def test_a_collet_stands_at_a_face_of_its_wheel(work: SolidModel) -> None:
-    faces = heights(work)
-    collets = [part for part in work.parts if part.kind == "collet"]
-    assert collets
-    for part in collets:
-        (low, high), (bottom, top) = faces[part.name], faces[part.name.removeprefix("collet of ")]
-        assert low == pytest.approx(top, abs=1e-9) or high == pytest.approx(bottom, abs=1e-9)
-        assert high - low >= 0.5 - 1e-9
-
-
-def test_their_holes_are_those_of_the_wheels_beside_them(work: SolidModel) -> None:
-    for part in work.parts:
-        if part.kind in ("spacer", "collet"):
-            assert part.turned is not None
-            names = part.name.removeprefix("spacer ").removeprefix("collet of ").split(" to ")
-            bored = [work.blanks.wheels[name].bore for name in names if name in work.blanks.wheels]
-            for bore in bored:
-                assert bore == 0 or 2 * part.turned.bands[0].bore == pytest.approx(bore)
-            assert part.turned.bands[0].radius - part.turned.bands[0].bore >= 0.6 - 1e-9
-
-
-def test_they_stand_in_nothing(work: SolidModel) -> None:
-    """Solids against solids by manifold3d, their own arbors and wheels too."""
+def test_they_stand_in_nothing_and_come_in_with_their_wheels(work: SolidModel) -> None:
+    """Solids against solids by manifold3d, their own arbors and wheels too; and the steps of the assembly."""
     assert list(overlaps(work, "spacer", "collet")) == []
-
-
-def test_steps_of_the_assembly_bring_them_in_with_their_wheels(work: SolidModel) -> None:
-    found = steps(work)
-    brought = [name for step in found for name in step.parts]
-    for part in work.parts:
-        if part.kind in ("spacer", "collet"):
-            assert brought.count(part.name) == 1
-            (step,) = (step for step in found if part.name in step.parts)
-            assert ("spacer" if part.kind == "spacer" else "collet") in step.text
+    for part in sleeves(work):
+        (step,) = (step for step in steps(work) if part.name in step.parts)
+        assert step.parts.count(part.name) == 1
+        assert part.kind in step.text
 
 
 def test_wheels_beside_pins_and_slots_have_none() -> None:
     work = workpiece("freeth-2008")
     coupled = {link for each in work.train.declaration.couplings for link in (each.pin, each.slot)}
     assert coupled
-    sleeves = [part for part in work.parts if part.kind in ("spacer", "collet") and part.turned is not None]
-    assert not coupled & {part.turned.link for part in sleeves if part.turned is not None}
+    assert not coupled & {part.turned.link for part in sleeves(work)}
 
 
 # --------------------------------------------------------------------------- plates where wheels across go through them

@@ -22,22 +22,16 @@ from geartrain.workshop import export_files
 def engraved(work: SolidModel, file: str) -> list[list[tuple[float, float]]]:
     """Lines of a written drawing, y upwards."""
     (found,) = [each for each in export_files(work, ["svg"]) if each.path == f"plates/{file}.svg"]
-    text = found.make().decode()
-    (drawn,) = re.findall(r'<path fill="none" stroke="#c02020"[^>]* d="([^"]*)"', text)
-    return [
-        [(float(x), -float(y)) for x, y in re.findall(r"(-?[\d.]+) (-?[\d.]+)", line)]
-        for line in drawn.split("M ")
-        if line
-    ]
+    (drawn,) = re.findall(r'<path fill="none" stroke="#c02020"[^>]* d="([^"]*)"', found.make().decode())
+    lines = [re.findall(r"(-?[\d.]+) (-?[\d.]+)", line) for line in drawn.split("M ") if line]
+    return [[(float(x), -float(y)) for x, y in line] for line in lines]
 
 
 def about(work: SolidModel, lines: list[list[tuple[float, float]]], dial: str) -> list[list[tuple[float, float]]]:
     """Lines of one dial, counted from its middle, where its reader has it from that of the plate's first dial."""
     (plate,) = [each for each in work.dials if any(dial in circle.scales for circle in each.circles)]
-    own, first = (
-        next(face for face in work.scene.dials if face.id == name)
-        for name in (dial, next(iter(plate.circles[0].scales)))
-    )
+    faces = {face.id: face for face in work.scene.dials}
+    own, first = faces[dial], faces[next(iter(plate.circles[0].scales))]
     away, right = np.subtract(own.centre, first.centre), np.cross(own.zero, own.normal)
     x, y = float(away @ right), float(away @ np.array(own.zero))
     radius = next(circle.radius for circle in plate.circles if dial in circle.scales)
@@ -84,14 +78,9 @@ def test_arbors_go_through_the_dials_on_which_they_are_read() -> None:
             plate = parts[dial.name].placed.vertices
             low, high = plate[:, 2].min(), plate[:, 2].max()
             for circle in dial.circles:
-                rods = [
-                    part
-                    for part in parts.values()
-                    if part.kind in ("arbor", "pipe")
-                    and hypot(*(part.place[:2] - np.array(circle.at))) < 1e-6
-                    and part.placed.vertices[:, 2].min() < low
-                    and part.placed.vertices[:, 2].max() > high
-                ]
+                near = [part for part in parts.values() if hypot(*(part.place[:2] - np.array(circle.at))) < 1e-6]
+                heights = {part.name: part.placed.vertices[:, 2] for part in near if part.kind in ("arbor", "pipe")}
+                rods = [parts[name] for name, z in heights.items() if z.min() < low and z.max() > high]
                 assert rods, f"nothing reaches {list(circle.scales)}"
                 assert all(part.turned is not None and part.turned.diameter < circle.hole for part in rods)
 
@@ -164,14 +153,9 @@ def test_a_clock_is_made_with_its_barrel_its_pendulum_and_its_weight() -> None:
     parts = {part.name: part for part in work.parts}
     hung = parts["pendulum rod"].place - parts["pendulum bob"].place
     assert np.linalg.norm(hung) == pytest.approx(994)
-    plates = [part for part in work.parts if part.name in ("plates back plate", "plates front plate")]
-    cock = parts["pendulum cock"]
-    radii = [
-        contour.points[:, 0].max() - contour.points[:, 0].mean()
-        for plate in plates
-        for contour in plate.contours[1:]
-        if np.hypot(*((contour.points.mean(axis=0) + plate.place[:2]) - cock.place[:2])) < 1e-6
-    ]
+    plates, cock = (parts["plates back plate"], parts["plates front plate"]), parts["pendulum cock"].place[:2]
+    holes = [contour.points + plate.place[:2] - cock for plate in plates for contour in plate.contours[1:]]
+    radii = [hole[:, 0].max() for hole in holes if np.hypot(*hole.mean(axis=0)) < 1e-6]
     assert radii == [pytest.approx(1.2, abs=0.05)], "a hole in one plate for its tenon"
     pictures = [each.make().decode() for each in export_files(work, ["svg"]) if re.match("assembly/.*svg", each.path)]
     heights = [int(re.search(r'height="(\d+)"', each).group(1)) for each in pictures]  # type: ignore[union-attr]

@@ -20,8 +20,7 @@ from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.contact import GearOutline, OutlineCurve, ToothFlanks, TwoFlankContact, solve
 from geartrain.teeth.contact.displaced_outlines import displaced_outlines
 from geartrain.workshop import find_trial_plan, read_error_overrides, run_trials
-from geartrain.workshop.cutting.displaced_pair import DisplacedPair, DisplacedWheel
-from geartrain.workshop.cutting.file_strokes import file_to_fit
+from geartrain.workshop.cutting import DisplacedPair, DisplacedWheel, file_to_fit
 
 INVOLUTE = Involute(form="involute", backlash="0.2")
 PAIRS = {
@@ -301,14 +300,9 @@ def test_a_wheel_seen_from_behind_turns_the_other_way() -> None:
     """Tooth by tooth, and in mesh: what the driven wheel leads by on its back is what it lags by in the mirror."""
     at = displaced_contact(PAIRS["involute"], 1)
     names = ("place", "leading", "trailing", "leading_low", "trailing_low")
+    off = {"e": np.array(0.05), "towards": np.array(RNG.uniform(0, 6))}
     first, second = (
-        replace(
-            each,
-            **{name: RNG.normal(0, 0.002, each.z) for name in names},
-            e=np.array(0.05),
-            towards=np.array(RNG.uniform(0, 6)),
-        )
-        for each in even(at)
+        replace(each, **{name: RNG.normal(0, 0.002, each.z) for name in names}, **off) for each in even(at)
     )
     assert first.mirrored(5).tips == pytest.approx(first.tips[(5 - np.arange(first.z)) % first.z], abs=1e-15)
     pair, mirror = DisplacedPair(at, first, second), DisplacedPair(at, first.mirrored(), second.mirrored(1))
@@ -388,13 +382,11 @@ def test_filed_flanks_fall_behind_by_what_is_taken_over_the_moment_arm(gear: int
     wheels, turned = list(even(at)), list(wheels_drawn)
     wheels[gear] = wheels[gear].filed(np.full(wheels[gear].z, low), np.full(wheels[gear].z, low))
     tooth = wheels_drawn[gear].teeth[0]
-    turned[gear] = replace(
-        wheels_drawn[gear], teeth=(ToothFlanks(lowered(tooth.ahead, low, 1), lowered(tooth.behind, low, -1)),)
-    )
+    filed = ToothFlanks(lowered(tooth.ahead, low, 1), lowered(tooth.behind, low, -1))
+    turned[gear] = replace(wheels_drawn[gear], teeth=(filed,))
     S = np.linspace(0, at.pitches[0], 37)
-    pair = DisplacedPair(at, *wheels)
-    nominal = by_transmission(DisplacedPair(at, *even(at)), S)
-    found, true = by_transmission(pair, S), off_ratio(at, solve(turned[0], turned[1], distance, S), S)
+    nominal, found = (by_transmission(DisplacedPair(at, *each), S) for each in (even(at), wheels))
+    true = off_ratio(at, solve(turned[0], turned[1], distance, S), S)
     for one, other, before in zip(found, true, nominal, strict=True):
         assert np.median(np.abs(other - before)) > 5e-4
         assert np.median(np.abs(one - other)) < 0.02 * np.median(np.abs(other - before))
@@ -425,12 +417,11 @@ def test_the_minimum_backlash_is_that_of_all_angles_and_below_nothing_the_outlin
 
 def test_a_clock_with_circular_arc_teeth_is_cut_by_hand() -> None:
     train = geartrain.load("longcase-clock-bs978")
-    found = run_trials(
-        find_trial_plan(train, read_error_overrides(["pitch_deviation=0.5 %", "eccentricity=2 %"])), 128, 1
-    )
-    assert found.train.events["stops"].value == 0
+    errors = [["pitch_deviation=0.5 %", "eccentricity=2 %"], ["pitch_deviation=0.001 %"]]
+    rough, fine = (find_trial_plan(train, read_error_overrides(each)) for each in errors)
     # with negligible errors, pointers deviate only by the ripple of perfect teeth
-    sure = run_trials(find_trial_plan(train, read_error_overrides(["pitch_deviation=0.001 %"])), 512, 1)
+    found, sure = run_trials(rough, 128, 1), run_trials(fine, 512, 1)
+    assert found.train.events["stops"].value == 0
     run = MotionRun(train.motion(), 0.5, 20_001)
     run.run()
     for one, other, ripple in zip(found.pointers, sure.pointers, run.statistics, strict=True):

@@ -16,10 +16,8 @@ from sorge import Pair
 from geartrain import GearTrain, load
 from geartrain.errors import DeclarationError, QuestionError
 from geartrain.numerics import Execution, Journal
-from geartrain.numerics.arrays import Floats
-from geartrain.train.states import HandDrive
 from geartrain.workshop import FeasibilityResult, find_feasibility_plan, read_error_overrides, run_feasibility
-from geartrain.workshop.feasibility.feasibility_plan import LoadedPart, wedge_torque
+from geartrain.workshop.feasibility.feasibility_plan import wedge_torque
 from geartrain.workshop.monte_carlo.friction_trials import draw_friction
 
 NORMAL = NormalDist()
@@ -55,6 +53,10 @@ materials: {sheet: {youngs_modulus: 105 GPa, strength: 140 MPa, spread: 0}}
 """
 
 
+FACTORS = (0.241249, 0.252230, 0.408495, 0.333820)
+"""Loss of each pair per unit of the coefficient of friction."""
+
+
 def plan_of(text: str, cutting: str = "", **how: Any) -> Any:
     return find_feasibility_plan(load(text), read_error_overrides([cutting] if cutting else []), **how)
 
@@ -68,8 +70,8 @@ def counts(found: FeasibilityResult) -> Mapping[str, int]:
 
 def test_the_torque_of_the_teeth_is_the_product_of_their_efficiencies() -> None:
     """Ratio 95/254, and each pair loses 0.2 of its factor by hand: 3.45216008 N mm at the crank for 1 N mm."""
-    factors = {"a, b1": 0.241249, "b2, c1": 0.252230, "c2, d1": 0.408495, "d2, e": 0.333820}
-    gears = ", ".join(f"{{pair: [{pair}], efficiency: {1 - 0.2 * loss:.9f}}}" for pair, loss in factors.items())
+    pairs = zip(("a, b1", "b2, c1", "c2, d1", "d2, e"), FACTORS, strict=True)
+    gears = ", ".join(f"{{pair: [{pair}], efficiency: {1 - 0.2 * loss:.9f}}}" for pair, loss in pairs)
     plan = plan_of(MOON + f"gears: [{gears}]\n")
     assert plan.nominal is not None
     assert 1e3 * plan.nominal.crank == pytest.approx(3.45216008, abs=2e-8)
@@ -128,18 +130,14 @@ def test_the_mean_torque_is_that_of_gauss_quadrature_over_the_friction() -> None
     assert drawn.std() == pytest.approx(sd, rel=0.2)
     assert sd / mean > 0.05
     # separate draws average out: the standard deviation falls to the root of the sum of the squares of the shares
-    shares = np.array([0.241249, 0.252230, 0.408495, 0.333820])
+    shares = np.array(FACTORS)
     apart = replace(plan, per_part=True)
     own = np.array([apart.drawn_loads(1, trial).crank for trial in range(48)])  # type: ignore[union-attr]
     assert own.mean() == pytest.approx(mean, abs=4 * sd / sqrt(48))
     assert own.std() / drawn.std() == pytest.approx(sqrt(np.sum(shares**2)) / shares.sum(), rel=0.25)
 
 
-FACTORS = (0.241249, 0.252230, 0.408495, 0.333820)
-"""Loss of each pair per unit of the coefficient of friction."""
-
-
-def crank_of_the_moon(mus: Floats, pivots: Floats, radii: Floats, angle: float = 20.0, exact: bool = True) -> Floats:
+def crank_of_the_moon(mus: Any, pivots: Any, radii: Any, angle: float = 20.0, exact: bool = True) -> Any:
     """Torque at the crank for 1 N mm on the Moon, from the forces of one pair after the other, shape (n,).
 
     A pair with the efficiency eta has its force through the point of the line of centres that divides it by eta z2/z1;
@@ -209,9 +207,7 @@ loads: {moon: -1 N mm}
         ("B3b", "[]", (4.26319, 0.22242), 3e-3),
     ],
 )
-def test_pivots_share_what_the_declaration_says(
-    case: str, shared: str, published: tuple[float, float], digits: float
-) -> None:
+def test_pivots_share_what_the_declaration_says(case: str, shared: str, published: Any, digits: float) -> None:
     """With forces through pitch points the reference gives the published spread of the crank torque; geartrain has the
     points at which both moments balance.
     """
@@ -255,15 +251,13 @@ def test_the_strength_is_lognormal_and_drawn_once_per_workshop() -> None:
     assert np.array_equal(plan.strengths(1, 300), drawn[:300])
 
 
-@pytest.mark.parametrize(
-    ("accuracy", "jams", "pair"), [(0.1, 0.014, "a~b1"), (0.15, 0.902, "a~b1"), (0.2, 1.0, "a~b1")]
-)
-def test_the_moon_train_jams_as_often_as_in_512_trials(accuracy: float, jams: float, pair: str) -> None:
+@pytest.mark.parametrize(("accuracy", "jams"), [(0.1, 0.014), (0.15, 0.902), (0.2, 1.0)])
+def test_the_moon_train_jams_as_often_as_in_512_trials(accuracy: float, jams: float) -> None:
     found = run_feasibility(plan_of(MOON, f"pitch_deviation={accuracy} deg", outputs=("moon",)), 96)
     share = found.outcomes["jams"]
     assert share.interval[0] - 0.02 <= jams <= share.interval[1] + 0.02
     if share.count:
-        assert next(iter(found.causes["jams"])) == pair
+        assert next(iter(found.causes["jams"])) == "a~b1"
     forced = found.forced
     assert forced is not None
     if accuracy == 0.15:
@@ -294,8 +288,8 @@ def test_the_step_of_accuracy_lies_between_0_10_and_0_15_degrees() -> None:
     [(0.3, (0, 0.979, 1, 1)), (0.5, (0, 0.014, 0.902, 1)), (0.7, (0, 0, 0.07, 0.85))],
 )
 def test_the_step_moves_with_the_clearance(window: float, jams: tuple[float, ...]) -> None:
-    text = MOON.replace("window: 0.5", f"window: {window}").replace("drive:", "case: null\n#")
-    plan = plan_of(text.replace("case: null\n", ""), "pitch_deviation=0.05 deg", outputs=("moon",))
+    text = MOON.replace("window: 0.5", f"window: {window}").replace("drive:", "#")
+    plan = plan_of(text, "pitch_deviation=0.05 deg", outputs=("moon",))
     found = run_feasibility(plan, 512, accuracies=(0.05, 0.1, 0.15, 0.2))
     for step, share in zip(found.curve.values(), jams, strict=True):
         assert step.value == pytest.approx(1 - share, abs=0.0006)
@@ -346,11 +340,8 @@ def test_outcomes_sum_to_one_and_what_is_not_declared_is_named() -> None:
     assert bare.crank_torque is None
     assert bare.forced is None
     assert bare.causes == {"cannot be cut": {}, "jams": {}, "breaks": {}}
-    assert [each.partition(":")[0] for each in bare.neglected] == [
-        "cutting errors",
-        "crank torque and stresses",
-        "the strength of the hand",
-    ]
+    neglected = [each.partition(":")[0] for each in bare.neglected]
+    assert neglected == ["cutting errors", "crank torque and stresses", "the strength of the hand"]
 
 
 def test_wilsons_intervals_cover_the_probability_that_the_hand_is_too_weak() -> None:
@@ -373,16 +364,17 @@ def test_friction_that_locks_the_train_is_too_stiff_for_any_hand() -> None:
 def test_an_arbor_breaks_at_its_pivot() -> None:
     """20 N mm at a pitch radius of 10 mm press 2 N on the flanks, and some more on one pivot: 16 F l / (pi d^3)."""
     text = PAIR.replace("a: {wheels", "a: {arbor: {diameter: 4 mm, span: 20 mm, pivot: D, material: sheet}, wheels")
-    arbors = [part for part in plan_of(text.replace("D", "0.2 mm")).parts if part.name == "arbor of a"]
-    (arbor,) = arbors
+    thin, thick = (
+        next(part for part in plan_of(text.replace("D", pivot)).parts if part.name == "arbor of a")
+        for pivot in ("0.2 mm", "2 mm")
+    )
     # the pivot is as long as its diameter: 16 F / (pi d^2), with F from the tangential force of 2 N up to 1.3 of it
-    assert 16 * 2 / (np.pi * 0.04) < arbor.stress < 1.3 * 16 * 2 / (np.pi * 0.04)
-    thick = [part for part in plan_of(text.replace("D", "2 mm")).parts if part.name == "arbor of a"]
-    assert thick[0].stress < 5
+    assert 16 * 2 / (np.pi * 0.04) < thin.stress < 1.3 * 16 * 2 / (np.pi * 0.04)
+    assert thick.stress < 5
 
 
 def test_the_stress_of_a_part_in_several_pairs_follows_the_pair_that_grows_most() -> None:
-    part = LoadedPart("arbor of c", "brass", 100, 0.1, 10.0, {"x": 2.0, "y": 1.0})
+    part = replace(plan_of(PAIR).parts[0], stress=10.0, loads={"x": 2.0, "y": 1.0})
     assert part.stresses({"x": np.array([2.0, 4.0]), "y": np.array([3.0, 1.0])}).tolist() == [30, 20]
     assert part.stresses({"z": 1.0}).tolist() == [0]
 
@@ -434,10 +426,3 @@ def test_a_curve_of_other_accuracies_is_refused(accuracies: tuple[float, ...]) -
 def test_a_range_that_does_not_fit_is_refused(line: str) -> None:
     with pytest.raises(DeclarationError, match="range"):
         load(PAIR + line)
-
-
-def test_a_hand_keeps_its_torque_as_drive() -> None:
-    hand = HandDrive(torque="0.2 N m", range=("0.1 N m", "0.3 N m"), handle="30 mm")
-    assert hand.torque is not None
-    assert hand.torque.si == 0.2
-    assert GearTrain(load(PAIR + "drive: {hand: {torque: 20 N mm}}").declaration).declaration.drive is not None

@@ -53,6 +53,7 @@ def test_the_interval_of_a_percentile_covers_it_in_95_percent_and_hardly_more(n:
 def test_the_interval_of_a_percentile_is_open_where_too_few_values_are_beyond_it() -> None:
     few = percentile_of(np.arange(20.0), 2.5)  # all 20 values exceed it in 0.975^20 = 60 % of all cases
     assert few.low == float("-inf")
+    assert few.to_dict() == [few.value, None, few.high]
     assert few.high < 5
     many = percentile_of(np.arange(10**6, dtype=float), 50)
     half = NORMAL.inv_cdf(0.975) * 1000 / 2
@@ -73,6 +74,9 @@ def test_the_interval_of_a_mean_is_normal_and_that_of_a_deviation_is_bonetts() -
     assert found.value == pytest.approx(sqrt(50 / 4))
     ends = [sqrt(c * 50 / 4 * exp(sign * z * error)) for sign in (-1, 1)]
     assert (found.low, found.high) == pytest.approx(ends)
+    equal = np.full(12, 0.1)
+    assert equal.std() > 0, "their mean is rounded"
+    assert deviation_of(equal).value == 0
 
 
 # --------------------------------------------------------------------------- sobol indices from two independent samples
@@ -115,11 +119,8 @@ def test_intervals_of_a_linear_model_hold_as_often_as_they_say() -> None:
     true = np.array([1.0, 4.0, 9.0]) / 14
     held = np.zeros((2, 3))
     for seed in range(200):
-        found = saltelli_indices(sampled(linear, 3, 256, seed), seed)
-        held += [
-            [each.low <= value <= each.high for each, value in zip(column, true, strict=True)]
-            for column in zip(*found, strict=True)
-        ]
+        columns = zip(*saltelli_indices(sampled(linear, 3, 256, seed), seed), strict=True)
+        held += [[each.low <= value <= each.high for each, value in zip(own, true, strict=True)] for own in columns]
     assert ((held / 200 > 0.9) & (held / 200 < 0.99)).all()
 
 
@@ -127,12 +128,5 @@ def test_the_same_seed_gives_the_same_intervals_and_a_constant_has_no_indices() 
     values = sampled(linear, 3, 100, seed=3)
     assert saltelli_indices(values, seed=5) == saltelli_indices(values, seed=5)
     assert saltelli_indices(values, seed=5) != saltelli_indices(values, seed=6)
-    assert {
-        (each.value, each.low, each.high) for pair in saltelli_indices(np.ones((9, 4)), seed=1) for each in pair
-    } == {(0.0, 0.0, 0.0)}
-
-
-def test_equal_values_deviate_by_nothing_though_their_mean_is_rounded() -> None:
-    values = np.full(12, 0.1)
-    assert values.std() > 0
-    assert deviation_of(values).value == 0
+    constant = [each for pair in saltelli_indices(np.ones((9, 4)), seed=1) for each in pair]
+    assert {(each.value, each.low, each.high) for each in constant} == {(0.0, 0.0, 0.0)}

@@ -50,19 +50,15 @@ def test_mimic_joints_of_urdf_add_up_to_the_speeds_of_the_links(name: str) -> No
     places: Speeds = {work.train.declaration.frame: np.zeros(3)}
     while len(speeds) < len(joints) + 1:
         for link, joint in joints.items():
-            parent, axis, origin = (joint.find(tag) for tag in ("parent", "axis", "origin"))
-            assert parent is not None
-            assert axis is not None
-            assert origin is not None
-            above = parent.get("link") or ""
+            given = {child.tag: child.attrib for child in joint}
+            above = given["parent"]["link"]
+            mimic = given.get("mimic", {"joint": driver, "multiplier": "1", "offset": "0"})
             if link in speeds or above not in speeds:
                 continue
-            mimic = joint.find("mimic")
-            factor = 1.0 if mimic is None else float(mimic.get("multiplier") or "")
-            assert mimic is None or (mimic.get("joint"), mimic.get("offset")) == (driver, "0")
-            own = 0.0 if joint.get("type") == "fixed" else rate * factor
-            speeds[link] = speeds[above] + own * vector(axis.get("xyz"))
-            places[link] = places[above] + vector(origin.get("xyz"))
+            assert (mimic["joint"], mimic["offset"]) == (driver, "0")
+            own = 0.0 if joint.get("type") == "fixed" else rate * float(mimic["multiplier"])
+            speeds[link] = speeds[above] + own * vector(given["axis"]["xyz"])
+            places[link] = places[above] + vector(given["origin"]["xyz"])
     assert {link.get("name") for link in robot.iter("link") if link.get("name")} == set(speeds)
     for link, speed in expected.items():
         assert speeds[link] == pytest.approx(speed, rel=1e-12, abs=1e-12 * abs(rate)), link
@@ -96,9 +92,8 @@ def test_constraints_of_mjcf_hold_at_the_speeds_and_leave_the_inputs_free(name: 
             row[second] = -slope
         rows.append([*row.values()])
     for tendon in model.findall("tendon/fixed"):
-        row = dict.fromkeys(names, 0.0) | {
-            joint.get("joint") or "": float(joint.get("coef") or "") for joint in tendon.findall("joint")
-        }
+        terms = {joint.get("joint") or "": float(joint.get("coef") or "") for joint in tendon.findall("joint")}
+        row = dict.fromkeys(names, 0.0) | terms
         assert model.find(f"equality/tendon[@tendon1='{tendon.get('name')}']") is not None
         rows.append([*row.values()])
     matrix, vector_of_rates = np.array(rows), np.array([rates[each] for each in names])

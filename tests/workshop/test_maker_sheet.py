@@ -47,6 +47,10 @@ def holes(train: str, module: float | None = None) -> dict[str, dict[str, tuple[
     return found
 
 
+def between(at: dict[str, tuple[float, float]], one: str, other: str) -> float:
+    return hypot(at[one][0] - at[other][0], at[one][1] - at[other][1])
+
+
 def test_holes_of_meshing_arbors_are_half_the_sum_of_pitch_diameters_apart() -> None:
     """All wheels have a module of 1 mm, but the motion work, whose two pairs share a centre distance of 40 mm."""
     for plate in ("plates back plate", "plates front plate"):
@@ -55,13 +59,9 @@ def test_holes_of_meshing_arbors_are_half_the_sum_of_pitch_diameters_apart() -> 
         pairs = {("great", "centre"): (96, 8), ("centre", "third"): (60, 8), ("third", "escape"): (56, 7)}
         pairs["centre", "minute"] = (40, 40)
         for (one, other), (first, second) in pairs.items():
-            distance = hypot(at[one][0] - at[other][0], at[one][1] - at[other][1])
-            assert distance == pytest.approx((first + second) / 2, abs=2e-4), (one, other)
-
-
-def test_the_planet_of_a_carrier_is_half_the_sum_of_pitch_diameters_from_its_hub() -> None:
-    at = holes("planetary-24-18-60", 1.5)["carrier carrier plate"]
-    assert hypot(at["planet"][0] - at["hub"][0], at["planet"][1] - at["hub"][1]) == pytest.approx(1.5 * (24 + 18) / 2)
+            assert between(at, one, other) == pytest.approx((first + second) / 2, abs=2e-4), (one, other)
+    carrier = holes("planetary-24-18-60", 1.5)["carrier carrier plate"]
+    assert between(carrier, "planet", "hub") == pytest.approx(1.5 * (24 + 18) / 2)
 
 
 def test_helical_wheels_have_their_transverse_module_and_the_distance_that_follows() -> None:
@@ -71,8 +71,7 @@ def test_helical_wheels_have_their_transverse_module_and_the_distance_that_follo
     assert float(table["b30"]["pitch diameter mm"]) == pytest.approx(60 / cos(radians(25)), abs=1e-4)
     assert [table[name]["helix deg"] for name in ("a20", "b30")] == ["+25", "-25"]
     (plate, *_) = holes(HELICAL).values()
-    distance = hypot(plate["A"][0] - plate["B"][0], plate["A"][1] - plate["B"][1])
-    assert distance == pytest.approx(2 / cos(radians(25)) * (20 + 30) / 2, abs=2e-4)
+    assert between(plate, "A", "B") == pytest.approx(2 / cos(radians(25)) * (20 + 30) / 2, abs=2e-4)
 
 
 @pytest.mark.parametrize("side", ["back", "front"])
@@ -98,20 +97,18 @@ def test_the_table_has_the_circles_of_the_drawing_to_cut(side: str) -> None:
 def test_diameters_of_wheels_are_those_of_their_outlines(train: str, module: float | None) -> None:
     for row in rows(files(train, module)["drawings/wheels.csv"]):
         name = row["wheel"].split(", ")[0]
-        path = re.search(
-            r'<path id="CUT"[^>]* d="([^"]*)"', wheel_file(workpiece(train, module=module), name, ".svg").decode()
-        )
+        svg = wheel_file(workpiece(train, module=module), name, ".svg").decode()
+        path = re.search(r'<path id="CUT"[^>]* d="([^"]*)"', svg)
         assert path is not None
         parts = [part for part in path[1].split("Z") if part.strip()]
         pieces = [np.array(re.findall(r"(-?\d+\.\d+) (-?\d+\.\d+)(?= [A-Z]|\s*$)", part), float) for part in parts]
         radius = [np.hypot(*points.T) for points in pieces]
         assert float(row["outside diameter mm"]) == pytest.approx(2 * radius[0].max(), abs=2e-4)
-        teeth = radius[1] if row["inside diameter mm"] else radius[0]
-        if row["inside diameter mm"]:
-            assert float(row["inside diameter mm"]) == pytest.approx(2 * teeth.min(), abs=2e-4)
-            assert float(row["root diameter mm"]) == pytest.approx(2 * teeth.max(), abs=2e-4)
-        else:
-            assert float(row["root diameter mm"]) == pytest.approx(2 * teeth.min(), abs=2e-4)
+        inside = row["inside diameter mm"]
+        root = radius[1].max() if inside else radius[0].min()
+        assert float(row["root diameter mm"]) == pytest.approx(2 * root, abs=2e-4)
+        if inside:
+            assert float(inside) == pytest.approx(2 * radius[1].min(), abs=2e-4)
         if row["bore mm"]:
             assert min(2 * each.max() for each in radius[1:]) == pytest.approx(float(row["bore mm"]), abs=2e-4)
 

@@ -20,16 +20,9 @@ from studies.cut_pair_transmission import CutPairLaw
 from geartrain import GearTrain, load
 from geartrain.errors import QuestionError, RangeError
 from geartrain.train.declaration_files import write_declaration
-from geartrain.workshop import (
-    WheelEstimate,
-    estimate_wheel,
-    find_trial_plan,
-    read_error_overrides,
-    run_course,
-)
+from geartrain.workshop import WheelEstimate, estimate_wheel, find_trial_plan, read_error_overrides, run_course
+from geartrain.workshop.cutting import closed_steps, stepped_covariance
 from geartrain.workshop.cutting.measured_motion import measured_motion
-from geartrain.workshop.cutting.verb import find_measured_wheels
-from geartrain.workshop.cutting.wheel_estimate import closed_steps, stepped_covariance
 
 FIFTEEN = [
     *(0.12, 24.31, 48.55, 72.40, 96.38, 119.92, 143.61, 167.55),
@@ -45,9 +38,11 @@ def seen(z: int, eccentricity: float, direction: float) -> np.ndarray:
     return np.array([atan2(y + sin(each), x + cos(each)) for each in at])
 
 
+NEAR_250 = seen(63, 0.006, 250) + np.random.default_rng(42).normal(0, radians(0.2), 63)
+
+
 def near_250() -> WheelEstimate:
-    off = np.random.default_rng(42).normal(0, radians(0.2), 63)
-    return estimate_wheel(seen(63, 0.006, 250) + off, law="independent")
+    return estimate_wheel(NEAR_250, law="independent")
 
 
 def in_declaration(angles: Sequence[float | None], more: str = "") -> str:
@@ -79,18 +74,15 @@ def measured(use: str = "table", angles: Sequence[float | None] = FIFTEEN) -> Ge
 # -------------------------------------------------------------------------------------------------------- worked cases
 
 
-def test_case_c1_an_exact_wheel_of_53_teeth() -> None:
-    found = estimate_wheel(seen(53, 0.01, 40), law="independent")
-    assert found.fitted == pytest.approx((0.01, radians(40)), rel=1e-12)
-    assert degrees(found.deviation.value) == pytest.approx(0.00208564420, rel=1e-8)
-
-
-def test_case_c2_an_exact_wheel_of_15_teeth() -> None:
+@pytest.mark.parametrize(
+    ("z", "e", "direction", "printed"), [(53, 0.01, 40, 0.00208564420), (15, 0.05, 100, 0.0566518549)]
+)
+def test_cases_c1_and_c2_exact_wheels(z: int, e: float, direction: float, printed: float) -> None:
     """The second order of the eccentricity remains, E^2 / (2 sqrt 2) for all teeth."""
-    found = estimate_wheel(seen(15, 0.05, 100), law="independent")
-    assert found.fitted == pytest.approx((0.05, radians(100)), rel=1e-12)
-    assert degrees(found.deviation.value) == pytest.approx(0.0566518549, rel=1e-8)
-    assert found.deviation.value == pytest.approx(0.05**2 / (2 * sqrt(2)) * sqrt(15 / 12), rel=1e-3)
+    found = estimate_wheel(seen(z, e, direction), law="independent")
+    assert found.fitted == pytest.approx((e, radians(direction)), rel=1e-12)
+    assert degrees(found.deviation.value) == pytest.approx(printed, rel=1e-8)
+    assert found.deviation.value == pytest.approx(e**2 / (2 * sqrt(2)) * sqrt(z / (z - 3)), rel=1e-3)
 
 
 def test_case_c3_fifteen_angles() -> None:
@@ -109,9 +101,7 @@ def test_case_c3_fifteen_angles() -> None:
 
 def test_case_c4_63_teeth_with_random_deviations() -> None:
     found = near_250()
-    assert degrees(seen(63, 0.006, 250)[0] + np.random.default_rng(42).normal(0, radians(0.2), 63)[0]) == pytest.approx(
-        -0.26275995, rel=1e-7
-    )
+    assert degrees(NEAR_250[0]) == pytest.approx(-0.26275995, rel=1e-7)
     assert found.fitted == pytest.approx((0.00667379681, radians(-107.849564)), rel=1e-8)
     assert degrees(found.deviation.value) == pytest.approx(0.159736830, rel=1e-8)
     assert found.eccentricity_error == pytest.approx(0.000496737733, rel=1e-8)
@@ -221,9 +211,8 @@ def test_measured_angles_of_an_eccentric_wheel_are_the_declared_eccentricity(use
     found = course(load(pair(in_declaration(angles.tolist(), f", use: {use}"), 40, 40, form)))
     assert declared.std() == pytest.approx(0.204, abs=0.005)
     assert (found - declared).std() < {"table": 0.012, "eccentric": 1e-5}[use]
-    wrong = course(
-        load(pair(in_declaration((-angles)[[0, *range(39, 0, -1)]].tolist(), f", use: {use}"), 40, 40, form))
-    )
+    turned_over = (-angles)[[0, *range(39, 0, -1)]].tolist()
+    wrong = course(load(pair(in_declaration(turned_over, f", use: {use}"), 40, 40, form)))
     assert (wrong - declared).std() > 0.19
 
 
@@ -251,7 +240,7 @@ def test_the_wheel_as_measured_is_the_same_in_every_trial_and_other_wheels_are_d
     drawn = drawn_wheels(plan, 3)
     assert np.ptp(drawn.wheels[0].place, axis=0).max() == 0
     law = find_trial_plan(measured("law")).wheels[0]
-    found = find_measured_wheels(measured().declaration)["p"]
+    found = estimate_wheel(np.radians(FIFTEEN).tolist())
     assert found.law == "stepped"
     assert (law.towards, law.tables) == (None, {})
     assert law.errors["stepping"].size * 24 == pytest.approx(degrees(found.deviation.value), rel=1e-9)
@@ -261,9 +250,7 @@ def test_the_wheel_as_measured_is_the_same_in_every_trial_and_other_wheels_are_d
 
 def test_the_fitted_law_gives_back_its_estimates() -> None:
     """Wheels drawn from the fit of 63 teeth are measured again: mean square eccentricity and mean square deviation."""
-    off = np.random.default_rng(42).normal(0, radians(0.2), 63)
-    angles = np.degrees(seen(63, 0.006, 250) + off).tolist()
-    plan = find_trial_plan(load(pair(in_declaration(angles, ", use: law"), 63, 40)))
+    plan = find_trial_plan(load(pair(in_declaration(np.degrees(NEAR_250).tolist(), ", use: law"), 63, 40)))
     drawn = drawn_wheels(plan, 256, 3).wheels[0]
     again = [estimate_wheel(2 * pi * np.arange(63) / 63 + place, law="independent") for place in drawn.place]
     found = near_250()
@@ -365,7 +352,9 @@ def test_the_antikythera_mechanism_jams_with_independent_deviations_and_not_with
     assert jams(train, ["eccentricity=0 %", *stepped(train, 0.1)], 16) == 0
 
 
-def test_a_fixed_error_of_the_steps_is_refused() -> None:
+def test_a_fixed_error_of_the_steps_and_a_table_for_all_wheels_are_refused() -> None:
+    everywhere = pair("thickness: 2 mm", rest="cutting: {measured: {tip: [1 %, 0]}}")
+    assert "`measured` is declared for all wheels" in refusal(everywhere)
     assert "the even division of the gap removes" in refusal(pair("cutting: {stepping: {value: 0.1 deg}}"))
     with pytest.raises(QuestionError, match="is fixed"):
         read_error_overrides(["stepping=value 0.1 deg"])
@@ -429,19 +418,12 @@ def test_slips_in_measured_teeth_are_named(measured: str, said: str) -> None:
     assert said in refusal(pair(f"cutting: {{measured: {{{measured}}}}}"))
 
 
-def test_a_table_for_all_wheels_is_refused() -> None:
-    everywhere = pair("thickness: 2 mm", rest="cutting: {measured: {tip: [1 %, 0]}}")
-    assert "`measured` is declared for all wheels" in refusal(everywhere)
-
-
 # ------------------------------------------------------------------------------------------------------------- command
 
 
 def test_the_command_prints_estimates_and_a_declaration_to_paste(tmp_path: Path) -> None:
-    off = np.random.default_rng(42).normal(0, radians(0.2), 63)
-    angles = np.degrees(seen(63, 0.006, 250) + off).tolist()
     file = tmp_path / "pair.yaml"
-    file.write_text(pair(in_declaration(angles), 63, 40))
+    file.write_text(pair(in_declaration(np.degrees(NEAR_250).tolist()), 63, 40))
     text = call("inspect", "wheels", str(file)).stdout
     assert "63 of 63 teeth were measured." in text
     assert "appear independent" in text

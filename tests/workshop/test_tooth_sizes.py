@@ -52,9 +52,8 @@ def test_losses_of_radii_by_rule_and_of_better_ones(
 
 @pytest.mark.parametrize("number", [np.float64, np.float32])
 def test_sizes_may_be_numbers_of_numpy(number: type[np.floating]) -> None:
-    found = ToothSizes(
-        (np.int64(48), np.int64(96)), number(0.75), number(0.5), (number(0.5), number(0.5)), number(0.25)
-    )
+    teeth, angles = (np.int64(48), np.int64(96)), (number(0.5), number(0.5))
+    found = ToothSizes(teeth, number(0.75), number(0.5), angles, number(0.25))
     plain = ToothSizes((48, 96), 0.75, 0.5, (0.5, 0.5), 0.25)
     assert found == plain
     assert [found.merit(aim) for aim in AIMS] == [plain.merit(aim) for aim in AIMS]
@@ -114,10 +113,8 @@ def test_the_margin_is_how_far_the_axes_can_move_before_the_teeth_jam_or_lose_ea
     sizes = design.sizes
     module = 2 * sizes.D / 75
     for way, kind in ((-1, "jam"), (1, None)):
-        near, beyond = (
-            sizes.at((sizes.D + way * part * design.jam * module) / sizes.deepest_distance - 1)
-            for part in (0.999, 1.001)
-        )
+        distances = (sizes.D + way * part * design.jam * module for part in (0.999, 1.001))
+        near, beyond = (sizes.at(each / sizes.deepest_distance - 1) for each in distances)
         assert TriangularTransmission(near).verdict
         assert bool(TriangularTransmission(beyond).verdict) is (kind is None)
 
@@ -215,22 +212,16 @@ PAGE = (DOCS / "best-radii.md").read_text(encoding="utf-8")
 A, B = (float(each) for each in re.findall(r"-\s*([\d.]+)\\left\(", PAGE.split("$$")[1]))
 
 
-def transmission(z1: int, z2: int) -> float:
-    return exp(-A * (1 / z1 - 1 / z2) - B * (1 / z1 + 1 / z2) ** 2)
-
-
 def times_the_minimum(z1: int, z2: int) -> float:
-    pair = ToothSizes((z1, z2), transmission(z1, z2), 0.5, (pi / 6, pi / 6), 0.2)
-    near = (pair.radii - 0.03, pair.radii + 0.03)
-    return pair.loss / find_tooth_sizes(pair, free={"radii": near}).best.loss
+    by_formula = pair(z1, z2, exp(-A * (1 / z1 - 1 / z2) - B * (1 / z1 + 1 / z2) ** 2))
+    near = (by_formula.radii - 0.03, by_formula.radii + 0.03)
+    return by_formula.loss / find_tooth_sizes(by_formula, free={"radii": near}).best.loss
 
 
-def test_the_law_is_within_a_few_percent_of_the_least_loss() -> None:
-    assert times_the_minimum(37, 89) < 1.02
+OTHERS = ((13, 47), (47, 13), (22, 101), (101, 22), (71, 73), (11, 17), (113, 64), (64, 38))
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("teeth", [(13, 47), (47, 13), (22, 101), (101, 22), (71, 73), (11, 17), (113, 64), (64, 38)])
+@pytest.mark.parametrize("teeth", [(37, 89), *(pytest.param(each, marks=pytest.mark.long) for each in OTHERS)])
 def test_the_law_holds_for_other_counts_than_those_it_was_fitted_to(teeth: tuple[int, int]) -> None:
     assert times_the_minimum(*teeth) < 1.02
 

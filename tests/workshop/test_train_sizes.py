@@ -13,7 +13,7 @@ import geartrain
 from geartrain import GearTrain
 from geartrain.dynamics import MotionRun, find_power_flow
 from geartrain.errors import QuestionError
-from geartrain.workshop import BestTrainSizes, SizeLimit, ToothSizes, find_train_sizes
+from geartrain.workshop import SizeLimit, ToothSizes, find_train_sizes
 
 NARROW = {"radii": (0.99, 1.06)}
 TWO = """
@@ -36,20 +36,15 @@ outputs: {c: {}}
 """
 
 
-@pytest.fixture(scope="module")
-def found() -> BestTrainSizes:
-    return find_train_sizes(geartrain.load(TWO), "c", free=NARROW)
-
-
-def test_together_is_no_worse_than_pair_by_pair_and_both_are_better_than_declared(found: BestTrainSizes) -> None:
+def test_together_is_no_worse_than_pair_by_pair_and_both_are_better_than_declared() -> None:
+    """What two pairs in a row pass on is the product of their means."""
+    found = find_train_sizes(geartrain.load(TWO), "c", free=NARROW)
     assert found.before is not None
     assert found.together <= found.apart < found.before
     assert [pair.name for pair in found.pairs] == ["a~b1", "b2~c"]
     assert found.untouched == {"a~d": "not on the way to 'c'"}
     assert all(pair.outlines.turns and pair.outlines.difference < 1e-4 for pair in found.pairs)
 
-
-def test_what_two_pairs_in_a_row_pass_on_is_the_product_of_their_means(found: BestTrainSizes) -> None:
     passed = prod(1 - pair.together.loss_at_constant_load for pair in found.pairs)
     assert 1 - found.together == pytest.approx(passed, rel=1e-9)
 
@@ -59,9 +54,8 @@ def test_pairs_that_name_the_driven_wheel_first_are_sized_alike() -> None:
     turned = TWO.replace("[a, b1]", "[b1, a]").replace("[b2, c]", "[c, b2]")
     turned = turned.replace("window: 0.5}", "window: 0.5, radii: 0.97}")
     straight = TWO.replace("window: 0.5}", f"window: 0.5, radii: {1 / 0.97!r}}}")
-    one, other = (
-        find_train_sizes(geartrain.load(text), "c", free={"window": (0.4, 0.7)}) for text in (straight, turned)
-    )
+    trains = (geartrain.load(text) for text in (straight, turned))
+    one, other = (find_train_sizes(train, "c", free={"window": (0.4, 0.7)}) for train in trains)
     for figure in ("before", "apart", "together"):
         assert getattr(other, figure) == pytest.approx(getattr(one, figure), rel=1e-5)
     for first, second in zip(one.pairs, other.pairs, strict=True):
@@ -128,11 +122,8 @@ def test_pairs_that_share_a_wheel_are_given_one_half_angle(aim: str) -> None:
 
 def test_what_cannot_be_requested_is_said() -> None:
     train = geartrain.load(TWO)
-    for output, aim, word in (
-        ("a", "loss", "acts on 'a'"),
-        ("nobody", "loss", "nobody"),
-        ("c", "speed", "not an objective"),
-    ):
+    refused = (("a", "loss", "acts on 'a'"), ("nobody", "loss", "nobody"), ("c", "speed", "not an objective"))
+    for output, aim, word in refused:
         with pytest.raises(QuestionError, match=word):
             find_train_sizes(train, output, aim)
     with pytest.raises(QuestionError, match="violates a limit"):

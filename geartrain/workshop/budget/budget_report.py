@@ -18,9 +18,7 @@ _PAIRS = 5  # maximum number of pairs listed for each pointer
 
 
 def describe_budget(found: TrainBudget) -> Document:
-    """Return a report that lists the causes of each pointer's error, in descending order of size, and the
-    missing data.
-    """
+    """Return a report on the causes of each pointer's error, in descending order of size, and on missing data."""
     name = found.name if found.state is None else f"{found.name}, state {found.state}"
     summary = [
         "Each cause is given separately, at the pointer. Ratio: error of the mean speed, as a drift over "
@@ -30,23 +28,23 @@ def describe_budget(found: TrainBudget) -> Document:
         "95 % range over Monte Carlo trials of cutting errors, without the ripple of perfect teeth.",
         "Days are the time in which the pointer turns through this angle at its mean speed. This is the error of the "
         "date of an eclipse, a conjunction or a station that is read from the pointer.",
-        _missing(found),
     ]
-    return Document(f"Error budget of each pointer: {name}", summary, list(_sections(found)))
-
-
-def _missing(found: TrainBudget) -> str:
     count = len(found.pointers)
-    words = [f"{cause} of {of}" for cause, of in found.not_declared.items() if of]
-    if not words:
-        return f"All causes are declared for all {count} pointers."
-    return f"Not declared, and therefore not included (not counted as 0), of {count} pointers: {', '.join(words)}."
+    missing = [f"{cause} of {of}" for cause, of in found.not_declared.items() if of]
+    summary.append(
+        f"Not declared, and therefore not included (not counted as 0), of {count} pointers: {', '.join(missing)}."
+        if missing
+        else f"All causes are declared for all {count} pointers."
+    )
+    return Document(f"Error budget of each pointer: {name}", summary, list(_sections(found)))
 
 
 def _sections(found: TrainBudget) -> Iterator[Section]:
     causes = [cause.name for cause in found.pointers[0].causes]
-    sized = [(each.name, *(_degrees(cause) for cause in each.causes), f"{each.total:.3g}", _largest_cause(each))
-             for each in found.pointers]  # fmt: skip
+    sized = []
+    for each in found.pointers:
+        largest = each.ranking[0] if each.ranked and each.ranked[0].degrees else "-"
+        sized.append((each.name, *(_degrees(cause) for cause in each.causes), f"{each.total:.3g}", largest))
     yield Section("Causes in degrees", (), (Table(("pointer", *causes, "sum", "maximum"), cut(sized)),))
     timed = [
         (each.name, _figure(each.degrees_per_day), *(_figure(cause.days) for cause in each.causes))
@@ -70,11 +68,6 @@ def _degrees(cause: BudgetCause) -> str:
 
 def _figure(value: float | None) -> str:
     return "-" if value is None else f"{value:.3g}"
-
-
-def _largest_cause(pointer: PointerBudget) -> str:
-    """Return the name of the largest cause, or "-" if all causes are 0 or unknown."""
-    return pointer.ranking[0] if pointer.ranked and pointer.ranked[0].degrees else "-"
 
 
 def _drifts(found: TrainBudget) -> Section:
@@ -134,9 +127,7 @@ axis).
 
 
 def budget_figure(found: TrainBudget) -> Figure:
-    """Draw a chart with one row for each pointer and one mark for the error due to each cause. The pointer with the
-    largest error is in the top row.
-    """
+    """Draw one row for each pointer, with a mark for each cause of its error; the largest total error is on top."""
     from geartrain.drawing.style import MOST_ROWS, WHITE, interval_chart
     from geartrain.scene.palette import series_colour
 

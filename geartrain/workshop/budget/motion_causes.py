@@ -27,7 +27,7 @@ from geartrain.dynamics.motion.motion_run import MotionRun
 from geartrain.dynamics.motion.run_statistics import RunningStatistics
 from geartrain.dynamics.motion.superposition import Superposition
 from geartrain.kinematics.willis_system import axis_sense
-from geartrain.workshop.budget.pointer_budget import BudgetCause, CauseName, Declared
+from geartrain.workshop.budget.pointer_budget import BudgetCause, Declared
 
 if TYPE_CHECKING:
     from geartrain.dynamics import Motion
@@ -47,14 +47,16 @@ _NEAR = 0.02  # maximum relative difference of a target from the period of the b
 
 
 class DeclaredPairs(NamedTuple):
-    """Numbers and names of the pairs that move an output: number of gear pairs with declared tooth forms, number of all
-    gear pairs, names of all couplings, and names of couplings without declared dimensions.
-    """
+    """Gear pairs and couplings that move an output."""
 
     real: int
+    """Number of gear pairs with declared tooth forms."""
     gears: int
+    """Number of all gear pairs."""
     pins: tuple[str, ...]
+    """Names of all couplings."""
     bare: tuple[str, ...]
+    """Names of the couplings without declared dimensions."""
 
 
 @dataclass(frozen=True)
@@ -68,15 +70,12 @@ class ToothMotion:
     pairs: Mapping[str, Mapping[str, float]]
     """Peak-to-peak error of each output due to the teeth of each pair [deg], keyed by output and then by pair."""
     declared: Mapping[str, DeclaredPairs]
-    """Pairs that move each output, with the numbers of pairs that have declared teeth or dimensions; keyed by output.
-    """
+    """Gear pairs and couplings that move each output, keyed by output."""
     reversing_drivers: tuple[str, ...]
 
 
 def find_tooth_motion(motion: Motion, turns: float, samples: int) -> ToothMotion:
-    """Return the ripple and the lost motion of every output, evaluated at `samples` positions over `turns` turns of the
-    input.
-    """
+    """Return the ripple and the lost motion of every output, from `samples` positions over `turns` input turns."""
     ripple = MotionRun(motion.without_anomaly(), turns, samples)
     ripple.run()
     # difference of two motions at the same position: backwards and forwards
@@ -102,11 +101,8 @@ def find_tooth_motion(motion: Motion, turns: float, samples: int) -> ToothMotion
 
 
 def pair_ripples(motion: Motion) -> dict[str, dict[str, float]]:
-    """Return the peak-to-peak output error due to each gear pair [deg]: the transmission error of the pair times the
-    sensitivity of the output to it.
-
-    The errors are grouped by output, in descending order. Pins and pairs without influence are omitted.
-    """
+    """Return the peak-to-peak error due to each gear pair [deg] by output, in descending order; 0 is omitted."""
+    # the transmission error of a pair times the sensitivity of the output to it
     found = Superposition(motion._forward)
     pins = {joint.coupling.name for joint in motion._problem.couplings}
     tables = {}
@@ -118,9 +114,7 @@ def pair_ripples(motion: Motion) -> dict[str, dict[str, float]]:
 
 
 def moving_pairs(motion: Motion, output: str) -> tuple[str, ...]:
-    """Return the names of pairs and couplings whose transmission error affects an output, directly or through the angle
-    of a pin.
-    """
+    """Return the names of the pairs and couplings whose transmission errors affect an output."""
     spread, signs = motion._propagation, motion._problem.signs
     couplings = {circuit.id for circuit in motion._problem.circuits if circuit.swings}
     # depth-first search: the error of a pin depends on the angle of its driver, which other pairs move
@@ -139,7 +133,7 @@ def moving_pairs(motion: Motion, output: str) -> tuple[str, ...]:
 
 
 def declared_pairs(motion: Motion, output: str) -> DeclaredPairs:
-    """Return the pairs that move an output, with the numbers of pairs whose teeth or dimensions are declared."""
+    """Return the gear pairs and couplings that move an output."""
     circuits = {circuit.id: circuit for circuit in motion._problem.circuits}
     real = set(motion._problem.meshes)
     sized = {joint.coupling.name for joint in motion._problem.couplings}
@@ -157,12 +151,13 @@ def declared_pairs(motion: Motion, output: str) -> DeclaredPairs:
 def tooth_causes(found: ToothMotion, name: str) -> tuple[BudgetCause, BudgetCause]:
     """Return two causes of the error of one output: ripple of the teeth, and lost motion."""
     known = found.declared[name]
-    if known.gears and not known.real:
-        return _undeclared(f"none of the {known.gears} pairs that move it has a tooth form")
     tally, (most, rms) = found.ripple[name], found.lost[name]
     bare = f"no dimensions are declared for {', '.join(known.bare)}"
-    if known.bare and not tally.peak_to_peak:
-        return _undeclared(bare)
+    missing = bare if known.bare and not tally.peak_to_peak else ""
+    if known.gears and not known.real:
+        missing = f"none of the {known.gears} pairs that move it has a tooth form"
+    if missing:
+        return BudgetCause.unknown("teeth", missing), BudgetCause.unknown("lost motion", missing)
     if not known.gears and not known.pins:
         of = "no gear pair is between it and the input"
     else:
@@ -172,18 +167,11 @@ def tooth_causes(found: ToothMotion, name: str) -> tuple[BudgetCause, BudgetCaus
     more = f"; {bare}, so they add no ripple here" if known.bare else ""
     backlash = f"; backlash of {', '.join(known.pins)} unknown" if known.pins else ""
     declared: Declared = "part" if known.bare or known.real < known.gears else "whole"
-    lost = _cause("lost motion", "part" if known.pins else declared, most, rms, of + backlash)
+    teeth = BudgetCause("teeth", declared, degrees(tally.peak_to_peak), degrees(tally.rms), note=of + worst + more)
     if known.real and most < _ROUNDING:  # teeth without backlash lose no motion, which is rarely meant
-        lost = BudgetCause.unknown("lost motion", "the pairs that move it have teeth without backlash")
-    return _cause("teeth", declared, tally.peak_to_peak, tally.rms, of + worst + more), lost
-
-
-def _undeclared(note: str) -> tuple[BudgetCause, BudgetCause]:
-    return BudgetCause.unknown("teeth", note), BudgetCause.unknown("lost motion", note)
-
-
-def _cause(name: CauseName, declared: Declared, size: float, rms: float, note: str) -> BudgetCause:
-    return BudgetCause(name, declared, degrees(size), degrees(rms), note=note)
+        return teeth, BudgetCause.unknown("lost motion", "the pairs that move it have teeth without backlash")
+    declared = "part" if known.pins else declared
+    return teeth, BudgetCause("lost motion", declared, degrees(most), degrees(rms), note=of + backlash)
 
 
 # ---------------------------------------------------------------------------------------------------------- true motion
@@ -191,8 +179,7 @@ def _cause(name: CauseName, declared: Declared, size: float, rms: float, note: s
 
 @dataclass(frozen=True, slots=True)
 class TrueMotion:
-    """Orbit of a celestial body. The anomaly of a pointer is compared with the true motion of the body in this
-    orbit."""
+    """Orbit of a celestial body, with whose true motion the anomaly of a pointer is compared."""
 
     eccentricity: float
     """Present eccentricity of the orbit."""
@@ -233,63 +220,55 @@ def equation_of_centre(M: Floats, e: float) -> Floats:
 
 @dataclass(frozen=True, slots=True)
 class TheoryError:
-    """Difference between the anomaly of one link and the true motion [rad], or the reason why this difference is
-    unknown.
-    """
+    """Difference between the anomaly of one link and the true motion of a celestial body."""
 
-    known: bool
-    """True if the error is known; False if a pin that moves the link has no dimensions, or if several pins move it."""
-    peak_to_peak: float
-    rms: float
     words: str
+    """Description of the compared motions, or the reason why their difference is unknown."""
+    peak_to_peak: float | None = None
+    """Peak-to-peak difference [rad]; None if it is unknown."""
+    rms: float = 0.0
+    """Root mean square of the difference [rad]."""
 
 
 def find_bodies(
     outputs: Iterable[OutputResult], frame: str, unit_days: float | None, named: Mapping[str, Body | None]
 ) -> dict[str, Body]:
-    """Return a mapping from link to the celestial body that the link represents.
+    """Return a mapping from link to the celestial body that the link represents, for outputs relative to the frame.
 
-    The body is given by `named`, or inferred from a word in the name of the output or link and a target within 2 % of
-    the body's period. Outputs that are not relative to the frame are ignored.
-
-    named   body that each output represents regardless of its name, keyed by output; None if it represents no body
+    The body is given by `named` (None: no body), keyed by output. Otherwise it is inferred from a word in the name of
+    the output or link, and a target within 2 % of the period of the body.
     """
     found: dict[str, Body] = {}
     for output in outputs:
         if output.relative_to != frame:
             continue
-        if output.name in named:
-            body = named[output.name]
-        else:
-            body = next((each for each in TRUE_MOTIONS if _represents(output, each, unit_days)), None)
-        if body is not None:
+        words = set(re.split(r"[\W_]+", f"{output.name} {output.of}".lower()))
+        speeds = [abs(float(target.speed)) for target in output.targets if target.speed] if unit_days else []
+        inferred: Body | None = None
+        for body, motion in TRUE_MOTIONS.items():
+            near = any(abs((unit_days or 0.0) / speed / motion.period - 1) < _NEAR for speed in speeds)
+            if inferred is None and near and words & motion.words:
+                inferred = body
+        represented = named.get(output.name, inferred)
+        if represented is not None:
             # the first output of a link decides
-            found.setdefault(output.of, body)
+            found.setdefault(output.of, represented)
     return found
-
-
-def _represents(output: OutputResult, body: Body, unit_days: float | None) -> bool:
-    motion = TRUE_MOTIONS[body]
-    words = set(re.split(r"[\W_]+", f"{output.name} {output.of}".lower()))
-    if not words & motion.words or not unit_days:
-        return False
-    periods = [unit_days / abs(float(target.speed)) for target in output.targets if target.speed]
-    return any(abs(period / motion.period - 1) < _NEAR for period in periods)
 
 
 def link_theory(problem: MotionProblem, link: str, body: Body) -> TheoryError:
     """Return the difference between the anomaly of one link with ideal teeth and the true motion of a body.
 
-    The error is unknown if a pin that moves the link has no dimensions, or if several pins move it.
+    It is unknown if a pin that moves the link has no dimensions, or if several pins move it.
     """
     from geartrain.dynamics import Motion
 
     motion = Motion(replace(problem, meshes={}), {link: (link, problem.frame)})
     if bare := declared_pairs(motion, link).bare:
-        return TheoryError(False, 0.0, 0.0, f"no dimensions are declared for {', '.join(bare)}")
+        return TheoryError(f"no dimensions are declared for {', '.join(bare)}")
     used = [source for source in motion._forward.used if source.cycles]
     if len(used) > 1:
-        return TheoryError(False, 0.0, 0.0, f"{len(used)} pins move '{link}' together")
+        return TheoryError(f"{len(used)} pins move '{link}' together")
     phase = 2 * pi * np.arange(_POSITIONS) / _POSITIONS
     error = np.zeros(_POSITIONS)
     if used:
@@ -300,12 +279,11 @@ def link_theory(problem: MotionProblem, link: str, body: Body) -> TheoryError:
     rest = minimum_difference(sense * error, TRUE_MOTIONS[body].eccentricity)
     how = f"pin of {used[0].id}" if used else "uniform motion without a pin"
     words = f"{how} against the {body.capitalize()}, eccentricity {TRUE_MOTIONS[body].eccentricity}"
-    return TheoryError(True, float(np.ptp(rest)), float(np.std(rest)), words)
+    return TheoryError(words, float(np.ptp(rest)), float(np.std(rest)))
 
 
 def minimum_difference(error: Floats, e: float) -> Floats:
-    """Return an error over one cycle minus the equation of centre [rad], at the phase with the minimum mean square
-    difference.
+    """Return an error over one cycle minus the equation of centre [rad], at the phase of minimum mean square.
 
     error   error at phases 2 pi k/n, shape (n,) [rad]; its mean is removed
     """
@@ -331,15 +309,12 @@ def minimum_difference(error: Floats, e: float) -> Floats:
 
 
 def theory_cause(parts: list[TheoryError]) -> BudgetCause:
-    """Return the cause "theory" of a pointer, which combines the errors of its link and of its reference link relative
-    to the true motion.
-
-    Their cycles differ, so peak-to-peak values are added, and rms values are added in quadrature.
-    """
+    """Return the cause "theory" of a pointer from the errors of its link and of its reference link."""
     if not parts:
         return BudgetCause.unknown("theory", "the true motion it shows is not known to geartrain")
-    if unknown := [part.words for part in parts if not part.known]:
+    if unknown := [part.words for part in parts if part.peak_to_peak is None]:
         return BudgetCause.unknown("theory", "; ".join(unknown))
-    size = float(np.degrees(sum(part.peak_to_peak for part in parts)))
+    # the cycles of the two links differ, so peak-to-peak values are added, and rms values in quadrature
+    size = float(np.degrees(sum(part.peak_to_peak or 0.0 for part in parts)))
     rms = float(np.degrees(hypot(*(part.rms for part in parts))))
     return BudgetCause("theory", "whole", size, rms, note="; ".join(part.words for part in parts))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from geartrain.numerics.results import Key, Pictured, Result, Tabular
@@ -52,28 +52,12 @@ class BudgetCause(Result):
 
     @classmethod
     def unknown(cls, name: CauseName, note: str) -> BudgetCause:
-        """Return a cause of unknown size, for which data are missing or the error cannot be computed.
-
-        name   name of the cause
-        note   reason why the size is unknown
-        """
+        """Return a cause of unknown size; `note` is the reason why it is unknown."""
         return cls(name, "not declared", note=note)
-
-    def in_days(self, degrees_per_day: float | None) -> BudgetCause:
-        """Return this cause with its size also given in days. It is returned unchanged if its size or the pointer's
-        speed is unknown.
-
-        degrees_per_day   mean speed of the pointer [deg/d]; None if it does not turn, or if no unit of time is declared
-        """
-        if self.degrees is None or not degrees_per_day:
-            return self
-        return replace(self, days=self.degrees / degrees_per_day)
 
     @property
     def measure(self) -> str:
-        """Description of what `degrees` measures: drift over the span, peak-to-peak value, maximum, or central 95 %
-        range.
-        """
+        """Description of what `degrees` measures, from `MEASURES`."""
         return MEASURES[self.name]
 
 

@@ -10,8 +10,8 @@ subtracted (docs/cut-by-hand.md).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from math import degrees, sqrt
 from typing import TYPE_CHECKING
@@ -20,7 +20,7 @@ import numpy as np
 
 from geartrain.dynamics.motion.error_composition import ErrorDifference
 from geartrain.errors import GearTrainError, Problem, QuestionError, check_choice
-from geartrain.kinematics.judged_outputs import OutputResult, TargetResult
+from geartrain.kinematics.judged_outputs import OutputResult
 from geartrain.numerics.confidence_intervals import deviation_of, percentile_of
 from geartrain.train.periods import period_table
 from geartrain.workshop.budget.motion_causes import (
@@ -46,8 +46,6 @@ if TYPE_CHECKING:
     from geartrain.kinematics.judged_outputs import OutputResult
     from geartrain.numerics.arrays import Floats
     from geartrain.numerics.work import Execution
-    from geartrain.train.outputs import Target
-    from geartrain.workshop.monte_carlo.trial_plan import TrialPlan
     from geartrain.workshop.monte_carlo.trial_results import TrialResults
 
 
@@ -158,8 +156,7 @@ def find_budget(
     on_stage()
     teeth = find_tooth_motion(motion, requested.turns, requested.samples)
     on_stage()
-    plan, uncut = cutting_plan(train, requested.cutting, names, state, requested.without)
-    cut = None if plan is None else find_cutting_trials(plan, motion, requested.trials, requested.seed, means)
+    cut = _cutting_trials(train, requested, motion, state, means)
     on_stage()
     days, pointers = _float(train.declaration.unit_days), []
     for name in names:
@@ -167,12 +164,15 @@ def find_budget(
         # absolute mean speed; None if the pointer does not turn or the unit is not a time
         rate = 360 * abs(float(speed)) / days if speed and days else None
         drifts = find_drifts(output, days, requested.span_days)
-        cutting = BudgetCause.unknown("cutting", uncut) if cut is None else cutting_cause(*cut, name, known)
+        cutting = BudgetCause.unknown("cutting", cut) if isinstance(cut, str) else cutting_cause(*cut, name, known)
         if not known.gears and not known.pins:
             # without pairs the error is known to be 0, and not undeclared
             cutting = BudgetCause("cutting", "whole", 0.0, 0.0, 0.0, note="no gear pair is between it and the input")
         found = (ratio_cause(drifts), theory_cause(theories[name]), *tooth_causes(teeth, name), cutting)
-        causes = tuple(cause.in_days(rate) for cause in found)
+        causes = tuple(
+            replace(cause, days=cause.degrees / rate) if cause.degrees is not None and rate else cause
+            for cause in found
+        )
         pointers.append(
             PointerBudget(name, output.of, output.relative_to, speed, rate, causes, drifts, teeth.pairs[name])
         )
@@ -190,8 +190,7 @@ def find_budget(
 
 
 def pointer_names(answer: Answer, requested: BudgetQuestion) -> tuple[str, ...]:
-    """Return the names of the requested outputs. By default these are all outputs with a target or a dial, or all
-    outputs if none has one.
+    """Return the names of the requested outputs; by default the outputs with a target or a dial, or else all outputs.
 
     Raises `QuestionError` if a requested output does not exist or the train declares no outputs.
     """
@@ -214,9 +213,7 @@ def _float(value: Fraction | None) -> float | None:
 def _theories(
     train: GearTrain, requested: BudgetQuestion, answer: Answer, motion: Motion
 ) -> dict[str, list[TheoryError]]:
-    """Return the errors of each pointer's link and of its reference link relative to the true motion of their celestial
-    bodies, keyed by pointer.
-    """
+    """Return, for each pointer, the errors of its link and of its reference link against the true celestial motion."""
     problem, days = motion._problem, _float(train.declaration.unit_days)
     bodies = find_bodies(answer.outputs.values(), problem.frame, days, requested.bodies)
     links = {link: link_theory(problem, link, body) for link, body in bodies.items()}
@@ -240,25 +237,20 @@ def find_drifts(output: OutputResult, unit_days: float | None, span_days: float)
 
     unit_days   duration of the train's unit [d]; None if it is not a unit of time
     """
-    judged = list(zip(output.output.targets, output.targets, strict=False))
-    judged.sort(key=lambda both: not _is_observed(both[0]))  # stable, so that otherwise the declared order is kept
-    return tuple(_drift(result, unit_days, span_days) for _, result in judged)
-
-
-def _is_observed(target: Target) -> bool:
-    """Return True if a target is an observed period from the table of periods, False if the makers intended it."""
-    return target.name is not None and period_table()[target.name].kind == "period"
-
-
-def _drift(result: TargetResult, unit_days: float | None, span_days: float) -> RatioDrift:
-    per_unit, ppm = result.degrees_per_unit, result.ppm
-    per_day = per_unit / unit_days if per_unit is not None and unit_days else None
-    return RatioDrift(
-        result.goal.words if result.goal.sense else result.label,
-        ppm,
-        None if ppm is None else ppm * 360e-6,  # 1 ppm of a turn is 360e-6 deg
-        *(None if per_day is None else per_day * days for days in (YEAR, CENTURY, span_days)),
-    )
+    observed: list[RatioDrift] = []
+    intended: list[RatioDrift] = []
+    for target, result in zip(output.output.targets, output.targets, strict=False):
+        per_unit, ppm = result.degrees_per_unit, result.ppm
+        per_day = per_unit / unit_days if per_unit is not None and unit_days else None
+        drift = RatioDrift(
+            result.goal.words if result.goal.sense else result.label,
+            ppm,
+            None if ppm is None else ppm * 360e-6,  # 1 ppm of a turn is 360e-6 deg
+            *(None if per_day is None else per_day * days for days in (YEAR, CENTURY, span_days)),
+        )
+        is_period = target.name is not None and period_table()[target.name].kind == "period"
+        (observed if is_period else intended).append(drift)
+    return (*observed, *intended)
 
 
 def ratio_cause(drifts: tuple[RatioDrift, ...]) -> BudgetCause:
@@ -278,8 +270,7 @@ def ratio_cause(drifts: tuple[RatioDrift, ...]) -> BudgetCause:
 
 
 def cutting_cause(trials: TrialResults, even: Floats, name: str, known: DeclaredPairs) -> BudgetCause:
-    """Return the cause "cutting" of one output: the central 95 % range of its errors in the trials, with a confidence
-    interval.
+    """Return the cause "cutting" of one output: the central 95 % range of its errors in the trials.
 
     even    errors with perfect teeth at the input positions of the trials [rad], shape (outputs, trials)
     known   pairs and couplings that move the output
@@ -310,36 +301,23 @@ def cutting_cause(trials: TrialResults, even: Floats, name: str, known: Declared
     return BudgetCause("cutting", declared, size, deviation, interval=interval, note=note)
 
 
-def find_cutting_trials(
-    plan: TrialPlan, motion: Motion, count: int, seed: int, means: Execution
-) -> tuple[TrialResults, Floats]:
-    """Return the results of trials with cutting errors, and the output errors with perfect teeth at the input positions
-    of the trials [rad].
+def _cutting_trials(
+    train: GearTrain, requested: BudgetQuestion, motion: Motion, state: str | None, means: Execution
+) -> tuple[TrialResults, Floats] | str:
+    """Return the trials with cutting errors, or a text with the reason why no trials are possible.
 
-    The output errors with perfect teeth have shape (outputs, trials).
-
-    motion   motion with perfect teeth
+    The array is the output errors with perfect teeth at the input positions of the trials [rad], (outputs, trials).
     """
-    found = run_trials(plan, count, seed, means)
+    settings = read_error_overrides(requested.cutting)
+    try:
+        plan = find_trial_plan(train, settings, tuple(motion.outputs), state, requested.without)
+    except GearTrainError as error:
+        if settings:  # errors given explicitly must be applied; otherwise the cause is only marked as unknown
+            raise
+        return error.problems[0].what
+    found = run_trials(plan, requested.trials, requested.seed, means)
     if not found.complete:  # interrupted: a budget does not state that it uses only some of the trials
         raise KeyboardInterrupt
     teeth = ErrorDifference(plan.composition, motion._with_ideal_teeth()._forward)
     parts = [teeth.at(found.turns[start : start + teeth.chunk]).error for start in range(0, found.done, teeth.chunk)]
     return found, np.concatenate(parts, axis=1)
-
-
-def cutting_plan(
-    train: GearTrain, cutting: Sequence[str], outputs: Sequence[str], state: str | None, without: Sequence[str]
-) -> tuple[TrialPlan | None, str]:
-    """Return the plan of the trials with cutting errors and an empty string, or None and the reason why no trials are
-    possible.
-
-    Raises `GearTrainError` if the errors `cutting` cannot be applied.
-    """
-    settings = read_error_overrides(cutting)
-    try:
-        return find_trial_plan(train, settings, outputs, state, without), ""
-    except GearTrainError as error:
-        if cutting:  # errors given explicitly must be applied; otherwise the cause is only marked as unknown
-            raise
-        return None, error.problems[0].what

@@ -98,22 +98,16 @@ class CutWheel:
 
     @property
     def only_pitch_deviations(self) -> bool:
-        """True if no tip height and no flank angle deviates from its nominal value, so that only pitch deviations can
-        occur.
-        """
+        """True if all tip heights and flank angles are nominal."""
         return not any(np.any(each) for each in (self.tip, self.leading, self.trailing))
 
     def taken(self, part: int | slice | NDArray[np.int64]) -> CutWheel:
-        """Return the wheels of the selected trials, or of one trial. Arrays that are common to all trials are not
-        copied.
-        """
+        """Return the wheels of the selected trials, or of one trial."""
         some = (each[part] if each.ndim > 1 else each for each in (self.place, self.tip, self.leading, self.trailing))
         return CutWheel(self.radius, self.half_angle, *some)
 
     def moved(self, e: ArrayLike, towards: ArrayLike) -> CutWheel:
-        """Return this wheel with its teeth cut about a centre at the distance e from the axis [unit of `radius`] in the
-        direction `towards` [rad].
-        """
+        """Return this wheel with an eccentricity `e` [unit of `radius`] in the direction `towards` [rad]."""
         far, direction = (np.asarray(each, dtype=float)[..., None] for each in (e, towards))
         out, turned = displaced(np.abs(self.r), self.theta, far, direction)
         # the flanks keep their directions, but the radius through the tip turns
@@ -127,13 +121,9 @@ class CutWheel:
         )
 
     def filed(self, leading: Floats, trailing: Floats) -> CutWheel:
-        """Return this wheel with flanks lowered along their normals. Lowering a flank moves the tip down along the
-        opposite flank.
-
-        leading, trailing   depths of filing, 0 or more, (..., z) [unit of `radius`]
-        """
+        """Return this wheel with flanks filed along their normals by the depths `leading` and `trailing`, (..., z)."""
         ahead, behind = self.half_angle + self.leading, self.half_angle + self.trailing
-        # length along the other flank down to its intersection with the lowered flank
+        # filing a flank moves the tip down along the other flank, to its intersection with the lowered flank
         down, across = 1 / np.sin(ahead + behind), trailing * np.sin(ahead) - leading * np.sin(behind)
         radial = self.r - down * (leading * np.cos(behind) + trailing * np.cos(ahead))
         late = -np.arctan2(down * across, np.abs(radial))
@@ -144,25 +134,17 @@ class CutWheel:
         )
 
     def mirrored(self, first: int = 0) -> CutWheel:
-        """Return the mirror image of this wheel, which turns in the opposite sense. Tooth i of the image is tooth
-        `first` - i of this wheel.
-        """
+        """Return the mirror image of this wheel; its tooth i is the image of tooth `first` - i."""
         # mirroring reverses the order of the teeth and exchanges their flanks
         order = (first - np.arange(self.z)) % self.z
-        return CutWheel(
-            self.radius,
-            self.half_angle,
-            -self.place[..., order],
-            self.tip[..., order],
-            self.trailing[..., order],
-            self.leading[..., order],
+        place, tip, leading, trailing = (
+            each[..., order] for each in (self.place, self.tip, self.leading, self.trailing)
         )
+        return CutWheel(self.radius, self.half_angle, -place, tip, trailing, leading)
 
     @property
     def cuttable(self) -> NDArray[np.bool_]:
-        """Mask of shape (..., z): True if a tooth and the next tooth have tips and flanks, and there is a space between
-        them.
-        """
+        """Mask, (..., z): True if a tooth and the next tooth have tips and flanks, and a space between them."""
         gap = self.pitch + np.roll(self.place, -1, -1) - self.place
         near, far = np.broadcast_arrays(self.r, np.roll(self.r, -1, -1))
         # angle at each tip between its radius and the line to the other tip; the flanks must be inside both
@@ -176,12 +158,9 @@ class CutWheel:
 
 
 def of_teeth(each: Floats, rows: Ints, teeth: Ints) -> Any:
-    """Return the entries of an array of tooth data for one given tooth in each given trial.
-
-    The result is the scalar 0 if an array common to all trials contains only zeros, which saves memory.
-    """
+    """Return the entries [rows, teeth] of an array of shape (trials, z), or [teeth] of an array of shape (z,)."""
     if each.ndim == 1:
-        return each[teeth] if each.any() else 0.0
+        return each[teeth] if each.any() else 0.0  # a scalar saves memory
     return each[rows, teeth]
 
 
@@ -204,8 +183,7 @@ def displaced(radius: Floats, angle: Floats, e: Floats, towards: Floats) -> tupl
 
 
 class CutToothPairs(ToothPair):
-    """Contact of many pairs of a driving and a driven tooth. All arrays broadcast with each other and with the driver
-    angles.
+    """Contact of many pairs of a driving and a driven tooth. All arrays broadcast with the driver angles.
 
     R1, R2         radii of the tips, negative for an internal wheel
     beta1, beta2   half angles of the two flanks in contact (rad)
@@ -228,8 +206,10 @@ class CutToothPairs(ToothPair):
 
     @classmethod
     def of(cls, sizes: TriangularSizes, tips: tuple[Any, Any], flanks: tuple[Any, Any], shift: Any) -> CutToothPairs:
-        """Return tooth pairs with the nominal sizes plus the errors of tip heights, flank angles and centre
-        distance.
+        """Return tooth pairs of given nominal sizes, changed by errors.
+
+        tips, flanks   errors of the tip heights, and of the half angles (rad), of the driver and of the driven wheel
+        shift          increase of the centre distance
         """
         R1, R2 = sizes.signed_radii
         return cls(
@@ -243,28 +223,23 @@ class CutToothPairs(ToothPair):
         )
 
     def contact(self, x: Any) -> Any:
-        """Return the angle of the driven tooth from the line of centres [rad] if the driving tooth is at the angle x
-        [rad].
+        """Return the angle of the driven tooth [rad] if the angle of the driving tooth is x, |x| <= `reach` [rad].
 
-        It is the smaller of the angles in the approach phase and in the recess phase. It is valid for |x| up to
-        `reach`.
+        Both are the angles of the tips from the line of centres, positive on the entry side.
         """
-        return np.fmin(self.angle(APPROACH, x, np), self.angle(RECESS, x, np))  # far out of reach one of them is NaN
+        # the phase of contact is the one with the smaller angle; far out of reach one of the angles is NaN
+        return np.fmin(self.angle(APPROACH, x, np), self.angle(RECESS, x, np))
 
     def approaches(self, x: Any) -> Any:
         """Return a mask that is True for tooth pairs in the approach phase at the driver angle x [rad]."""
         return self.angle(APPROACH, x, np) < self.angle(RECESS, x, np)
 
     def tau(self, x: Any, approaches: Any) -> Any:
-        """Return the speed ratio tau at driver angle x [rad] in the approach phase where `approaches` is True, and in
-        the recess phase elsewhere.
-
-        It is infinite if jamming teeth overlap below the driven flank.
-        """
+        """Return the speed ratio at the driver angle x [rad] in approach (`approaches`) or recess; it may be inf."""
         return np.where(approaches, self.speed(APPROACH, x, np), self.speed(RECESS, x, np))
 
     def picked(self, pick: Callable[[Any], Any]) -> CutToothPairs:
-        """Return selected or reordered tooth pairs. The function `pick` is applied to every array."""
+        """Return the tooth pairs that the function `pick` selects or reorders; it is applied to every array."""
         # without __init__, which would recompute every constant
         found = CutToothPairs.__new__(CutToothPairs)
         found.leans, found.mirror, found.sign2, found.side = False, self.mirror, self.sign2, self.side
@@ -273,15 +248,14 @@ class CutToothPairs(ToothPair):
         return found
 
     def rolled(self, n: int) -> CutToothPairs:
-        """Return the tooth pairs shifted cyclically: each pair is replaced by the pair that is n places before it in
-        the cycle.
-        """
+        """Return the tooth pairs in cyclically shifted order: entry k is the previous entry k - n."""
         return self if n == 0 else self.picked(lambda each: np.roll(each, n, -1) if np.ndim(each) else each)
 
 
 def _half_sine(R1: Any, R2: Any, D: Any, delta: Any) -> Any:
-    """Return the sine of half the maximum contact angle of wheel 1 by Sorge's equation (4); 0 if the tips do
-    not meet.
+    """Return the sine of half the maximum contact angle of wheel 1, equation (4) of Sorge; 0 if tips do not meet.
+
+    The arguments are those of `CutToothPairs`.
     """
     # clipped, because delta is negative if the tips do not reach each other
     return np.sqrt(np.clip(delta * (2 * R2 - delta) / (4 * D * R1), 0.0, 1.0))
@@ -313,47 +287,44 @@ class CutGearPair:
         return self.sizes.z1, self.sizes.z2
 
     def taken(self, part: slice | Ints) -> CutGearPair:
-        """Return the pairs of the selected trials, which are given by a slice or by indices."""
+        """Return the gear pairs of the selected trials, which are given by a slice or by indices."""
         shift = self.shift if np.ndim(self.shift) == 0 else self.shift[part]
         return CutGearPair(self.sizes, self.first.taken(part), self.second.taken(part), shift)
 
     def filed(self, low: tuple[Floats, Floats]) -> CutGearPair:
-        """Return this pair with material removed from its flanks. `low` contains the depth for each flank of each
-        wheel, shape (trials, 2 sides, z) [unit of the radii].
+        """Return this pair with filed flanks.
+
+        low   depths to be removed from the flanks of each wheel, shape (trials, 2, z): leading, trailing flanks
         """
         wheels = zip((self.first, self.second), low, strict=True)
         first, second = (wheel.filed(each[:, 0], each[:, 1]) for wheel, each in wheels)
         return CutGearPair(self.sizes, first, second, self.shift)
 
     def tooth_pairs(self, k: Any) -> CutToothPairs:
-        """Return the tooth pairs with the numbers k, which count tooth pairs through all turns."""
+        """Return the tooth pairs with the numbers k; pair k joins driving tooth k mod z1 to driven tooth k mod z2."""
         i = k % self.sizes.z1
         j = k % self.sizes.z2
-        one, two, sizes = self.first, self.second, self.sizes
+        one, two = self.first, self.second
         shift = self.shift if np.ndim(self.shift) == 0 else np.asarray(self.shift)[..., None]
         tips = one.tip[..., i], two.tip[..., j]
-        return CutToothPairs.of(sizes, tips, (one.leading[..., i], two.trailing[..., j]), shift)
+        return CutToothPairs.of(self.sizes, tips, (one.leading[..., i], two.trailing[..., j]), shift)
 
     def places(self, k: Any) -> tuple[Floats, Floats]:
-        """Return the pitch deviations of both teeth of each tooth pair k [rad], positive if a tooth is late."""
+        """Return the pitch deviations [rad] of the driving and the driven teeth in tooth pairs k, positive if late."""
         return self.first.place[..., k % self.sizes.z1], self.second.place[..., k % self.sizes.z2]
 
     @cached_property
     def mirrored(self) -> CutGearPair:
-        """Mirror image of the pair, which turns in the opposite sense.
+        """Mirror image of the pair; its tooth pair -k joins driving tooth k, which is ahead, to driven tooth k + 1.
 
-        Tooth pair -k of the image joins driving tooth k, which is ahead, to driven tooth k + 1.
-
-        If U' is the lag of the mirrored pair at first contact, the back flanks of this pair meet at the lag L(t) =
-        -U'(-t) - p2, with the driver angle t and the pitch p2 of the driven wheel.
+        If the driven wheel of the image lags by U'(t) at the driver angle t, the coast flanks of this pair meet at the
+        lag -U'(-t) - p2, where p2 is the angular pitch of the driven wheel.
         """
         return CutGearPair(self.sizes, self.first.mirrored(), self.second.mirrored(1), self.shift)
 
     @cached_property
     def widest(self) -> float:
-        """Upper bound of the angle from the line of centres at which a driving tooth can touch a driven tooth [rad];
-        -inf if it never touches one.
-        """
+        """Upper bound of the angle at which a driving tooth can touch a driven tooth [rad]; -inf if it never does."""
         one, two, sizes = self.first, self.second, self.sizes
         shift = float(np.min(self.shift) if sizes.side > 0 else np.max(self.shift))
         R1, R2 = sizes.signed_radii

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.displaced_contact import DisplacedWheelSizes
     from geartrain.teeth.gear_mesh import GearMesh
     from geartrain.train import Train, Wheel
-    from geartrain.train.manufacturing import AngleError, LengthError, MeasuredTeeth, PairMounting, WheelManufacture
+    from geartrain.train.manufacturing import AngleError, LengthError, MeasuredTeeth
 
 ErrorDistributionKind = Literal["value", "normal", "uniform"]
 OF_WHEELS = ("pitch_deviation", "stepping", "eccentricity", "tip", "aperture_deviation")
@@ -35,9 +35,7 @@ MOST = {kind: 1.0 if kind in _ANGLES else 2.0 for kind in ERROR_KINDS}
 
 @dataclass(frozen=True, slots=True)
 class ErrorSpecification:
-    """Error as a fraction of a nominal value: either the fixed value `size`, or a random value with the standard
-    deviation or half width `size`.
-    """
+    """Error as a fraction of a nominal value: the fixed value, standard deviation or half width `size`."""
 
     size: float = 0.0
     way: ErrorDistributionKind = "value"
@@ -45,9 +43,7 @@ class ErrorSpecification:
 
 @dataclass(frozen=True, slots=True)
 class ErrorOverride:
-    """Error that replaces the declared error of the same kind, for the wheel or pair `of`, or for all if `of`
-    is empty.
-    """
+    """Error that replaces the declared error of the same kind, for the wheel or pair `of` (empty: for all)."""
 
     kind: str
     way: ErrorDistributionKind
@@ -84,9 +80,7 @@ class WheelErrors:
 
     @property
     def depth(self) -> float:
-        """Tooth depth: a fraction of the tip radius for triangular teeth, in modules for displaced flanks, in rad for
-        bevel gears.
-        """
+        """Tooth depth [tip radius for triangular teeth, module for displaced flanks, rad for bevel gears]."""
         return self.displaced.depth if self.displaced else abs(depth(-self.z if self.ring else self.z, self.half_angle))
 
     @property
@@ -96,9 +90,7 @@ class WheelErrors:
 
     @property
     def angle_radius(self) -> float:
-        """Radius at which angles are measured [unit of `depth`]: the tip radius for triangular teeth, the pitch radius
-        for other teeth.
-        """
+        """Radius at which angles are measured [unit of `depth`]: tip radius of triangular teeth, or pitch radius."""
         return self.z / (2 * self.displaced.modules) if self.displaced else 1.0
 
 
@@ -175,8 +167,7 @@ def check_names(settings: Sequence[ErrorOverride], wheels: Sequence[str], pairs:
 
 
 def wheel_errors(train: Train, even: WheelErrors, settings: Sequence[ErrorOverride]) -> WheelErrors:
-    """Return the errors declared for one wheel, or the errors declared for the train if the wheel declares none, with
-    overrides applied.
+    """Return the errors of one wheel, as declared for the wheel or else for the train, with overrides applied.
 
     Raises `RangeError` if an error is larger than a tooth, or is a length that cannot be converted to a fraction.
     """
@@ -202,16 +193,16 @@ def wheel_errors(train: Train, even: WheelErrors, settings: Sequence[ErrorOverri
     reader.check(errors)
     at = cutting.eccentricity_angle if cutting is not None else None
     # the declared angle is positive ahead, but teeth are counted in the order they pass, which is backwards
-    found = replace(even, errors=errors, towards=-at.si if at else None, tables=reader.tables(cutting))
+    columns: Mapping[str, Sequence[Quantity]] = {} if measured is None else measured.columns
+    tables = {kind: tuple(reader.fraction(kind, each) for each in column) for kind, column in columns.items()}
+    found = replace(even, errors=errors, towards=-at.si if at else None, tables=tables)
     return found if by_angles is None else _with_measured_angles(found, by_angles)
 
 
 def _with_measured_angles(wheel: WheelErrors, measured: MeasuredTeeth) -> WheelErrors:
-    """Return the wheel with the pitch deviations and the eccentricity that were estimated from measured angles of its
-    teeth.
+    """Return the wheel with pitch deviations and eccentricity estimated from the measured angles of its teeth.
 
-    The eccentricity is either included in the pitch deviations, or removed from them and given separately. Missing
-    teeth are assumed to follow the fitted eccentricity if it is significant, and an even division if it is not.
+    An unmeasured tooth is assumed to follow the fitted eccentricity if it is significant, or else an even division.
     """
     found = estimate_measured(measured, wheel.z)
     depth = wheel.depth / wheel.angle_radius
@@ -240,36 +231,27 @@ def _with_measured_angles(wheel: WheelErrors, measured: MeasuredTeeth) -> WheelE
 
 def pair_errors(
     train: Train, mesh: GearMesh, lesser: WheelErrors, settings: Sequence[ErrorOverride]
-) -> dict[str, ErrorSpecification]:
-    """Return the axis errors of a pair as fractions of the tooth depth of `lesser`, the wheel with the
-    smaller depth.
+) -> tuple[dict[str, ErrorSpecification], float]:
+    """Return the axis errors of a pair and the depth of one stroke of the file (0 if the pair is not filed).
+
+    Both are fractions of the tooth depth of `lesser`, the wheel with the smaller tooth depth.
     """
     fitting = mesh.gear.fitting or train.fitting
-    reader = _pair_reader(train, mesh, lesser)
+    reader = _Reader(mesh.place, mesh.name, _scales(lesser, train.wheels[lesser.name][1]))
     errors = {kind: reader.off(kind, getattr(fitting, kind, None)) for kind in OF_PAIRS}
     for each in settings:
         if each.kind in OF_PAIRS and each.of in ("", mesh.name):
             errors[each.kind] = reader.set(each)
     reader.check(errors)
-    return {kind: off for kind, off in errors.items() if off.size}
-
-
-def filing_stroke(train: Train, mesh: GearMesh, lesser: WheelErrors) -> float:
-    """Return the depth of one stroke of the file as a fraction of the smaller tooth depth; 0 if the pair is
-    not filed.
-    """
-    fitting = mesh.gear.fitting or train.fitting
     filing = fitting.filing if fitting is not None else None
-    return _pair_reader(train, mesh, lesser).fraction("stroke", filing.stroke) if filing is not None else 0.0
-
-
-def _pair_reader(train: Train, mesh: GearMesh, lesser: WheelErrors) -> _Reader:
-    return _Reader(mesh.place, mesh.name, _scales(lesser, train.wheels[lesser.name][1]))
+    stroke = reader.fraction("stroke", filing.stroke) if filing is not None else 0.0
+    return {kind: off for kind, off in errors.items() if off.size}, stroke
 
 
 def _scales(even: WheelErrors, wheel: Wheel) -> dict[str, float | None]:
-    """Return the nominal value that a fraction of 1 represents, keyed by kind of error: an angle [rad] or a length [m];
-    None for a length if no module is declared.
+    """Return the angle [rad] or length [m] by which each kind of error is divided, keyed by kind.
+
+    A length is None if the wheel has no module.
     """
     deep = None
     module = wheel.transverse_module
@@ -288,7 +270,12 @@ def _scales(even: WheelErrors, wheel: Wheel) -> dict[str, float | None]:
 
 @dataclass(frozen=True, slots=True)
 class _Reader:
-    """Converter of the declared errors of one wheel or pair from angles and lengths to fractions."""
+    """Converter of the declared errors of one wheel or pair from angles and lengths to fractions.
+
+    place    place in the declaration, for error messages
+    name     name of the wheel or pair
+    scales   angle (rad) or length (m) by which each kind of error is divided
+    """
 
     place: str
     name: str
@@ -326,10 +313,3 @@ class _Reader:
                     f"{degrees(pitch):.3g} deg"
                 )
                 raise RangeError(Problem(what, why, f"give a smaller error, such as {kind}='2 %'", self.place))
-
-    def tables(self, cutting: WheelManufacture | PairMounting | None) -> dict[str, tuple[float, ...]]:
-        measured = getattr(cutting, "measured", None)
-        if measured is None:
-            return {}
-        columns: Mapping[str, Sequence[Quantity]] = measured.columns
-        return {kind: tuple(self.fraction(kind, each) for each in column) for kind, column in columns.items()}

@@ -1,13 +1,9 @@
 """Pair of wheels with displaced flanks: the tooth pair that drives, and the backlash to the opposite flanks.
 
-Tooth pair k joins tooth k of the driver to tooth k of the driven wheel, both counted through all turns. The leading
-flank of the driver pushes the trailing flank of the driven tooth. The trailing flank of the driver faces the leading
-flank of the driven tooth k + 1. If it were the only tooth pair, each tooth pair would cause a certain lag of the driven
-wheel, equation (2) of docs/cut-by-hand.md. The foremost drive-flank pair drives, and its distance from the nearest
-coast-flank pair is the backlash.
-
-Teeth are numbered as they pass the line of centres while the wheel turns forward, as in `CutWheel`. Lengths are
-in modules; for bevel gears they are angles (rad) on the unit sphere.
+Teeth and tooth pairs are numbered as in `cut_wheel`. The trailing flank of the driver faces the leading flank of the
+driven tooth k + 1. Each tooth pair would by itself cause a certain lag of the driven wheel, equation (2) of
+docs/cut-by-hand.md. The pair of drive flanks with the smallest lag drives, and its distance from the nearest pair of
+coast flanks is the backlash. Lengths are in modules; for bevel gears they are angles (rad) on the unit sphere.
 """
 
 from __future__ import annotations
@@ -90,9 +86,7 @@ class DisplacedWheel:
         return found
 
     def flanks(self, trailing: bool) -> tuple[Floats, Floats]:
-        """Return the flattening angles [rad] and the removed depths [module] of the trailing flanks (`trailing`) or of
-        the leading flanks.
-        """
+        """Return rotations [rad] and removed depths [module] of the trailing (if `trailing`) or the leading flanks."""
         return (self.trailing, self.trailing_low) if trailing else (self.leading, self.leading_low)
 
     @property
@@ -102,52 +96,39 @@ class DisplacedWheel:
         return found
 
     def taken(self, part: slice | NDArray[np.int64]) -> DisplacedWheel:
-        """Return the wheels of the selected trials. Arrays that are common to all trials are not copied."""
+        """Return the wheels of the selected trials."""
         teeth = {name: getattr(self, name) for name in _OF_TEETH}
         some = {name: each[part] if each.ndim > 1 else each for name, each in teeth.items()}
         e, towards = (each[part] if np.ndim(each) else each for each in (self.e, self.towards))
         return DisplacedWheel(**some, e=e, towards=towards)
 
     def mirrored(self, first: int = 0) -> DisplacedWheel:
-        """Return the mirror image of this wheel, which turns in the opposite sense. Tooth i of the image is tooth
-        `first` - i of this wheel.
-        """
+        """Return the mirror image of this wheel; its tooth i is the image of tooth `first` - i."""
+        # mirroring reverses the order of the teeth and exchanges their flanks
         order = (first - np.arange(self.z)) % self.z
-        return DisplacedWheel(
-            -self.place[..., order],
-            self.tip[..., order],
-            self.trailing[..., order],
-            self.leading[..., order],
-            self.trailing_low[..., order],
-            self.leading_low[..., order],
-            self.e,
-            first * (2 * pi / self.z) - np.asarray(self.towards),
+        place, tip, leading, trailing, leading_low, trailing_low = (
+            getattr(self, name)[..., order] for name in _OF_TEETH
         )
+        towards = first * (2 * pi / self.z) - np.asarray(self.towards)
+        return DisplacedWheel(-place, tip, trailing, leading, trailing_low, leading_low, self.e, towards)
 
     def filed(self, leading: Floats, trailing: Floats) -> DisplacedWheel:
-        """Return this wheel with more material removed from its flanks. The arrays contain depths [module], shape
-        (trials, z).
-        """
+        """Return this wheel with the depths `leading` and `trailing` removed from its flanks, (trials, z) [module]."""
         return replace(self, leading_low=self.leading_low + leading, trailing_low=self.trailing_low + trailing)
 
 
 @dataclass(frozen=True)
 class SideTerms:
-    """Lags of the driven wheel due to the tooth pairs on the drive flanks (front) or on the coast flanks (back), at one
-    driver position within a pitch.
+    """Lags of the driven wheel [rad] due to all tooth pairs on the drive or coast flanks, for one driver angle.
 
-    The lag is the sum of one term for each wheel. Both terms are indexed by the number n of pitches that the wheel has
-    passed.
+    The driver angle is within a pitch, to which n whole pitches are added. The lag is the sum of an entry n of
+    `driver` and an entry n of `driven`, both of shape (trials, z).
     """
 
     driver: Any
-    """Contribution of the driver to the lag [rad of the driven wheel], shape (trials, z). The second index is the
-    number n of pitches that the driver has passed.
-    """
+    """Terms of the lag that depend on the driver."""
     driven: Any
-    """Contribution of the driven wheel to the lag [rad], shape (trials, z). The second index is the number n of pitches
-    that the driven wheel has passed.
-    """
+    """Terms of the lag that depend on the driven wheel."""
     pitches: int
     """Offset of the tooth numbers: entry n of `driver` belongs to driver tooth n - `pitches`."""
 
@@ -180,7 +161,7 @@ class DisplacedPair:
         return np.broadcast_shapes(self.first.trials, self.second.trials, np.shape(self.shift))
 
     def taken(self, rows: Ints) -> DisplacedPair:
-        """Return the pairs of the trials with the given indices."""
+        """Return the gear pairs of the trials with the given indices."""
         shift = self.shift if np.ndim(self.shift) == 0 else self.shift[rows]
         return DisplacedPair(self.contact, self.first.taken(rows), self.second.taken(rows), shift)
 
@@ -198,9 +179,7 @@ class DisplacedPair:
 
     @cached_property
     def _end_margins(self) -> tuple[float, float]:
-        """Maximum angles by which errors can advance the end of contact and the start of contact [rad of the
-        driver].
-        """
+        """Maximum angles by which errors advance the end and the start of contact [rad of the driver]."""
         late = float(np.abs(self.first.place).max(initial=0.0))
         tips = (float(np.abs(each.tips).max(initial=0.0)) for each in (self.first, self.second))
         leaving, entering = (late + longer * tip for longer, tip in zip(self.contact.longer, tips, strict=True))
@@ -209,8 +188,9 @@ class DisplacedPair:
     # ------------------------------------------------------------------------------------------------- pair by pair
 
     def side_terms(self, u: float, back: bool) -> Iterator[SideTerms]:
-        """Yield the lag contributions of all tooth pairs that can touch at the driver angle u, which is within a pitch
-        [rad].
+        """Yield the lag terms of all tooth pairs that can touch at the driver angle u, 0 <= u < pitch [rad].
+
+        back   True for the coast flanks, False for the drive flanks
         """
         sign = -1.0 if back else 1.0
         low, high = self.widest
@@ -223,37 +203,32 @@ class DisplacedPair:
                 yield self._side(u, x, int(sign) * steps, back)
 
     def _kinks(self, x: Floats, tip1: Any = 0.0, tip2: Any = 0.0) -> Floats:
-        """Return the lag of the driven wheel [rad] at driver angles x [rad] at which tips touch beyond the path of
-        contact.
+        """Return the lag [rad] due to tips in contact beyond the path of contact, at driver angles x [rad].
 
-        `tip1` and `tip2` are the errors of the tip heights.
+        tip1, tip2   errors of the tip heights [module]
         """
         at = self.contact
         beyond = at.leaving(x - at.end - at.longer[0] * tip1)
         return np.asarray(beyond + at.entering(at.start - at.longer[1] * tip2 - x))
 
     def _along(self, column: Floats, x: Any) -> Any:
-        """Return a quantity that is tabulated along the path of contact, interpolated at driver angle x [rad] and
-        constant beyond the path.
-        """
+        """Return a quantity at the driver angle x [rad]; `column` has its values along the path of contact."""
         at, last = self.contact, len(column) - 1
         return np.interp(x, at.start + (at.end - at.start) / last * np.arange(last + 1), column)
 
     def _columns(self, x: Any) -> list[Any]:
-        """Return all quantities that are tabulated along the path of contact, each interpolated at driver angle x [rad]
-        by `_along`.
-
-        They are the fields `across`, `along` and `tilt` of both wheels, then `normal`, `even` and `apart` of the
-        contact.
-        """
+        """Return the nine lag factors of `DisplacedContact`, from `across` to `apart`, at the driver angle x [rad]."""
         at = self.contact
         return [self._along(each, x) for each in (*at.across, *at.along, *at.tilt, at.normal, at.even, at.apart)]
 
     def _side(self, u: float, x: float, j: int, back: bool, late: Any = None) -> SideTerms:
-        """Return the contributions of both wheels to the lag at driver angle x [rad], indexed by n = tooth + j, from
-        equation (2) of docs/cut-by-hand.md.
+        """Return the lag terms of both wheels [rad], by equation (2) of docs/cut-by-hand.md.
 
-        late    (trials, z): angle by which the driver is later for each n (rad); tips are then assumed to be nominal
+        u      angle of the driver within a pitch (rad)
+        x      driver angle at which the contact of these tooth pairs is evaluated (rad)
+        j      number of pitches from u to x; entry n of the terms belongs to driver tooth n - j
+        back   True for the coast flanks, False for the drive flanks
+        late   angles added to x for each n (rad), shape (trials, z); tips are then assumed to be nominal
         """
         at, sign = self.contact, -1.0 if back else 1.0
         one, two = self.first, self.second
@@ -282,8 +257,10 @@ class DisplacedPair:
 
     @staticmethod
     def _eccentric_terms(wheel: DisplacedWheel, turned: float, phase: float, across: float, along: float) -> Any:
-        """Return the lag due to the eccentricity of a wheel [rad of the driven wheel], for each number n of pitches
-        passed.
+        """Return the lag due to the eccentricity of a wheel [rad], for each number n of pitches passed.
+
+        turned, phase   two terms of the angle by which the first tooth is past the line of centres (rad)
+        across, along   lag per unit displacement of the teeth across and along the line of centres (rad/module)
         """
         if not np.any(wheel.e):
             return 0.0
@@ -294,9 +271,7 @@ class DisplacedPair:
     # --------------------------------------------------------------------------------------------- backlash, and jams
 
     def _opposite_pairs(self) -> Iterator[tuple[SideTerms, SideTerms]]:
-        """Yield the lag contributions for each combination of a drive-flank and a coast-flank tooth pair that can touch
-        at the same driver position.
-        """
+        """Yield the lag terms on drive flanks and on coast flanks for all tooth pairs that can touch together."""
         pitch, (start, end) = self.contact.pitches[0], (self.contact.start, self.contact.end)
         ends = np.mod([start, end, -start, -end], pitch)
         phases = _UNEVEN_PHASES if self._lag_varies else _PHASES
@@ -304,19 +279,14 @@ class DisplacedPair:
             yield from product(self.side_terms(u, False), self.side_terms(u, True))
 
     def backlash(self) -> Floats:
-        """Return the minimum backlash over the whole meshing cycle [rad of the driven wheel], shape (trials,).
-
-        The contributions of the two wheels are independent, so the minimum of their sum is the sum of their minima.
-        """
+        """Return the minimum backlash over the whole meshing cycle [rad of the driven wheel], shape (trials,)."""
         best = np.full(self.trials, np.inf)
         for front, back in self._opposite_pairs():
             best = np.minimum(best, extreme_sum(front.driver + back.driver, front.driven + back.driven, np.minimum))
         return best + self.contact.backlash
 
     def tight_place(self) -> TightPlace:
-        """Return the position of minimum backlash and, of the four flanks in contact there, the flank that protrudes
-        most.
-        """
+        """Return the minimum backlash of each trial, and the most protruding of the four flanks in contact there."""
         count = self.trials[0]
         best, where = np.full(count, np.inf), np.zeros((3, count), np.int64)
         gain = np.full(count, float(self.contact.normal.max()))
@@ -329,25 +299,28 @@ class DisplacedPair:
         return TightPlace(best + self.contact.backlash, where[0], where[1], where[2], gain)
 
     def _most_protruding(self, front: SideTerms, back: SideTerms, rows: Ints, n1: Ints, n2: Ints) -> Ints:
-        """Return the indices of wheel, tooth and side of the flank that protrudes most among the four in contact, for
-        selected trials.
+        """Return wheel, tooth and side of the most protruding of four flanks in contact, shape (3, number of rows).
+
+        rows     indices of the trials
+        n1, n2   indices of the terms of driver and driven wheel with the minimum backlash in these trials
         """
         z1, z2 = self.teeth
         # contribution of each of the four to the backlash: the smallest belongs to the most protruding flank
         terms = (front.driver, n1), (back.driver, n1), (back.driven, n2), (front.driven, n2)
-        left = np.stack([terms_at(each, rows, n) for each, n in terms])
+        count = self.trials[0]
+        left = np.stack([np.broadcast_to(each, (count, each.shape[-1]))[rows, n] for each, n in terms])
         f, b = front.pitches, back.pitches
         teeth = np.stack([(n1 - f) % z1, (n1 - b) % z1, (n2 - b + 1) % z2, (n2 - f) % z2])
         flank = left.argmin(axis=0)
         return np.stack([flank // 2, np.take_along_axis(teeth, flank[None], axis=0)[0], flank % 2])
 
     def filed(self, low: tuple[Floats, Floats]) -> DisplacedPair:
-        """Return this pair with more material removed from its flanks. `low` contains the depth for each flank of each
-        wheel, shape (trials, 2 sides, z) [module].
+        """Return this pair with filed flanks.
+
+        low   depths to be removed from the flanks of each wheel, shape (trials, 2, z): leading, trailing flanks
         """
-        first, second = (
-            wheel.filed(each[:, 0], each[:, 1]) for wheel, each in zip((self.first, self.second), low, strict=True)
-        )
+        wheels = zip((self.first, self.second), low, strict=True)
+        first, second = (wheel.filed(each[:, 0], each[:, 1]) for wheel, each in wheels)
         return DisplacedPair(self.contact, first, second, self.shift)
 
     def verdicts(self) -> MeshingVerdicts:
@@ -356,9 +329,7 @@ class DisplacedPair:
         return MeshingVerdicts(self.backlash(), clash, dwell, self.disengaged())
 
     def disengaged(self) -> Bools:
-        """Return a mask of shape (trials,): True if there is a position at which no tooth pair can touch (loss of
-        contact).
-        """
+        """Return a mask of the trials in which no tooth pair can touch at some position (loss of contact)."""
         at = self.contact
         whole = (at.end + at.leaving.most) - (at.start - at.entering.most)
         gap = at.pitches[0] + np.roll(self.first.place, -1, -1) - self.first.place
@@ -366,11 +337,9 @@ class DisplacedPair:
         return found
 
     def tip_contacts(self, entering: bool) -> Bools:
-        """Return a mask of shape (trials,): True if tips meet where a tooth pair enters contact (`entering`) or leaves
-        it.
+        """Return a mask of the trials in which tips meet at an entry (`entering`: clash) or at an exit (dwell).
 
-        Contact of tips is a clash at an entry, and a dwell at an exit. It occurs if the neighbouring pair, which should
-        be in contact, causes a larger lag of the driven wheel than the pair itself.
+        Tips meet if the neighbouring pair, which should be in contact, has a larger lag than the pair itself.
         """
         at = self.contact
         x, j = (at.start - at.entering.most, 1) if entering else (at.end + at.leaving.most, -1)
@@ -389,9 +358,9 @@ class DisplacedPair:
     # ----------------------------------------------------------------------------------------------- angle by angle
 
     def lag(self, rows: Ints, S: Floats, k: Ints, back: bool = False) -> Floats:
-        """Return the lag of the driven wheel [rad] due to tooth pairs k at driver angles S [rad].
+        """Return the lag of the driven wheel due to tooth pairs k at driver angles S, in the trials `rows` [rad].
 
-        For back flanks (`back`), the result is the angle by which the driven wheel is ahead.
+        back   True for the lead of the driven wheel due to the coast flanks
         """
         at, sign = self.contact, -1.0 if back else 1.0
         one, two, ratio = self.first, self.second, float(self.contact.ratio)
@@ -415,8 +384,10 @@ class DisplacedPair:
         return found
 
     def minimum_lag(self, rows: Ints, S: Floats, back: bool = False) -> tuple[Floats, Ints]:
-        """Return the minimum lag of the driven wheel [rad] at driver angles S [rad], and the number of the tooth pair
-        that causes this lag. The lag is inf if no teeth touch.
+        """Return the minimum lag at driver angles S [rad], inf if no teeth touch, and the number of its tooth pair.
+
+        rows   indices of the trials, one for each angle
+        back   True for the lead of the driven wheel due to the coast flanks
         """
         sign, pitch = -1.0 if back else 1.0, self.contact.pitches[0]
         n = np.floor(S / pitch).astype(np.int64)
@@ -436,9 +407,7 @@ def even_backlash(contact: DisplacedContact) -> float:
 
 
 def mean_lag(contact: DisplacedContact) -> float:
-    """Return the mean lag of the driven wheel of a perfect pair [rad]; 0 for conjugate flanks at the nominal centre
-    distance.
-    """
+    """Return the mean lag of the driven wheel of a perfect pair [rad]; 0 for conjugate flanks at nominal distance."""
     if not contact.even.any():
         return 0.0
     pair = DisplacedPair(contact, *(DisplacedWheel.even(wheel.z) for wheel in contact.wheels))
@@ -447,14 +416,10 @@ def mean_lag(contact: DisplacedContact) -> float:
     return float(pair.minimum_lag(np.zeros(_FINE, np.int64), S)[0].mean())
 
 
-def terms_at(terms: Any, rows: Ints, n: Ints) -> Floats:
-    """Return the entries of an array of lag terms for one tooth number n in each selected trial."""
-    return np.asarray(terms)[rows, n] if np.ndim(terms) > 1 else np.asarray(terms)[n]
-
-
 def minimum_sum_places(driver: Any, driven: Any, count: int) -> tuple[Floats, Ints, Ints]:
-    """Return the minimum sum as defined by `extreme_sum`, and the tooth indices of its two terms, three arrays of shape
-    (trials,).
+    """Return the minimum of `extreme_sum`, and the indices of its driver and driven terms, each of shape (trials,).
+
+    count   number of trials
     """
     one, two = by_residue(np.atleast_2d(driver), np.atleast_2d(driven))
     rests = one.shape[-1]

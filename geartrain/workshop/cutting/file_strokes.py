@@ -1,14 +1,13 @@
-"""Filing of pairs to fit: a pair is turned through its meshing cycle, and each tooth that jams is filed until the pair
-turns.
+"""Filing of pairs to fit, until they turn through their meshing cycle without a jam.
 
 At minimum backlash, four flanks of two tooth pairs are in contact. The flank that protrudes most is filed until the
-tooth pairs pass. This is repeated at the next tightest position, until the pair turns through its cycle.
+tooth pairs pass. This is repeated at the next tightest position.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import cos
 from typing import TYPE_CHECKING, Generic, TypeVar
 
@@ -17,7 +16,7 @@ import numpy as np
 from geartrain.workshop.cutting.meshing_cycle import CHUNK, MeshingCycle, TightPlace, chunks
 
 if TYPE_CHECKING:
-    from geartrain.numerics.arrays import Bools, Floats, Ints
+    from geartrain.numerics.arrays import Floats, Ints
     from geartrain.workshop.cutting.cut_wheel import CutGearPair, CutWheel
     from geartrain.workshop.cutting.displaced_pair import DisplacedPair
 
@@ -29,20 +28,19 @@ Pair = TypeVar("Pair", "CutGearPair", "DisplacedPair")
 
 @dataclass(frozen=True)
 class FilingWork(Generic[Pair]):
-    """Result of filing many pairs: the filed pairs, and the numbers of strokes and of filed teeth, both of shape
-    (trials,).
-    """
+    """Filed gear pairs, one for each trial."""
 
     pair: Pair
     strokes: Ints
+    """Number of strokes of the file in each trial."""
     teeth: Ints
+    """Number of filed teeth in each trial."""
 
 
 def file_to_fit(
     pair: Pair, tight_place: Callable[[Pair], TightPlace], stroke: float, deepest: float
 ) -> FilingWork[Pair]:
-    """Return pairs, one for each trial, that are filed until they turn without a jam. Each stroke removes the depth
-    `stroke`.
+    """Return pairs, one for each trial, filed by strokes of the depth `stroke` until they turn without a jam.
 
     A pair remains jammed if a depth above `deepest` would have to be removed from a flank.
 
@@ -56,7 +54,7 @@ def file_to_fit(
         tight = tight_place(part)
         # pairs that pass are not evaluated again
         jams = tight.backlash < 0
-        active, tight = active[jams], _some(tight, jams)
+        active, tight = active[jams], TightPlace._make(each[jams] for each in tight)
         if not len(active):
             break
         # the minimum number of strokes for this position; if it is not enough, the position is found again
@@ -76,16 +74,8 @@ def file_to_fit(
     return FilingWork(pair.filed((low[0], low[1])), strokes, np.asarray(teeth))
 
 
-def _some(tight: TightPlace, rows: Bools) -> TightPlace:
-    return replace(
-        tight, **{name: getattr(tight, name)[rows] for name in ("backlash", "wheel", "tooth", "side", "gain")}
-    )
-
-
 def tight_place(pair: CutGearPair) -> TightPlace:
-    """Return the position of minimum backlash of triangular pairs and, among the flanks in contact there, the one that
-    protrudes most.
-    """
+    """Return the minimum backlash of triangular pairs, and the most protruding flank in contact there."""
     parts = [MeshingCycle(part).tightest() for part in chunks(pair, CHUNK // pair.count)]
     backlash, front, apart = (np.concatenate(each) for each in zip(*parts, strict=True))
     rows, (z1, z2), sizes = np.arange(len(backlash)), pair.teeth, pair.sizes
@@ -109,9 +99,7 @@ def tight_place(pair: CutGearPair) -> TightPlace:
 
 
 def _flank_height(wheel: CutWheel, side: int) -> Floats:
-    """Return the height of each flank above its nominal position, along its normal and at half the tooth depth, shape
-    (..., z).
-    """
+    """Return the height of each flank above its nominal position, along its normal at half the depth, (..., z)."""
     lean, ahead = (wheel.leading, -wheel.place) if side == 0 else (wheel.trailing, wheel.place)
     half = abs(wheel.radius) * (1 - cos(np.pi / wheel.z)) / 2
     found: Floats = cos(wheel.half_angle) * np.abs(wheel.r) * ahead + np.sin(wheel.half_angle) * wheel.tip + half * lean

@@ -21,8 +21,7 @@ if TYPE_CHECKING:
 def measured_motion(
     train: GearTrain, state: str | None = None, outputs: Sequence[str] = (), without: Sequence[str] = ()
 ) -> Motion:
-    """Return the motion of a train with its wheels as measured. It includes tables, fixed errors and filing, but not
-    random errors.
+    """Return the motion of a train with the measured teeth, fixed errors and filing of its wheels.
 
     The arguments `state`, `outputs` and `without` are described in `GearTrain.motion`. Raises `QuestionError` if no
     wheel has measured teeth or fixed errors, and `RangeError` if a pair jams or disengages.
@@ -39,12 +38,16 @@ def measured_motion(
         cut, good = drawn.pair(at), drawn.good[pair.first][0] and drawn.good[pair.second][0]
         events = pair.verdicts(cut)
         if events.jams[0] or events.disengaged[0] or not good:
-            what, why = f"pair '{pair.name}' cannot turn with its teeth as measured", "it jams or disengages"
+            what = f"pair '{pair.name}' cannot turn with its teeth as measured"
+            why = (
+                "a wheel cannot be cut" if not good else "its teeth jam" if events.jams[0] else "its teeth lose contact"
+            )
             fix = "change its clearance, or let it be filed: `fitting: {filing: {stroke: 1 %}}`"
             raise RangeError(Problem(what, why, fix))
         found[pair.name] = pair.transmission(cut, np.array(0))
     if not found:
-        what, why = f"no wheel of '{train.name}' is measured", "random errors are omitted"
+        what = f"no wheel of '{train.name}' is measured"
+        why = "a motion without random errors needs measured teeth or fixed errors"
         raise QuestionError(Problem(what, why, "declare `cutting: {measured: {csv: FILE}}` for a wheel"))
     return train.motion(state, outputs, without)._with_transmissions(found)
 

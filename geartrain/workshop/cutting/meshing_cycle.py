@@ -1,16 +1,14 @@
 """Events of many pairs of cut wheels, computed together: jam, clash, dwell and loss of contact.
 
-Events occur only at a few positions. Flanks jam where the distance of a front and a back tooth pair is a minimum
-(`tightest`). The driven wheel dwells only where a tooth pair leaves contact, and tips meet only where a tooth pair
-enters. Each of the lcm(z1, z2) tooth pairs in a cycle therefore needs only a few contact computations, without time
-steps (`MeshingCycle`).
+Flanks jam where the distance of a front and a back tooth pair is a minimum (`tightest`). The driven wheel dwells only
+where a tooth pair leaves contact, and tips meet only where a tooth pair enters. Each of the lcm(z1, z2) tooth pairs in
+a cycle therefore needs only a few contact computations, without time steps (`MeshingCycle`).
 
 With pitch deviations only, a trial costs z1 + z2 operations for a cycle of any length: 1000 trials of `freeth-2021-cut`
-take 13 s, compared with 412 s if every tooth pair is computed. The contact of every tooth pair is the same function,
-and the driven teeth only add their deviations. The minimum backlash of a front tooth pair against the back tooth pair n
-before it is J_n(difference of the two driving teeth) minus the distance between the two driven teeth: one term depends
-on driving teeth, the other on driven teeth. Over lcm(z1, z2) tooth pairs, two teeth meet if their numbers are congruent
-modulo gcd(z1, z2). So the minimum of the sums is, in each residue class, the sum of the two minima.
+take 13 s, compared with 412 s if every tooth pair is computed. The minimum backlash of a front tooth pair against the
+back tooth pair n before it is J_n(difference of the two driving teeth) minus the distance between the two driven teeth.
+Over lcm(z1, z2) tooth pairs, two teeth meet if their numbers are congruent modulo gcd(z1, z2). So the minimum of the
+sums is, in each residue class, the sum of the two minima.
 
 With the driver's front tooth at x and its back tooth `delta` before it, the backlash is f(x) + f'(delta - x) plus terms
 of the driven teeth. Here f belongs to the leading flank and f' to the mirrored tooth pair. Both are the minimum of two
@@ -20,11 +18,11 @@ smooth functions, or is at an end of the common reach.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 from math import erfc, floor, gcd, inf, sqrt
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -51,10 +49,7 @@ class MeshingVerdicts:
     """Events of each trial over the meshing cycle, as arrays of shape (trials,)."""
 
     backlash: Floats
-    """Minimum backlash over the meshing cycle [rad of the driven wheel].
-
-    It is negative if front and back flanks overlap (jam), and inf if no teeth touch.
-    """
+    """Minimum backlash over the cycle [rad of the driven wheel]: negative in a jam, and inf if no teeth touch."""
     clash: Bools
     """Mask of clashes: while the driven wheel lags, a tooth enters with its tip against or ahead of the tip of its
     mate.
@@ -74,30 +69,26 @@ class MeshingVerdicts:
 
     @property
     def stops(self) -> Bools:
-        """Mask of pairs that jam or clash, and therefore cannot turn through their cycle while the driven
-        wheel lags.
-        """
+        """Mask of pairs that jam or clash, and cannot turn through their cycle while the driven wheel lags."""
         return self.jams | self.clash
 
     @classmethod
     def joined(cls, parts: list[MeshingVerdicts]) -> MeshingVerdicts:
         """Return the verdicts of several batches, concatenated into one object."""
-        names = cls.__slots__
-        return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in names))
+        return cls(*(np.concatenate([getattr(part, name) for part in parts]) for name in cls.__slots__))
 
 
-@dataclass(frozen=True)
-class TightPlace:
+class TightPlace(NamedTuple):
     """Position of minimum backlash of each pair, and the flank to be filed there."""
 
     backlash: Floats
     """Minimum backlash over the meshing cycle [rad of the driven wheel]; negative if the pair jams."""
     wheel: Ints
-    """Wheel to be filed: 0 for the driver, 1 for the driven wheel. `tooth` is the index of its tooth, and `side` its
-    flank (0 leading, 1 trailing).
-    """
+    """Wheel to be filed: 0 for the driver, 1 for the driven wheel."""
     tooth: Ints
+    """Index of the tooth to be filed."""
     side: Ints
+    """Flank to be filed: 0 for the leading flank, 1 for the trailing flank."""
     gain: Floats
     """Maximum increase of the backlash per unit depth of filing [rad of the driven wheel per unit of length]."""
 
@@ -105,8 +96,7 @@ class TightPlace:
 def batch_verdicts(
     sizes: TriangularSizes, first: CutWheel, second: CutWheel, shift: Any = 0.0, chunk: int = CHUNK
 ) -> MeshingVerdicts:
-    """Return the events of each trial. Wheels have arrays of shape (trials, z), or (z,) if the wheel is common to all
-    trials.
+    """Return the events of each trial. Arrays of the wheels have shape (trials, z), or (z,) if common to all trials.
 
     shift   increase of the centre distance [unit of the radii], one value or shape (trials,)
     chunk   number of tooth pairs processed at once
@@ -131,14 +121,11 @@ def chunks(pair: CutGearPair, trials: int) -> Iterator[CutGearPair]:
 
 @dataclass(frozen=True, slots=True)
 class BacklashCandidate:
-    """Combination of a drive-flank (front) tooth pair and the coast-flank (back) tooth pair n pairs before it, at the
-    minimum backlash of perfect wheels.
-
-    Each of the two tooth pairs is in a given phase, approach or recess.
-    """
+    """Drive-flank (front) tooth pair and the coast-flank (back) pair n pairs before it, at minimum backlash."""
 
     n: int
     phases: tuple[str, str]
+    """Phases of the front and of the back tooth pair, approach or recess."""
     offset: float
     """Angle of the front driving tooth from the line of centres at the minimum backlash, minus n/2 pitches [rad]."""
     backlash: float
@@ -146,8 +133,10 @@ class BacklashCandidate:
 
 
 def common(front: CutToothPairs, back: CutToothPairs, delta: Any) -> tuple[Any, Any]:
-    """Return the lower and upper limits of the front tooth's driver angle [rad] at which both tooth pairs can touch.
-    The range is empty if low > high.
+    """Return the limits of the angle of the front driving tooth between which both tooth pairs can touch [rad].
+
+    The range is empty if the lower limit exceeds the upper limit. `delta` is the angle from the front to the back
+    driving tooth [rad].
     """
     return np.maximum(-front.reach, delta - back.reach), np.minimum(front.reach, delta + back.reach)
 
@@ -155,13 +144,12 @@ def common(front: CutToothPairs, back: CutToothPairs, delta: Any) -> tuple[Any, 
 def minimum_backlash_sum(
     front: CutToothPairs, back: CutToothPairs, delta: Any, phases: tuple[str, str]
 ) -> tuple[Any, Any]:
-    """Return the minimum backlash of a front (drive-flank) and a back (coast-flank) tooth pair, each in one phase, and
-    the driver angle there [rad].
+    """Return the minimum backlash of a front and a back tooth pair, each in one phase, and its driver angle [rad].
 
-    The backlash is the sum of their contact functions; it is inf if the pairs never touch at the same time. The
-    algorithm is Newton's method safeguarded by bisection, starting at half of `delta`. The last step improves only the
-    minimum value, by parabolic interpolation.
+    The backlash is the sum of their contact functions; it is inf if the pairs never touch at the same time. `delta` is
+    the angle from the front to the back driving tooth [rad].
     """
+    # Newton's method safeguarded by bisection; the last step improves only the value, by parabolic interpolation
     low, high = common(front, back, delta)
     minimum, most = low, high
     near = _NEAR * (most - minimum)
@@ -192,10 +180,9 @@ def _slopes(front: CutToothPairs, back: CutToothPairs, delta: Any, phases: tuple
 
 
 def minimum_sum(front: CutToothPairs, back: CutToothPairs, delta: Any) -> Any:
-    """Return the minimum of f(x) + f'(delta - x) [rad] over the driver angles x at which both tooth pairs can touch.
+    """Return the minimum backlash of a front and a back tooth pair over all phases [rad]; inf if they never touch.
 
-    Here f and f' are the contact functions of the front (drive-flank) pair and of the mirrored back (coast-flank) pair.
-    The result is inf if the pairs never touch at the same time.
+    delta   angle from the front to the back driving tooth (rad)
     """
     low, high = common(front, back, delta)
     with np.errstate(all="ignore"):
@@ -211,11 +198,9 @@ def even_tooth_pair(sizes: TriangularSizes) -> CutToothPairs:
 
 @lru_cache(maxsize=1024)
 def backlash_candidates(sizes: TriangularSizes, most: int) -> tuple[BacklashCandidate, ...]:
-    """Return the minima of the backlash of perfect wheels, for coast-flank tooth pairs up to `most` pairs before a
-    drive-flank pair.
+    """Return the backlash minima of perfect wheels, for coast-flank pairs up to `most` pairs before a drive-flank pair.
 
-    For each number n of pairs between them, the result contains the phases whose minimum is within `SLACK` of the
-    smallest minimum.
+    For each distance n, it contains the phases whose minimum is within `SLACK` of the smallest minimum.
     """
     tooth_pair = even_tooth_pair(sizes)
     candidates = []
@@ -235,23 +220,18 @@ def backlash_candidates(sizes: TriangularSizes, most: int) -> tuple[BacklashCand
 
 
 def farthest(pair: CutGearPair) -> int:
-    """Return the maximum number of pitches between two tooth pairs that are in contact at once; -1 if no pair can
-    touch.
-    """
+    """Return the maximum number of pitches between two tooth pairs in contact at once; -1 if no pair can touch."""
     if pair.widest <= 0:
         return -1
     return floor((2 * pair.widest + 2 * float(np.abs(pair.first.place).max())) / pair.sizes.p1)
 
 
 def steepest(tooth_pair: CutToothPairs) -> float:
-    """Return the maximum speed ratio of a tooth pair, which occurs where its tips meet at entry.
-
-    The result is 0 if the teeth never touch, and inf if the ratio is undefined.
-    """
+    """Return the maximum speed ratio of a tooth pair: 0 if the teeth never touch, inf if it is undefined."""
     if not tooth_pair.reach > 0:
         return 0.0
     with np.errstate(all="ignore"):
-        tau = float(tooth_pair.speed(APPROACH, tooth_pair.reach, np))
+        tau = float(tooth_pair.speed(APPROACH, tooth_pair.reach, np))  # it occurs where the tips meet at entry
     return tau if 0 < tau < inf else inf
 
 
@@ -306,15 +286,11 @@ class MeshingCycle:
     # ------------------------------------------------------------------------------------------------------- positions
 
     def ahead(self, n: int) -> Any:
-        """Return the angle by which each driving tooth is behind the driving tooth of the tooth pair n pairs before it
-        [rad].
-        """
+        """Return the angle from each driving tooth to the driving tooth n tooth pairs before it [rad]."""
         return n * self.sizes.p1 + (self.driver - np.roll(self.driver, n, -1))
 
     def apart(self, n: int) -> Any:
-        """Return the angle by which each driven tooth is behind the driven tooth of the tooth pair n pairs before it
-        [rad].
-        """
+        """Return the angle from each driven tooth to the driven tooth n tooth pairs before it [rad]."""
         return n * self.sizes.p2 + (self.driven - np.roll(self.driven, n, -1))
 
     def _all(self, found: Any) -> Any:
@@ -323,13 +299,10 @@ class MeshingCycle:
     # ------------------------------------------------------------------------------------------------------------ jams
 
     def tightest(self) -> tuple[Floats, Ints, Ints]:
-        """Return for each trial the minimum backlash [rad], its front (drive-flank) tooth pair, and the distance to its
-        back (coast-flank) tooth pair.
-
-        The distance is the number of tooth pairs from the back pair to the front pair.
-
-        The backlash is estimated for all tooth pairs, and computed exactly for those near the minimum.
+        """Return the minimum backlash of each trial [rad], the number of its front tooth pair, and the number of tooth
+        pairs from there back to its back tooth pair.
         """
+        # the backlash is estimated for all tooth pairs, and computed exactly for those near the minimum
         rough: dict[int, Any] = {}
         backlash = np.full(self.trials, inf)
         where = np.zeros((2, self.trials), np.int64)
@@ -342,8 +315,9 @@ class MeshingCycle:
         return backlash, where[0], where[1]
 
     def _refine(self, backlash: Floats, where: Ints, n: int, rough: Floats) -> None:
-        """Compute the exact backlash of the tooth pairs that may have the minimum backlash, with an adaptive margin,
-        and store it.
+        """Replace the estimated minimum `backlash`, and its tooth pairs `where`, by exact values.
+
+        rough   estimated backlash of all front pairs and the back pairs n before them (rad), (trials, tooth pairs)
         """
         slack, open_ = SLACK * self.sizes.p2, np.isfinite(rough)
         chosen = np.zeros_like(open_)
@@ -364,9 +338,7 @@ class MeshingCycle:
             slack = max(slack, 2 * float(np.max(rough[rows, columns] - exact)))
 
     def _rough(self, pinch: BacklashCandidate) -> Any:
-        """Return an upper bound of the backlash of every tooth pair [rad]: the backlash at the position of the nominal
-        minimum.
-        """
+        """Return the backlash of every tooth pair at the position of the candidate `pinch`: an upper bound [rad]."""
         delta, back = self.ahead(pinch.n), self.back.rolled(pinch.n)
         low, high = common(self.front, back, delta)
         with np.errstate(all="ignore"):
@@ -375,17 +347,11 @@ class MeshingCycle:
             return np.where(low < high, y, inf) + self._driven_term(pinch.n)
 
     def _driven_term(self, n: int) -> Any:
-        """Return the contribution of the driven teeth [rad] to the backlash between each front (drive-flank) pair and
-        the back (coast-flank) pair n pairs before it.
-        """
+        """Return the term of the driven teeth in the backlash of front pairs and the back pairs n before them [rad]."""
         return (1 - n) * self.sizes.p2 + (np.roll(self.driven, n - 1, -1) - self.driven)
 
     def _exactly(self, rows: Any, columns: Any, n: int) -> Floats:
-        """Return the exact backlash [rad] between selected front (drive-flank) pairs and the back (coast-flank) pairs n
-        pairs before them.
-
-        `rows` and `columns` are the indices of the trials and of the front pairs.
-        """
+        """Return the exact backlash of the front pairs `columns` and back pairs n before, in trials `rows` [rad]."""
 
         def at(columns: Any) -> Any:
             return lambda each: self._all(each)[rows, columns] if np.ndim(each) else each
@@ -398,19 +364,14 @@ class MeshingCycle:
     # ------------------------------------------------------------------------------------------------ entries and exits
 
     def _pairs_in_reach(self) -> int:
-        """Return an upper bound of the number of tooth pairs that can be in contact at once.
-
-        The bound is the number of pairs in the cycle minus 2 if some tooth pair can never touch.
-        """
+        """Return an upper bound of the number of tooth pairs that can be in contact at once."""
         place = self.pair.first.place
         if self.pair.widest == -inf or not np.all(np.asarray(self.front.reach) > -inf):
             return self.pair.count - 2  # a tooth may be missing, so the next pushing pair may be far behind
         return max(1, int(np.ceil((2 * self.pair.widest + float(place.max() - place.min())) / self.sizes.p1)))
 
     def dwells(self) -> Bools:
-        """Return a mask of shape (trials,): True if some tooth pair leaves contact before a later pair touches its
-        driven tooth (dwell).
-        """
+        """Return a mask of the trials in which a tooth pair leaves contact before a later pair touches (dwell)."""
         front = self.front
         dwelling: Any = np.array(self._all(self.front.reach > -inf))
         limit = self._all(front.exit_angle) + ROUNDING * self.sizes.p2
@@ -425,9 +386,7 @@ class MeshingCycle:
         return found
 
     def clashes(self) -> Bools:
-        """Return a mask of shape (trials,): True if some tooth pair enters while its driven tooth is behind the tip of
-        the driving tooth (clash).
-        """
+        """Return a mask of the trials in which a driven tooth is behind the tip of its entering mate (clash)."""
         tip = self._all(-self.front.exit_angle) + ROUNDING * self.sizes.p2
         y = np.where(self._all(self.front.reach > -inf), inf, -inf)
         for n in range(1, self._pairs_in_reach() + 2):
@@ -438,11 +397,7 @@ class MeshingCycle:
         return found
 
     def backlash_at_entries(self) -> Floats:
-        """Return the minimum backlash at positions where a coast-flank pair enters contact and the driven wheel may
-        dwell [rad].
-
-        The result has shape (trials,).
-        """
+        """Return the minimum backlash of each trial where coast flanks enter contact [rad], for trials with dwells."""
         y = np.full((self.trials, self.pair.count), inf)
         for n in range(self._pairs_in_reach() + 2):
             y = np.minimum(y, self._before(n, self.back.reach))
@@ -451,11 +406,9 @@ class MeshingCycle:
         return found
 
     def _before(self, n: int, reach: Any) -> Any:
-        """Return the driven tooth's angle from the line of centres while the tooth pair n pairs before its own pair is
-        in contact [rad].
+        """Return the angle of each driven tooth from the line of centres [rad] when its mate is at the angle `reach`.
 
-        The driving tooth of the driven tooth's own pair is then at the angle `reach`. The result is inf if the teeth do
-        not touch.
+        The tooth pair n pairs earlier determines the angle; it is inf if that pair does not touch.
         """
         before = self.front.rolled(n)
         x = self._all(reach) - self.ahead(n)
@@ -464,16 +417,13 @@ class MeshingCycle:
 
     @staticmethod
     def _held(tooth_pairs: CutToothPairs, x: Any) -> Any:
-        """Return the driven tooth's angle from the line of centres [rad] in contact at driver angle x [rad].
-
-        After the loss of contact, the result is the angle at which contact ended.
-        """
+        """Return the angle of the driven tooth at the driver angle x [rad]; after contact, its angle at the exit."""
         with np.errstate(all="ignore"):
             y = tooth_pairs.contact(np.clip(x, -tooth_pairs.reach, tooth_pairs.reach))
             return np.where(x < -tooth_pairs.reach, tooth_pairs.exit_angle, y)
 
     def disengaged(self) -> Bools:
-        """Return a mask of shape (trials,): True if at some position no drive flanks or no coast flanks can touch."""
+        """Return a mask of the trials in which no drive flanks or no coast flanks can touch at some position."""
         return self._gap(self.front) | self._gap(self.back)
 
     def _gap(self, tooth_pairs: CutToothPairs) -> Bools:
@@ -496,9 +446,7 @@ class MeshingCycle:
 
 
 def verdicts_of_pitch_errors(pair: CutGearPair, chunk: int) -> MeshingVerdicts:
-    """Return the events of each trial that has pitch deviations only. Trials with uncertain events are recomputed pair
-    by pair.
-    """
+    """Return the events of trials with pitch deviations only; uncertain trials are recomputed pair by pair."""
     teeth, never = _EntriesAndExits(pair), np.zeros(pair.trials, bool)
     found = MeshingVerdicts(backlash_of_pitch_errors(pair), never, never.copy(), teeth.disengaged)
     backlash, size = found.backlash, max(1, chunk // pair.count)
@@ -517,9 +465,7 @@ def _parts(chosen: Bools, size: int) -> Iterator[Ints]:
 
 
 def backlash_of_pitch_errors(pair: CutGearPair) -> Floats:
-    """Return the minimum backlash over the meshing cycle [rad of the driven wheel] with an accuracy of 1e-6 pitch,
-    shape (trials,).
-    """
+    """Return the minimum backlash over the meshing cycle with an accuracy of 1e-6 pitch [rad], shape (trials,)."""
     sizes = pair.sizes
     driver, driven = pair.first.place, pair.second.place
     # two driving teeth may deviate in opposite directions; a power of 2, so that few tables serve many batches
@@ -547,19 +493,17 @@ def by_residue(driver: Any, driven: Any) -> list[Any]:
 
 
 def extreme_sum(driver: Any, driven: Any, extreme: Any) -> Any:
-    """Return the minimum or maximum of the sum of a driver term and a driven term over all teeth that meet in the
-    cycle.
-    """
+    """Return the extreme sum of a driver term and a driven term over all teeth that meet in the meshing cycle."""
     one, two = by_residue(driver, driven)
     return extreme.reduce(extreme.reduce(one, axis=-2) + extreme.reduce(two, axis=-2), axis=-1)
 
 
 @lru_cache(maxsize=256)
 def _table(sizes: TriangularSizes, n: int, spread: float) -> Floats:
-    """Return a table of the minimum backlash J_n between a drive-flank pair and the coast-flank pair n pairs before it
-    [rad].
+    """Return a table of the minimum backlash of a drive-flank pair and the coast-flank pair n before it [rad].
 
-    In the table, the angle between the two driving teeth deviates by up to `spread` from its nominal value [rad].
+    Its entries are for equally spaced deviations of the angle between the two driving teeth, from -`spread` to
+    `spread` [rad].
     """
     nodes = np.linspace(-spread, spread, _NODES)
     tooth_pair = even_tooth_pair(sizes)
@@ -571,7 +515,7 @@ def _table(sizes: TriangularSizes, n: int, spread: float) -> Floats:
 
 
 def _read(table: Floats, spread: float, apart: Floats) -> Floats:
-    """Interpolate a table over -`spread` to `spread` linearly at `apart`; np.interp would search for each node."""
+    """Return linearly interpolated values of a `_table` at the deviations `apart`; np.interp would be slower."""
     at = (apart + spread) * ((_NODES - 1) / (2 * spread))
     low = np.clip(at.astype(np.int64), 0, _NODES - 2)
     found: Floats = table[low] + (table[low + 1] - table[low]) * (at - low)
@@ -579,9 +523,7 @@ def _read(table: Floats, spread: float, apart: Floats) -> Floats:
 
 
 class _EntriesAndExits:
-    """Entries and exits of teeth that have the same contact function, to which driven teeth only add their pitch
-    deviations.
-    """
+    """Entries and exits of teeth that have only pitch deviations, so that all have the same contact function."""
 
     def __init__(self, pair: CutGearPair) -> None:
         self.pair, self.sizes = pair, pair.sizes
@@ -591,24 +533,20 @@ class _EntriesAndExits:
         self.driver, self.driven = (np.atleast_2d(wheel.place) for wheel in (pair.first, pair.second))
 
     def _between(self, n: int) -> tuple[Any, Any]:
-        """Return the angles from each tooth to the tooth n teeth later, for the driver and for the driven
-        wheel [rad].
-        """
+        """Return the angles from each tooth to the tooth n teeth later [rad], for driver and driven wheel."""
         driver = n * self.sizes.p1 + np.roll(self.driver, -n, -1) - self.driver
         return driver, n * self.sizes.p2 + np.roll(self.driven, -n, -1) - self.driven
 
     def _entering(self, n: int) -> tuple[Any, Any]:
-        """Return the driven tooth's angle from the line of centres at its entry into contact [rad], as two terms to be
-        added, one for each wheel.
+        """Return two terms, one of each wheel, whose sum is the angle of a driven tooth at its entry [rad].
 
-        The tooth pair n pairs earlier determines the angle, and both terms are indexed by its teeth.
+        The tooth pair n pairs earlier determines the angle, and both terms are indexed by the teeth of that pair.
         """
         driver, driven = self._between(n)
         return self._held(self.reach - driver), driven
 
     def _leaving(self, n: int) -> tuple[Any, Any]:
-        """Return the driven tooth's angle from the line of centres at its exit from contact [rad], as two terms to be
-        added, one for each wheel.
+        """Return two terms, one of each wheel, whose sum is the angle of a driven tooth at its exit [rad].
 
         The tooth pair n pairs later determines the angle.
         """
@@ -621,16 +559,14 @@ class _EntriesAndExits:
 
     @property
     def disengaged(self) -> Bools:
-        """Mask of shape (trials,): True if there is a position at which no tooth pair can touch."""
+        """Mask of the trials in which no tooth pair can touch at some position."""
         gap = self._between(1)[0].max(axis=1) > 2 * self.reach + ROUNDING * self.sizes.p1
         found: Bools = np.broadcast_to(gap, self.pair.trials).copy()
         return found
 
     @property
     def doubtful(self) -> Bools:
-        """Mask of shape (trials,): True if the next tooth pair may be late at some position, so that all pairs must be
-        compared.
-        """
+        """Mask of the trials in which a tooth pair may touch too late, so that all tooth pairs must be compared."""
         if self.reach < 0:  # the tip circles do not intersect
             return np.zeros(self.pair.trials, bool)
         # far above rounding errors; closer cases are computed pair by pair
@@ -641,25 +577,22 @@ class _EntriesAndExits:
         return found
 
     def events(self) -> tuple[Bools, Bools, Floats]:
-        """Return masks of clashes and of dwells, and the minimum backlash at entries [rad] in trials with a dwell (inf
-        in trials without one).
-        """
-        dwelling = (self._minimum(self._leaving) > -self.tip + self.small).any(axis=1)
-        y = self._minimum(self._entering)
+        """Return masks of clashes and of dwells, and the minimum backlash at entries [rad] (inf without a dwell)."""
+        dwelling = (self._minimum(entering=False) > -self.tip + self.small).any(axis=1)
+        y = self._minimum(entering=True)
         clash = (y > self.tip + self.small).any(axis=1)
         next_on = self._between(1)[1][:, np.arange(self.pair.count) % self.sizes.z2]
         return clash, dwelling, np.where(dwelling, (y + next_on - self.tip).min(axis=1), inf)
 
-    def _minimum(self, terms: Callable[[int], tuple[Any, Any]]) -> Any:
-        """Return the minimum over neighbouring tooth pairs for each tooth pair of the cycle, shape (trials, tooth
-        pairs).
+    def _minimum(self, entering: bool) -> Any:
+        """Return the minimum angle of each driven tooth at its entry (`entering`) or exit [rad], over all tooth pairs
+        that can determine it, shape (trials, tooth pairs).
         """
         k = np.arange(self.pair.count)
-        coming = terms == self._entering
         spread = float(np.ptp(self.driver))
         found: Any = inf
-        for n in range(1, max(1, int(np.ceil((2 * self.reach + spread) / self.sizes.p1))) + 1 + coming):
-            own, other = terms(n)
-            at = k - n if coming else k
+        for n in range(1, max(1, int(np.ceil((2 * self.reach + spread) / self.sizes.p1))) + 1 + entering):
+            own, other = self._entering(n) if entering else self._leaving(n)
+            at = k - n if entering else k
             found = np.minimum(found, own[:, at % self.sizes.z1] + other[:, at % self.sizes.z2])
         return found

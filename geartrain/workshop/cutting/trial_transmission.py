@@ -45,15 +45,10 @@ class TrialTransmissionFunction(TransmissionFunction):
 
     @abstractmethod
     def _evaluate(self, S: Floats, rows: Ints) -> tuple[Floats, Floats]:
-        """Return the transmission errors [rad of the driven wheel] and the speed ratios of the selected trials at
-        driver angles S [rad].
-        """
+        """Return transmission errors [rad of the driven wheel] and speed ratios of trials `rows` at angles S [rad]."""
 
     def error_and_speed(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Return transmission errors [rad of the driven wheel] and speed ratios at driver angles S [rad].
-
-        The error is -inf if no teeth touch.
-        """
+        """Return transmission errors (-inf if no teeth touch) and speed ratios at driver angles S [rad]."""
         angles = np.asarray(S, dtype=float)
         S = angles.ravel()
         rows = np.broadcast_to(self.rows, S.shape) if self.measured else self.rows
@@ -76,9 +71,7 @@ class TrialTransmissionFunction(TransmissionFunction):
         raise QuestionError(Problem(what, why, "give positive turns, or omit the measured teeth"))
 
     def picked(self, columns: Ints) -> TrialTransmissionFunction:
-        """Return the transmission functions of the selected columns. Their transmission errors are also recorded in the
-        shared array `last`.
-        """
+        """Return the transmission functions for the driver angles with the given indices; they share `last`."""
         if self.measured:
             return self
         found = copy(self)
@@ -94,15 +87,11 @@ class TrialTransmissionFunction(TransmissionFunction):
         return self.error_and_speed(S)[1]
 
     def error_moments(self) -> tuple[float, float]:
-        """Return the mean transmission error of perfect wheels [rad] and the rms deviation 0, as the superposition of
-        errors requires. For a single trial, return the mean and the rms deviation of its samples.
-        """
+        """Return mean and rms deviation of the transmission error of a trial, or for many trials `even` and 0 [rad]."""
         return (float(self._samples.mean()), float(self._samples.std())) if self.measured else (self.even, 0.0)
 
     def error_range(self) -> tuple[float, float]:
-        """Return infinite limits, because the range of the transmission error is unknown before all trials are
-        evaluated. For a single trial, return the limits of its samples [rad].
-        """
+        """Return the limits of the transmission error of a trial, or infinite limits for many trials [rad]."""
         return (float(self._samples.min()), float(self._samples.max())) if self.measured else (-inf, inf)
 
     @cached_property
@@ -111,15 +100,14 @@ class TrialTransmissionFunction(TransmissionFunction):
         return self.error(np.linspace(0, self.period, _SAMPLES * self.count, endpoint=False))
 
     def speed_range(self) -> tuple[float, float]:
-        """Return the limits 0 and infinity of the speed ratio, because its range is unknown before all trials are
-        evaluated.
-        """
+        """Return the limits 0 and infinity, because the range of the speed ratio of cut teeth is not known."""
         return 0.0, inf
 
 
 class CutTrialTransmission(TrialTransmissionFunction):
-    """Transmission function of triangular teeth. The arrays of each wheel of `pair` have shape (trials, z), or (z,) if
-    they are common to all trials.
+    """Transmission function of cut wheels with triangular teeth.
+
+    Arrays of the wheels have shape (trials, z), or (z,) if they are the same in all trials.
     """
 
     def __init__(self, pair: CutGearPair, even: float, rows: Ints) -> None:
@@ -145,8 +133,9 @@ class CutTrialTransmission(TrialTransmissionFunction):
         return -lag, self._speed(rows, first, (first - n) * pitch - u)
 
     def _lag(self, rows: Ints, k: Ints, ahead: Floats) -> Floats:
-        """Return the lag of the driven wheel due to tooth pairs k [rad]; inf before contact, and constant after
-        contact.
+        """Return the lag of the driven wheel due to tooth pairs k [rad]; inf before contact, constant after it.
+
+        ahead   angle from the line of centres to the nominal position of each driving tooth (rad)
         """
         pair, sizes = self.pair, self.pair.sizes
         i, j = k % sizes.z1, k % sizes.z2
@@ -159,7 +148,7 @@ class CutTrialTransmission(TrialTransmissionFunction):
         return np.where((x <= reach) & (reach > -inf), lag, inf)
 
     def _speed(self, rows: Ints, k: Ints, ahead: Floats) -> Floats:
-        """Return the speed ratio of tooth pairs k; 0 after a pair has left contact."""
+        """Return the speed ratio of tooth pairs k; 0 after a pair has left contact. `ahead` is as in `_lag`."""
         i, j = k % self.pair.sizes.z1, k % self.pair.sizes.z2
         x, tooth_pairs = ahead + of_teeth(self.pair.first.place, rows, i), self._tooth_pairs(rows, i, j)
         reach = tooth_pairs.reach
@@ -176,7 +165,7 @@ class CutTrialTransmission(TrialTransmissionFunction):
 
 
 class DisplacedTrialTransmission(TrialTransmissionFunction):
-    """Transmission function of teeth with displaced flanks: the foremost tooth pair drives."""
+    """Transmission function of teeth with displaced flanks: the tooth pair with the smallest lag drives."""
 
     def __init__(self, pair: DisplacedPair, even: float, rows: Ints) -> None:
         super().__init__(pair.teeth, even, rows)
@@ -189,7 +178,6 @@ class DisplacedTrialTransmission(TrialTransmissionFunction):
         step = _SLOPE * self.pitches[0]
         with np.errstate(invalid="ignore"):
             # inf - inf where no teeth touch
-            slope = (self.pair.lag(rows, rest + step, tooth_pair) - self.pair.lag(rows, rest - step, tooth_pair)) / (
-                2 * step
-            )
+            before, after = (self.pair.lag(rows, rest + sign * step, tooth_pair) for sign in (-1, 1))
+            slope = (after - before) / (2 * step)
         return -lag, np.where(np.isfinite(slope), float(self.ratio) - slope, 0.0)

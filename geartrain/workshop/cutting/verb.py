@@ -32,13 +32,12 @@ def run(file: File, json: Json = False, out: Out = None, force: Force = False) -
 
 
 def find_measured_wheels(train: Train) -> dict[str, WheelEstimate]:
-    """Return the estimates for all wheels with measured angles, keyed by wheel name. Raises `QuestionError` if there
-    are none.
-    """
+    """Return the estimates of all wheels with measured angles, by wheel. Raises `QuestionError` if there are none."""
     cut = {name: (wheel.count, wheel.cutting.measured) for name, (_, wheel) in train.wheels.items() if wheel.cutting}
     found = {name: estimate_measured(each, z) for name, (z, each) in cut.items() if z and each and each.angles}
     if not found:
-        what, why = f"no wheel of '{train.name}' has measured angles", "the estimates are computed from angles"
+        what = f"no wheel of '{train.name}' has measured angles"
+        why = "eccentricity and pitch deviations are estimated from the measured angles of teeth"
         raise QuestionError(Problem(what, why, "declare `cutting: {measured: {csv: FILE}}` for a wheel"))
     return found
 

@@ -36,11 +36,10 @@ _ROUNDING = 1e-15  # rad: minimum standard deviation, that of the angles of a pe
 
 
 def closed_steps(steps: Any) -> Floats:
-    """Return the deviations of teeth that are marked out one after another with the step errors `steps`, shape (...,
-    z).
+    """Return the deviations, with mean 0, of teeth marked out one after another with the step errors `steps`, (..., z).
 
-    The sum of all steps is a full turn, so the mean step error is subtracted (Brownian bridge). The mean deviation is
-    0. The covariance is equation (5) of docs/cut-by-hand.md.
+    The sum of all steps is a full turn, so the mean step error is subtracted (Brownian bridge). The covariance is
+    equation (5) of docs/cut-by-hand.md.
     """
     walk = np.cumsum(steps - np.mean(steps, axis=-1, keepdims=True), axis=-1)
     closed: Floats = walk - walk.mean(axis=-1, keepdims=True)
@@ -48,9 +47,7 @@ def closed_steps(steps: Any) -> Floats:
 
 
 def stepped_covariance(teeth: Ints, z: int) -> Floats:
-    """Return the covariance matrix of the deviations that `closed_steps` returns, for the teeth with given indices
-    among z teeth, if the steps have variance 1.
-    """
+    """Return the covariance matrix of `closed_steps` for the given teeth among z teeth, if steps have variance 1."""
     apart = np.abs(teeth[:, None] - teeth)
     found: Floats = (z * z - 1) / (12 * z) - apart * (z - apart) / (2 * z)
     return found
@@ -204,15 +201,19 @@ def estimate_wheel(
 
 
 def estimate_measured(measured: MeasuredTeeth, count: int) -> WheelEstimate:
-    """Return the estimates from the measured angles declared for a wheel, with the deviation model that von Neumann's
-    ratio indicates.
-    """
+    """Return the estimates from the measured angles that are declared for a wheel with `count` teeth."""
     angles = [None if each is None else each.si for each in measured.angles or ()]
     return estimate_wheel(angles, count, 0.0 if measured.error is None else measured.error.si)
 
 
 def _estimate(numbers: Ints, off: Floats, z: int, error: float, law: DeviationLaw | None) -> WheelEstimate:
-    """Return the estimates from the deviations `off` of measured teeth from an even division [rad]."""
+    """Return the estimates for a wheel with z teeth.
+
+    numbers   indices of the measured teeth
+    off       deviations of the measured teeth from an even division (rad)
+    error     standard deviation of the measurement error of an angle (rad)
+    law       assumed deviations of the teeth; None to choose by von Neumann's ratio
+    """
     from scipy.special import chdtri, fdtrc, fdtri, ncfdtrinc, stdtrit
 
     gamma, n, freedom = 2 * pi * numbers / z, len(numbers), len(numbers) - 3
@@ -271,6 +272,10 @@ def _successive_ratio(step: Floats, ratio: float, n: int) -> tuple[float, float]
     """Return von Neumann's ratio, scaled to all n - 1 differences, and its 5 % quantile for independent deviations.
 
     The ratio is nearly normal, with the moments of a quotient of quadratic forms of normal variables.
+
+    step    matrix that converts deviations to differences between the residuals of neighbouring teeth
+    ratio   sum of squares of these differences, divided by the sum of squares of the residuals
+    n       number of measured teeth
     """
     if not len(step) or n == FEWEST_ANGLES:  # with one degree of freedom the ratio is constant
         return nan, -inf

@@ -1,6 +1,4 @@
-"""Assembly instructions of an exported folder: its README, the assembly steps in order of height, and their
-pictures.
-"""
+"""Assembly instructions of an exported folder: README, assembly steps in order of height, and their pictures."""
 
 from __future__ import annotations
 
@@ -28,7 +26,6 @@ from geartrain.workshop.export.proof.train_proof import TrainProof
 from geartrain.workshop.export.proof.turned_pair import NOTHING, TOLERANCE
 
 if TYPE_CHECKING:
-    from geartrain.dynamics.train_teeth import PairBacklash
     from geartrain.numerics.arrays import Floats
     from geartrain.scene.parts.frame_plates import FramePlates
     from geartrain.scene.solids.solid_assembly import SolidModel
@@ -65,8 +62,7 @@ def readme(
     parts: bool,
     proof: TrainProof | None = None,
 ) -> str:
-    """Return the text of the README: verdict on cutting, lists of files, parts and assembly steps, and parts that could
-    not be made.
+    """Return the text of the README of an exported folder.
 
     files     paths and descriptions of the files
     missing   problems with parts that could not be made
@@ -92,28 +88,24 @@ def readme(
     if proof is not None:
         lines += _proof_lines(proof)
     if parts:
-        lines += [*_backlashes(work), *_parts(parts_list(work))]
+        if work.blanks.backlashes:
+            lines += ["", "## Backlash of the teeth as cut, along the pitch circles", ""]
+        for each in work.blanks.backlashes:
+            turned = zip(each.wheels, each.angles, strict=True)
+            angles = ", ".join(f"{degrees(angle):.4g}° of {wheel}" for wheel, angle in turned)
+            jams = "; the pair jams" if each.length < 0 else ""
+            lines.append(f"- {_cell(each.pair)}: {each.length:.4g} mm, {_cell(angles + jams)}")
+        lines += _parts(parts_list(work))
         if work.frame is not None:
-            lines += ["", "## Fits", "", *_fits(work), "", "## Assembly", "", *_steps(work, pictures)]
+            lines += ["", "## Fits", "", *_fits(work), "", "## Assembly", ""]
+            for number, step in enumerate(assembly_steps(work), 1):
+                picture = f" ([picture]({picture_path(number)}))" if pictures and step.parts and step.shown else ""
+                lines.append(f"{number}. {_cell(step.text)}{picture}")
     reported = set() if proof is None else {found.problem for found in proof.findings}
     if left := [each for each in missing if each not in reported]:
         lines += ["", "## Parts that could not be made", ""]
         lines += [f"- {_cell(each.text)}" for each in left]
     return "\n".join([*lines, ""])
-
-
-def _backlashes(work: SolidModel) -> list[str]:
-    """Return the lines of a list with the backlash of every pair of cut wheels."""
-    found = [f"- {_cell(each.pair)}: {each.length:.4g} mm, {_cell(_angles(each))}" for each in work.blanks.backlashes]
-    return ["", "## Backlash of the teeth as cut, along the pitch circles", "", *found] if found else []
-
-
-def _angles(backlash: PairBacklash) -> str:
-    """Return a phrase that gives the backlash as an angle of each wheel, and notes if the pair jams."""
-    turned = ", ".join(
-        f"{degrees(angle):.4g}° of {wheel}" for wheel, angle in zip(backlash.wheels, backlash.angles, strict=True)
-    )
-    return f"{turned}; the pair jams" if backlash.length < 0 else turned
 
 
 def _parts(rows: Sequence[ListedPart]) -> Iterator[str]:
@@ -132,12 +124,6 @@ def _fits(work: SolidModel) -> Iterator[str]:
     yield f"are {process.joint} (hole {process.press:+g} mm). An arbor between plates has {SHAKE:g} mm of end shake."
     kerf = f"are compensated for a kerf of {process.kerf:g} mm" if process.kerf else "have the finished size"
     yield f"Outlines in drawings {kerf}. These are typical values: cut a test piece first."
-
-
-def _steps(work: SolidModel, pictures: bool) -> Iterator[str]:
-    for number, step in enumerate(assembly_steps(work), 1):
-        picture = f" ([picture]({picture_path(number)}))" if pictures and step.parts and step.shown else ""
-        yield f"{number}. {_cell(step.text)}{picture}"
 
 
 def _cell(text: str) -> str:
@@ -200,17 +186,11 @@ class AssemblyStep(Shown):
     parts: tuple[str, ...]
     """Names of the parts that are added in this step."""
     shown: bool = True
-    """True if the picture of the assembly step shows the parts; False for hanging parts, which are too tall for a
-    picture.
-    """
+    """True if a picture of the step is drawn; False for hanging parts, which are too tall for a picture."""
 
 
 def assembly_steps(work: SolidModel) -> list[AssemblyStep]:
-    """Return the assembly steps of a train, from the arbors to the dials.
-
-    The steps follow this order: arbors with their wheels, parts on carriers, the back plate with its studs, all arbors,
-    the front plate, dials.
-    """
+    """Return the assembly steps of a train: arbors, parts on carriers, back plate, studs, front plate, dials."""
     return [] if work.frame is None else list(_Steps(work, work.frame).all())
 
 
@@ -269,9 +249,7 @@ class _Steps:
         yield AssemblyStep("Before oiling, turn the driving link until the slowest wheel has turned once", ())
 
     def _cross_parts(self) -> Iterator[AssemblyStep]:
-        """Yield the steps that mount the arms of pins, the cages of carriers and the brackets of arbors across the
-        plates.
-        """
+        """Yield the steps that mount arms of pins, cages of carriers, and brackets of arbors across the plates."""
         arms = sorted(name for name in self.known if name.endswith(" pin arm"))
         cages = [part.name for cage in self.work.cages for part in cage.parts]
         brackets = [bracket.part.name for bracket in self.work.brackets]
@@ -331,9 +309,7 @@ class _Steps:
                 yield self._step(text, pins)
 
     def _on_eccentrics(self, names: Sequence[str]) -> Iterator[AssemblyStep]:
-        """Yield the steps that mount wheels on eccentrics. The eccentrics that a step requires are mounted in earlier
-        steps.
-        """
+        """Yield the steps that mount wheels on the given eccentrics."""
         every = self.plan.stack.eccentrics
         for each in (each for each in every if each.name in names):
             own = [other.name for other in every if other.wheels == each.wheels]
@@ -345,9 +321,7 @@ class _Steps:
                 yield self._step(text, [*each.wheels, *washers])
 
     def _carried(self) -> Iterator[AssemblyStep]:
-        """Yield the steps that mount the studs of carriers and the parts that turn on them, beginning next to the
-        carrier.
-        """
+        """Yield the steps that mount the studs of carriers with the parts that turn on them."""
         for seat in self.plan.choice.seats:
             own = {
                 label: column
@@ -427,9 +401,7 @@ class AssemblyPictures:
 
     @cached_property
     def boxes(self) -> dict[str, Floats]:
-        """Minimum and maximum of x (rightwards), y (upwards) and height of each part [mm], shape (2, 3),
-        keyed by part.
-        """
+        """Minimum and maximum of x (rightwards), y (upwards) and height of each part [mm], shape (2, 3)."""
         found = {}
         for name, part in self.parts.items():
             seen = part.placed.vertices @ self.stack.turn
@@ -478,8 +450,10 @@ class AssemblyPictures:
         return "\n".join([*lines, "</g></svg>", ""]).encode("utf-8")
 
     def _plan(self, part: SolidPart, corner: Floats, fine: bool) -> Iterator[str]:
-        """Yield the outlines of a part in the top view. Turned parts, and wheels of earlier steps, are drawn as
-        circles.
+        """Yield SVG paths of the outlines of a part in the top view.
+
+        corner   upper left corner of the view on the page (mm)
+        fine     True to draw the teeth of a wheel, False for a circle
         """
         low, high = self.extent
         # round parts, and wheels of earlier steps, are drawn as circles
@@ -502,8 +476,9 @@ class AssemblyPictures:
             yield _closed(x, corner[1] + high[1] - np.array([y0, y0, y1, y1]))
 
     def _names(self, step: AssemblyStep, labels: LabelBoxes, corner: Floats) -> Iterator[str]:
-        """Yield the labels of at most `_MOST_NAMED` new parts. A label that is far from the centre of its part is
-        connected to it by a line.
+        """Yield the SVG labels of the new parts, unless there are more than `_MOST_NAMED`.
+
+        A line connects a distant label to its part. `corner` is the upper left corner of the view on the page [mm].
         """
         low, high = self.extent
         for name in step.parts if len(step.parts) <= _MOST_NAMED else ():

@@ -1,8 +1,4 @@
-"""Flat drawings of an export for cutting: wheels, plates, and sheets of stock with all parts.
-
-Wheels of equal shape share one drawing. Outer edges are offset outwards, and the edges of holes inwards, by half the
-kerf. On sheets of stock, parts are placed in rows, the tallest first.
-"""
+"""Flat drawings of an export for cutting: wheels, plates, and sheets of stock with all parts."""
 
 from __future__ import annotations
 
@@ -40,10 +36,11 @@ class Sheet:
 
 
 def cut_sheets(work: SolidModel) -> Iterator[tuple[str, FlatDrawing]]:
-    """Yield path (without suffix) and kerf-compensated drawing for each shape of wheel, each plate and each sheet of
-    stock.
-    """
-    kerf, plates = work.process.kerf, plate_sheets(work)
+    """Yield path (without suffix) and kerf-compensated drawing of each shape of wheel, plate and sheet of stock."""
+    kerf, base = work.process.kerf, work.train.declaration.frame
+    plates = [] if work.frame is None else [_sheet(plate) for plate in work.frame.plates()]
+    plates += [Plate(base, each.name.replace(" ", "-"), each.drawing(), each.high - each.low) for each in work.dials]
+    plates += work.couplings.plates
     names = file_names(plate.name for plate in plates)
     flat = [("wheels", each) for each in wheel_sheets(work.blanks.wheels)]
     flat += [
@@ -131,9 +128,7 @@ def _drawing(group: list[Blank]) -> FlatDrawing:
 
 
 def _holes(blank: Blank) -> list[tuple[complex, float]]:
-    """Return the centres and radii [mm] of circles around the holes of a wheel, except its bore; empty for spoked
-    wheels.
-    """
+    """Return centres and radii of circles around the holes of a wheel, except bore and windows of spokes [mm]."""
     own = blank.contours[1:] if blank.kind == "external" else blank.contours[2:]
     found = []
     for hole in own if not blank.arms and blank.kind != "pins" else ():
@@ -148,8 +143,10 @@ def _holes(blank: Blank) -> list[tuple[complex, float]]:
 def _label_off_holes(
     holes: list[tuple[complex, float]], mark: EngravedText, inner: float, outer: float
 ) -> EngravedText:
-    """Return engraved text that is moved off the holes of a wheel, in the largest size that fits. If no size fits, it
-    is returned unchanged.
+    """Return engraved text moved off the holes of a wheel, in the largest size that fits, or else unchanged.
+
+    holes          centre and radius of each hole (mm)
+    inner, outer   radii between which the text must be (mm)
     """
 
     def free(at: complex, along: complex, height: float) -> bool:
@@ -181,14 +178,6 @@ def _label_off_holes(
 _LETTER = 1.8  # mm: height of letters next to holes
 
 
-def plate_sheets(work: SolidModel) -> list[Plate]:
-    """Return one drawing for each plate of the train."""
-    frame = [] if work.frame is None else [_sheet(plate) for plate in work.frame.plates()]
-    base = work.train.declaration.frame
-    dials = [Plate(base, each.name.replace(" ", "-"), each.drawing(), each.high - each.low) for each in work.dials]
-    return [*frame, *dials, *work.couplings.plates]
-
-
 def _sheet(plate: FlatPlate) -> Plate:
     x, y = plate.at
     marks = tuple(
@@ -208,12 +197,10 @@ _AROUND = 16  # chords per quarter circle around a corner
 
 
 def compensated(drawing: FlatDrawing, kerf: float) -> FlatDrawing:
-    """Return a drawing compensated for a kerf [mm]: outer edges are offset outwards, and holes inwards, by half the
-    kerf.
+    """Return a drawing with outer edges offset outwards, and holes inwards, by half the kerf [mm].
 
-    Circles remain circles. Other curves are replaced by chords within the tolerance of the drawing, and then offset.
-    Raises `GearTrainError` if a hole or slot is narrower than the cut, and `MissingExtraError` if shapely is not
-    installed.
+    Curves other than circles are replaced by chords within the tolerance of the drawing. Raises `GearTrainError` if a
+    hole or slot is narrower than the cut, and `MissingExtraError` if shapely is not installed.
     """
     if not kerf:
         return drawing
@@ -243,7 +230,7 @@ def _offset(contour: Contour, by: float, is_hole: bool, drawing: FlatDrawing) ->
 def _too_narrow(drawing: FlatDrawing, kerf: float) -> GearTrainError:
     name = drawing.title.split(":")[0]
     what = f"'{name}' has a hole or a slot narrower than the cut"
-    why = f"the kerf is {kerf:g} mm wide"
+    why = f"the cut (kerf) is {kerf:g} mm wide"
     return GearTrainError(Problem(what, why, "give a larger --module or --bore, or another --process", "--process"))
 
 
@@ -253,16 +240,12 @@ _CHORD = 0.005  # mm: maximum deviation of chords from a curve
 
 
 def stock_sheets(parts: Iterable[Sheet], size: tuple[float, float], gap: float) -> tuple[Sheet, ...]:
-    """Return all parts laid out on sheets of one size [mm]. Each sheet contains parts of one thickness only.
+    """Return all parts laid out on sheets of one size [mm], each with parts of one thickness.
 
-    The algorithm is next-fit decreasing height (Coffman et al. 1980, SIAM J. Comput. 9, 808). Parts are placed in rows,
-    the tallest first. A part that does not fit in the row begins the next one, and a row that does not fit begins the
-    next sheet. The longer side of a part is along the width of the sheet if it fits in this orientation, and along the
-    height if it does not.
+    The algorithm is next-fit decreasing height (Coffman et al. 1980, SIAM J. Comput. 9, 808). Raises `QuestionError` if
+    a part is larger than the sheet.
 
     gap   minimum distance between parts, and between a part and the edge of the sheet [mm]
-
-    Raises `QuestionError` if a part is larger than the sheet.
     """
     alike: dict[float, list[Sheet]] = {}
     for part in parts:
@@ -276,9 +259,7 @@ def stock_sheets(parts: Iterable[Sheet], size: tuple[float, float], gap: float) 
 
 
 def _fitted_to_sheet(part: Sheet, size: tuple[float, float], gap: float) -> Sheet:
-    """Return a part rotated so that it fits on a sheet, if possible with its longer side along the width of
-    the sheet.
-    """
+    """Return a part rotated to fit on a sheet, if possible with its longer side along the width of the sheet."""
     low, high = _box(part.drawing)
     wide, tall = (high - low).tolist()
     room = [side - 2 * gap for side in size]
@@ -288,7 +269,9 @@ def _fitted_to_sheet(part: Sheet, size: tuple[float, float], gap: float) -> Shee
         what = f"'{part.file}' does not fit on a sheet of {size[0]:g} x {size[1]:g} mm"
         why = f"it measures {wide:.4g} x {tall:.4g} mm, plus a gap of {gap:g} mm on all sides"
         raise QuestionError(Problem(what, why, "give a larger --sheet, or a smaller --module", "--sheet"))
-    return replace(part, drawing=_turned(part.drawing)) if ways[0] else part
+    # points are rows, so this is the transpose of a rotation by +90 degrees
+    quarter = np.array([[0.0, 1.0], [-1.0, 0.0]])
+    return replace(part, drawing=_moved(part.drawing, quarter, np.zeros(2), 90.0)) if ways[0] else part
 
 
 def _rows(pieces: list[Sheet], size: tuple[float, float], gap: float) -> Iterator[list[Sheet]]:
@@ -306,7 +289,7 @@ def _rows(pieces: list[Sheet], size: tuple[float, float], gap: float) -> Iterato
         if y + tall + gap > size[1]:
             yield sheet
             sheet, x, y, row = [], gap, gap, 0.0
-        sheet.append(replace(pieces[at], drawing=_shifted(pieces[at].drawing, np.array([x, y]) - low)))
+        sheet.append(replace(pieces[at], drawing=_moved(pieces[at].drawing, np.eye(2), np.array([x, y]) - low, 0.0)))
         x, row = x + wide + gap, max(row, tall)
     if sheet:
         yield sheet
@@ -329,15 +312,11 @@ def _box(drawing: FlatDrawing) -> tuple[Floats, Floats]:
     return points.min(axis=0) - _CHORD, points.max(axis=0) + _CHORD
 
 
-def _shifted(drawing: FlatDrawing, by: Floats) -> FlatDrawing:
-    cut = tuple(Contour(each.points + by, each.bulges) for each in drawing.cut)
-    marks = tuple(replace(each, at=(each.at[0] + float(by[0]), each.at[1] + float(by[1]))) for each in drawing.marks)
-    return replace(drawing, cut=cut, pitch=(), marks=marks, lines=tuple(line + by for line in drawing.lines))
-
-
-def _turned(drawing: FlatDrawing) -> FlatDrawing:
-    # points are rows, so this is the transpose of a rotation by +90 degrees; bulges do not change
-    turn = np.array([[0.0, 1.0], [-1.0, 0.0]])
-    cut = tuple(Contour(each.points @ turn, each.bulges) for each in drawing.cut)
-    marks = tuple(replace(each, at=(-each.at[1], each.at[0]), angle=each.angle + 90) for each in drawing.marks)
-    return replace(drawing, cut=cut, pitch=(), marks=marks, lines=tuple(line @ turn for line in drawing.lines))
+def _moved(drawing: FlatDrawing, turn: Floats, by: Floats, degrees: float) -> FlatDrawing:
+    """Return a drawing rotated by the matrix `turn` (an angle of `degrees`) and then shifted by `by` [mm]."""
+    cut = tuple(Contour(each.points @ turn + by, each.bulges) for each in drawing.cut)
+    spots = [(np.array(mark.at) @ turn + by).tolist() for mark in drawing.marks]
+    marks = tuple(
+        replace(mark, at=(x, y), angle=mark.angle + degrees) for mark, (x, y) in zip(drawing.marks, spots, strict=True)
+    )
+    return replace(drawing, cut=cut, pitch=(), marks=marks, lines=tuple(line @ turn + by for line in drawing.lines))

@@ -1,10 +1,8 @@
-"""Files of an export: a single file whose format follows from its suffix, or a whole folder. Tables of the train are
-written as CSV.
-"""
+"""Files of an export: a single file whose format follows from its suffix, or a whole folder with tables as CSV."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
@@ -28,7 +26,6 @@ from geartrain.workshop.rexs.unit_export import omitted_parts, to_rexs
 if TYPE_CHECKING:
     from geartrain.kinematics.answer import Answer
     from geartrain.scene.solids.solid_assembly import SolidModel
-    from geartrain.train import Train
 
 
 KINDS = ("svg", "dxf", "stl", "glb", "step", "graphml", "dot", "rexs", "csv")
@@ -71,9 +68,7 @@ class ExportFile(Shown):
 
 
 def installed(kinds: Sequence[str]) -> tuple[list[str], list[Problem]]:
-    """Return the formats whose libraries are installed, and a problem with the install command for each of the other
-    formats.
-    """
+    """Return the formats whose libraries are installed, and a problem for each of the other formats."""
     found, missing = [], []
     for kind in kinds:
         library, extra = _NEEDED.get(kind, ("", ""))
@@ -228,13 +223,14 @@ def export_files(
     unknown = [kind for kind in kinds if kind not in KINDS]
     if unknown:
         what = f"'{unknown[0]}' is not an export format"
-        why = "an export writes files in predefined formats"
+        why = "only these kinds of files can be written"
         raise QuestionError(Problem(what, why, f"use one or more of {', '.join(KINDS)}", "--as"))
     files = [*_sheets(work, kinds)]
     files += [ExportFile(*each) for each in (*maker_sheets(work), *step_pictures(work))] if "svg" in kinds else []
     if "csv" in kinds:
-        tables = to_tables(work).items()
-        files += [ExportFile(f"tables/{name}.csv", f"table of {name}", text.encode) for name, text in tables]
+        for make in (_wheels, _links, _pairs, _circuits, _couplings, _axes, _outputs):
+            name, (head, rows) = make.__name__[1:], make(work)
+            files.append(ExportFile(f"tables/{name}.csv", f"table of {name}", csv_text(head.split(), rows).encode))
     named = {"graphml": "graph.graphml", "dot": "graph.dot", "rexs": "gear-unit.rexsj"}
     named |= {kind: f"assembly.{kind}" for kind in ("stl", "glb", "step")}
     for kind, name in named.items():
@@ -301,7 +297,13 @@ def notices(work: SolidModel, kinds: Sequence[str]) -> list[Problem]:
         found += (problem for cup in work.frame.plan.stack.cups for problem in cup.notices())
     if {"svg", "dxf", "stl"} & set(kinds):
         found += work.blanks.notices
-        found += _teeth_without_shape(work.train.declaration)
+        declared = work.train.declaration
+        forms = {gear.name: declared.form_of(gear) for gear in declared.gears}
+        plain = [name for name, form in forms.items() if form and not form.has_shape and form.form != "ideal"]
+        if plain:
+            why = "their form gives the transmission error, not the shape of the teeth"
+            fix = "declare a form with shapes, such as `tooth_form: involute`, for parts of that form"
+            found.append(Problem(f"standard teeth are cut for {', '.join(plain)}", why, fix))
     if {"svg", "dxf"} & set(kinds):
         found += work.couplings.notices
     found += [problem for kind in kinds for problem in simplifications(work, kind)]
@@ -317,9 +319,7 @@ def notices(work: SolidModel, kinds: Sequence[str]) -> list[Problem]:
 
 
 def simplifications(work: SolidModel, kind: str) -> list[Problem]:
-    """Return a problem for each part that the given format omits or simplifies; empty for formats without
-    such parts.
-    """
+    """Return a problem for each part that the given format omits or simplifies."""
     if kind in ("rexs", "rexs-xml"):
         return [*omitted_parts(work)]
     if kind in ("urdf", "mjcf"):
@@ -330,10 +330,7 @@ def simplifications(work: SolidModel, kind: str) -> list[Problem]:
 
 
 def kind_of(name: str) -> str:
-    """Return the format of an export file of a whole train, which follows from the suffix of the file name.
-
-    Raises `GearTrainError` for an unknown suffix.
-    """
+    """Return the format of an export file of a whole train. Raises `GearTrainError` for an unknown file suffix."""
     suffix = f".{name.rpartition('.')[2].lower()}" if "." in name else ""
     if suffix in SUFFIXES:
         return SUFFIXES[suffix]
@@ -345,17 +342,8 @@ def kind_of(name: str) -> str:
 # --------------------------------------------------------------------------------------------------------------- tables
 
 
-def to_tables(work: SolidModel) -> Mapping[str, str]:
-    """Return the tables of a train in CSV format, keyed by name: wheels, links, pairs, circuits, couplings, axes,
-    outputs.
-    """
-    made = (_wheels, _links, _pairs, _circuits, _couplings, _axes, _outputs)
-    tables = {make.__name__[1:]: make(work) for make in made}
-    return {name: csv_text(head.split(), rows) for name, (head, rows) in tables.items()}
-
-
 def _both(value: Fraction | None) -> tuple[str, str]:
-    """Return a number as two strings, one exact and one decimal; two empty strings for None."""
+    """Return a number as two strings, exact and decimal, which are empty for None."""
     return ("", "") if value is None else (fraction_text(value), decimal(value, _DIGITS))
 
 
@@ -406,18 +394,6 @@ def _pairs(work: SolidModel) -> tuple[str, Rows]:
         shown = "" if distance is None else f"{distance:.9g}"
         rows.append((gear.name, first, second, *counts, carriers[gear.name], form.form if form else "", shown))
     return "pair first second first_teeth second_teeth carrier form distance_mm", rows
-
-
-def _teeth_without_shape(declared: Train) -> Iterator[Problem]:
-    """Yield a notice that names the pairs whose tooth form gives a transmission error instead of a shape, if there are
-    any.
-    """
-    forms = {gear.name: declared.form_of(gear) for gear in declared.gears}
-    names = [name for name, form in forms.items() if form is not None and not form.has_shape and form.form != "ideal"]
-    if names:
-        why = "their form gives the transmission error, not the shape of the teeth"
-        what = f"standard teeth are cut for {', '.join(names)}"
-        yield Problem(what, why, "declare a form with shapes, such as `tooth_form: involute`, for parts of that form")
 
 
 def _circuits(work: SolidModel) -> tuple[str, Rows]:

@@ -57,9 +57,7 @@ def to_urdf(work: SolidModel) -> str:
 
 
 def to_mjcf(work: SolidModel) -> str:
-    """Return the train in one state in MJCF format, in which every row of its Willis system is an equality
-    constraint.
-    """
+    """Return the train in one state in MJCF format; every row of its Willis system is an equality constraint."""
     bodies = _bodies(work)
     root = Element("mujoco", model=work.train.name)
     SubElement(root, "compiler", angle="radian")
@@ -100,9 +98,7 @@ def mean_ratios(work: SolidModel) -> Iterator[Problem]:
 
 
 def _bodies(work: SolidModel) -> Sequence[SceneBody]:
-    """Return the links as bodies. Raises `GearTrainError` if a link slides, because only rotating joints are
-    written.
-    """
+    """Return the links as bodies. Raises `GearTrainError` if a link slides."""
     for link in sorted(work.train.declaration.sliding):
         why = "only revolute joints are written, and the travel of the link is a length per turn"
         raise GearTrainError(Problem(f"link '{link}' slides", why, "choose another format, such as .glb", "-o"))
@@ -110,7 +106,7 @@ def _bodies(work: SolidModel) -> Sequence[SceneBody]:
 
 
 def _rates(work: SolidModel) -> dict[str, Fraction]:
-    """Return the joint rate of each link at the declared inputs; empty if the speeds are not determined."""
+    """Return the speed of each link relative to its parent, empty if the speeds are not determined."""
     answer, bodies = work.train.solve(work.scene.state, method="exact"), work.scene.bodies
     if not answer.verdict:
         return {}

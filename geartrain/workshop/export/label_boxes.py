@@ -29,10 +29,9 @@ class LabelBoxes:
         return x - half, y - tall, x + half, y + tall
 
     def place(self, text: str, x: float, y: float) -> tuple[float, float]:
-        """Return the centre of a line of text in the free place that is nearest to the point (x, y), and mark this
-        place as occupied.
+        """Return the centre of a line of text that overlaps no occupied box, near the point (x, y), and occupy it.
 
-        The point itself and points on circles around it are tried. If no place is free, the last point is returned.
+        The point itself and points on circles around it are tried. If all overlap, the last point is returned.
         """
         for ring in range(_RINGS):
             for way in range(_WAYS if ring else 1):

@@ -1,7 +1,7 @@
 """Workshop drawings: a drawing of each plate with a datum and a hole table, and a table of all wheels.
 
-Plates are drawn at full scale (1:1), in mm. Holes are drawn in their finished size, without kerf compensation. The
-datum is the centre of a hole, because the edge of a plate has few straight parts.
+Plates are drawn at full scale in mm, with holes in their finished size. The datum is the centre of a hole, because the
+edge of a plate has few straight parts.
 """
 
 from __future__ import annotations
@@ -55,10 +55,8 @@ def maker_sheets(work: SolidModel) -> Iterator[tuple[str, str, Callable[[], byte
 
 
 def hole_rows(plate: FlatPlate) -> list[tuple[str, ...]]:
-    """Return number, name, x and y relative to the datum [mm] and diameter [mm] of each hole of a plate, as text.
-
-    The datum is the first hole of an axis, or the first hole if the plate has no axis.
-    """
+    """Return number, name, x and y relative to the datum, and diameter of each hole of a plate, as text [mm]."""
+    # the datum is the first hole of an axis, or the first hole if the plate has no axis
     holes = _ordered(plate)
     x, y = holes[0].at
     return [
@@ -73,8 +71,9 @@ def _ordered(plate: FlatPlate) -> list[Hole]:
 
 
 def wheel_rows(work: SolidModel) -> list[tuple[str, ...]]:
-    """Return the sizes of each shape of wheel [mm]: transverse module and diameters. The inside diameter of a ring is
-    its tip diameter.
+    """Return one row of cells of the table of wheels for each shape of wheel; the columns are named in `_WHEELS`.
+
+    The inside diameter of an internal wheel is its tip diameter; that of other wheels is omitted.
     """
     rows = []
     for sheet in wheel_sheets(work.blanks.wheels):
@@ -133,7 +132,11 @@ def wheel_sheet(work: SolidModel) -> str:
 
 
 def _marks(plate: FlatPlate, origin: tuple[float, float], page: tuple[float, float, float, float]) -> Iterator[str]:
-    """Yield a centre cross and the number for each hole, and the coordinate axes of the datum at the first hole."""
+    """Yield the SVG elements of a cross and a number for each hole, and of the coordinate axes at the first hole.
+
+    origin   position of the origin of the plate's coordinates on the page (mm)
+    page     limits of the page (mm)
+    """
     labels, spots = LabelBoxes(page, _SIZE), []
     for hole in _ordered(plate):
         x, y, reach = origin[0] + hole.at[0], origin[1] - hole.at[1], hole.diameter / 2 + 0.5
@@ -180,7 +183,11 @@ def _text(text: str, x: float, y: float, style: str = "") -> str:
 
 
 def _page(work: SolidModel, part: str, what: str, remark: str, size: tuple[float, float], lines: Sequence[str]) -> str:
-    """Return a page with a title block below its contents. The page is at least as wide as the title block."""
+    """Return a page as SVG with a title block below its contents. The page is at least as wide as the title block.
+
+    part, what, remark   texts of the title block
+    size                 width and height of the contents (mm); `lines` are their SVG elements
+    """
     declared = work.train.declaration
     title = f"{declared.name}: {declared.title}" if declared.title else declared.name
     block = [title, f"{part}; {what}", f"lengths in mm; process: {work.process.name}", remark]

@@ -29,9 +29,7 @@ class ListedPart(Shown):
     names: tuple[str, ...]
     """Names of the parts of this shape."""
     kind: str
-    """Kind of part: wheel, plate, arbor, pipe, eccentric, stud, collar, spacer, collet, barrel, pillar, post, cock,
-    pin, rod, bob or weight.
-    """
+    """Kind of part, such as wheel, plate, arbor, pipe, stud, collar or pin."""
     material: str
     """Name of the material from which the mass is computed."""
     size: str
@@ -57,17 +55,18 @@ def parts_list(work: SolidModel) -> list[ListedPart]:
         # volumes to two decimals separate shapes of equal size, but not mirrored shapes that differ due to rounding
         volume = _volume(part)
         key = (row.kind, row.size, row.fits, round(volume, 2))
+        wheel, declared = _wheel(work, part), work.train.declaration
+        own = None if wheel is None else wheel.density or declared.density
+        density = own or material_named(declared, row.material).density
         # 1 mm3 times 1 kg/m3 is 1e-6 g
-        row = replace(row, mass=volume * _density(work, part, row.material) / 1e6)
+        row = replace(row, mass=0.0 if density is None else volume * density.si / 1e6)
         known = alike.get(key)
         alike[key] = row if known is None else replace(known, names=(*known.names, part.name))
     return list(alike.values())
 
 
 def material_of(work: SolidModel, part: SolidPart) -> str:
-    """Return the name of the material of a part: as declared, or typical of its kind and of the manufacturing
-    process.
-    """
+    """Return the name of the material of a part: as declared, or typical of its kind and process."""
     declared = work.train.declaration
     wheel = _wheel(work, part)
     own = None if wheel is None else wheel.material or declared.material
@@ -87,18 +86,8 @@ def _wheel(work: SolidModel, part: SolidPart) -> Wheel | None:
     return work.train.declaration.wheels[part.name][1] if part.kind == "wheel" else None
 
 
-def _density(work: SolidModel, part: SolidPart, material: str) -> float:
-    """Return the density of a part [kg/m3]; 0 if its declared material has no density."""
-    wheel, declared = _wheel(work, part), work.train.declaration
-    own = None if wheel is None else wheel.density or declared.density
-    found = own or material_named(declared, material).density
-    return 0.0 if found is None else found.si
-
-
 def _volume(part: SolidPart) -> float:
-    """Return the volume of a part [mm3]. It is exact for turned and flat parts, and computed from triangles for other
-    parts.
-    """
+    """Return the volume of a part [mm3]: exact for turned and flat parts, and from triangles for other parts."""
     if part.turned is not None:
         return part.turned.volume
     if part.contours:
@@ -123,31 +112,21 @@ def _size(part: SolidPart) -> str:
 def _fits(work: SolidModel, part: SolidPart) -> Iterator[str]:
     blank = work.blanks.wheels.get(part.name) if part.kind == "wheel" else None
     if blank is not None:
-        one_piece = work.frame is not None and part.name in work.frame.plan.cut
-        if one_piece:
+        eccentrics = () if work.frame is None else work.frame.plan.stack.eccentrics
+        on = next((each for each in eccentrics if part.name in each.wheels), None)
+        if work.frame is not None and part.name in work.frame.plan.cut:
             yield "one piece with its arbor"
         elif blank.bore:
-            yield f"bore {round(blank.bore, _SAME):g}, {_eccentric_of(work, part.name) or work.process.joint}"
+            seat = work.process.joint if on is None else f"{'turns on' if on.wave is None else 'bent by'} {on.name}"
+            yield f"bore {round(blank.bore, _SAME):g}, {seat}"
     if part.turned is not None and part.turned.joint:
         yield part.turned.joint
-
-
-def _eccentric_of(work: SolidModel, wheel: str) -> str:
-    """Return a phrase that names the eccentric on which a wheel turns or which deforms the wheel; empty if there is
-    none.
-    """
-    own = () if work.frame is None else work.frame.plan.stack.eccentrics
-    on = next((each for each in own if wheel in each.wheels), None)
-    return "" if on is None else f"{'turns on' if on.wave is None else 'bent by'} {on.name}"
 
 
 def to_csv(rows: Iterable[ListedPart]) -> str:
     """Return the parts list in CSV format, with one row for all parts of the same shape."""
     head = ("part", "count", "kind", "material", "size_mm", "mass_g", "fits")
-    return csv_text(
-        head,
-        [
-            (", ".join(row.names), row.count, row.kind, row.material, row.size, f"{row.mass:.4g}", row.fits)
-            for row in rows
-        ],
-    )
+    cells = [
+        (", ".join(row.names), row.count, row.kind, row.material, row.size, f"{row.mass:.4g}", row.fits) for row in rows
+    ]
+    return csv_text(head, cells)

@@ -31,7 +31,7 @@ _DATE = re.compile(rb"'\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d'")  # replaced, so that th
 
 
 def to_step(work: SolidModel) -> bytes:
-    """Return the assembly in the zero pose as a STEP file in mm. The parts listed by `omitted` are not included.
+    """Return the assembly in the zero pose as a STEP file in mm, without the parts listed by `omitted`.
 
     Raises `MissingExtraError` if the library that writes STEP is not installed.
     """
@@ -88,7 +88,8 @@ def _assemble(document: Any, name: str, parts: Sequence[SolidPart]) -> None:
     _set_name(whole, name)
     shapes: dict[object, Any] = {}
     for part in parts:
-        key = _shape_key(part)
+        outline = *(contour.points.round(6).tobytes() for contour in part.contours), part.height
+        key = outline if part.turned is None else (part.kind, part.turned.bands)
         if key not in shapes:
             shapes[key] = tool.AddShape(_shape(part), False)
             _set_name(shapes[key], part.name)
@@ -101,12 +102,6 @@ def _set_name(label: Any, name: str) -> None:
     from OCP.TDataStd import TDataStd_Name
 
     TDataStd_Name.Set_s(label, TCollection_ExtendedString(name, True))
-
-
-def _shape_key(part: SolidPart) -> object:
-    if part.turned is not None:
-        return part.kind, part.turned.bands
-    return part.height, *(contour.points.round(6).tobytes() for contour in part.contours)
 
 
 def _location(part: SolidPart) -> Any:
@@ -137,9 +132,7 @@ def _shape(part: SolidPart) -> Any:
 
 
 def _revolved(part: TurnedPart) -> Any:
-    """Return a part as a solid of revolution about the z axis. If it consists of several pieces, they form a
-    compound.
-    """
+    """Return a part as a solid of revolution about the z axis, or a compound if it consists of several pieces."""
     from OCP.BRep import BRep_Builder
     from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeFace, BRepBuilderAPI_MakePolygon
     from OCP.BRepPrimAPI import BRepPrimAPI_MakeRevol

@@ -1,9 +1,8 @@
 """Triangle meshes: binary STL in mm, and the animated assembly as binary glTF (GLB) in metres.
 
 A GLB file has one node for each body, whose rotation is animated, and child nodes for the parts of the body. Vertices
-are quantised (glTF extension KHR_mesh_quantization). Positions are 16-bit integer multiples of a length increment,
-relative to the middle of the bounding box. The increment is the largest extent of the part divided by 65534. Normals
-are 8-bit. The node of a part contains the transform from increments to mm, so that parts of equal shape share one mesh.
+are quantised (glTF extension KHR_mesh_quantization): positions are 16-bit integers and normals 8-bit. The node of a
+part contains the transform from integers to mm, so that parts of equal shape share one mesh.
 """
 
 from __future__ import annotations
@@ -57,6 +56,7 @@ _COLOURS: dict[str, tuple[float, float, float]] = {
 }
 
 
+_LOOK = {"metallicFactor": 0.4, "roughnessFactor": 0.5}
 _VERTEX = np.dtype(
     {"names": ["position", "normal"], "formats": [("<i2", 3), ("i1", 3)], "offsets": [0, 8], "itemsize": 12}
 )
@@ -91,7 +91,10 @@ class _GlbFile:
         return start
 
     def accessor(self, view: int, start: int, count: int, kind: str, component: int, **more: Any) -> int:
-        """Add an accessor for `count` elements of a buffer view, and return its index."""
+        """Add an accessor for `count` elements of a buffer view from the offset `start`, and return its index.
+
+        kind, component   glTF type ("VEC3", ...) and component type of the elements; `more` are further properties
+        """
         own = {"bufferView": view, "byteOffset": start, "componentType": component, "count": count, "type": kind}
         self.accessors.append(own | more)
         return len(self.accessors) - 1
@@ -115,7 +118,10 @@ class _GlbFile:
             "scene": 0,
             "scenes": [{"name": name, "nodes": [root]}],
             "nodes": self.nodes,
-            "materials": _materials(),
+            "materials": [
+                {"name": name or "wheel", "pbrMetallicRoughness": {"baseColorFactor": [*colour, 1.0], **_LOOK}}
+                for name, colour in _COLOURS.items()
+            ],
             "meshes": self.meshes,
             "accessors": self.accessors,
             "animations": self.animations,
@@ -130,9 +136,7 @@ class _GlbFile:
 
 
 def to_glb(work: SolidModel, turns: Fraction | None = None) -> bytes:
-    """Return the assembly as a GLB file with its motion over `turns` turns of the driving link. See `Keyframes.of` for
-    the default.
-    """
+    """Return the assembly as a GLB file with its motion over `turns` turns of the driving link (see `Keyframes.of`)."""
     file, bodies = _GlbFile(), work.scene.bodies
     points = [np.array(body.point) for body in bodies]
     for body, point in zip(bodies, points, strict=True):
@@ -154,29 +158,8 @@ def to_glb(work: SolidModel, turns: Fraction | None = None) -> bytes:
     return file.to_bytes(work.train.name, root)
 
 
-def _materials() -> list[dict[str, Any]]:
-    look = {"metallicFactor": 0.4, "roughnessFactor": 0.5}
-    return [
-        {"name": name or "wheel", "pbrMetallicRoughness": {"baseColorFactor": [*colour, 1.0], **look}}
-        for name, colour in _COLOURS.items()
-    ]
-
-
-def _material(part: SolidPart) -> int:
-    name = (
-        part.status
-        if part.kind == "wheel"
-        else "plate"
-        if part.kind in ("plate", "pillar", "post", "drum")
-        else "arbor"
-    )
-    return list(_COLOURS).index(name)
-
-
 def _part(file: _GlbFile, part: SolidPart, origin: Floats) -> int:
-    """Add the node of a part as a child of the node of its body, whose origin is `origin` [mm], and return
-    its index.
-    """
+    """Add a node for a part, whose body has the origin `origin` [mm], and return the index of the node."""
     solid = part.solid
     low, high = solid.vertices.min(axis=0), solid.vertices.max(axis=0)
     middle, step = (low + high) / 2, float((high - low).max()) / _STEPS
@@ -188,8 +171,9 @@ def _part(file: _GlbFile, part: SolidPart, origin: Floats) -> int:
 
 
 def _vertices(solid: Solid, steps: np.ndarray[Any, Any]) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
-    """Return the vertices of a mesh, and the vertex indices of its triangles. Vertices with equal positions and normals
-    are merged.
+    """Return the distinct vertices of a solid (position and normal), and the vertex indices of its triangles.
+
+    steps   positions of the vertices of the solid, quantised to integers
     """
     corners, at = solid.vertices[solid.faces], solid.faces.reshape(-1).astype(np.int64)
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -207,10 +191,10 @@ def _vertices(solid: Solid, steps: np.ndarray[Any, Any]) -> tuple[np.ndarray[Any
 
 
 def _mesh(file: _GlbFile, part: SolidPart, vertices: np.ndarray[Any, Any], indices: np.ndarray[Any, Any]) -> int:
-    """Return the index of the mesh with the given triangles and the material of the part. The mesh is added if it does
-    not exist.
-    """
-    shape, material = (vertices.tobytes(), indices.tobytes()), _material(part)
+    """Return the index of the mesh with the given triangles and the material of the part, added if it is new."""
+    colour = "plate" if part.kind in ("plate", "pillar", "post", "drum") else "arbor"
+    material = list(_COLOURS).index(part.status if part.kind == "wheel" else colour)
+    shape = vertices.tobytes(), indices.tobytes()
     if shape not in file.shared:
         start, positions = file.append(_VERTICES, vertices), vertices["position"]
         limits = {"min": positions.min(axis=0).tolist(), "max": positions.max(axis=0).tolist()}
@@ -247,16 +231,15 @@ def _animate(file: _GlbFile, work: SolidModel, turns: Fraction | None) -> None:
         axis = np.array(body.direction)
         if body.travels:
             places = np.array(file.nodes[at]["translation"]) + np.outer(half / pi, axis)
-            output = file.accessor(_KEYS, file.append(_KEYS, places.astype("<f4")), count + 1, "VEC3", _FLOAT)
-            channels.append({"sampler": len(samplers), "target": {"node": at, "path": "translation"}})
-            samplers.append({"input": clocks[count], "output": output, "interpolation": "LINEAR"})
-            continue
-        quaternions = np.column_stack([np.sin(half)[:, None] * axis, np.cos(half)])
-        # q and -q are the same rotation; with equal signs every reader interpolates the shorter way
-        apart = (quaternions[1:] * quaternions[:-1]).sum(axis=1) < 0
-        quaternions[1:] *= np.where(np.cumsum(apart) % 2, -1.0, 1.0)[:, None]
-        output = file.accessor(_KEYS, file.append(_KEYS, quaternions.astype("<f4")), count + 1, "VEC4", _FLOAT)
-        channels.append({"sampler": len(samplers), "target": {"node": at, "path": "rotation"}})
+            values, kind, path = places, "VEC3", "translation"
+        else:
+            values = np.column_stack([np.sin(half)[:, None] * axis, np.cos(half)])
+            # quaternions q and -q are the same rotation; with equal signs every reader interpolates the shorter way
+            apart = (values[1:] * values[:-1]).sum(axis=1) < 0
+            values[1:] *= np.where(np.cumsum(apart) % 2, -1.0, 1.0)[:, None]
+            kind, path = "VEC4", "rotation"
+        output = file.accessor(_KEYS, file.append(_KEYS, values.astype("<f4")), count + 1, kind, _FLOAT)
+        channels.append({"sampler": len(samplers), "target": {"node": at, "path": path}})
         samplers.append({"input": clocks[count], "output": output, "interpolation": "LINEAR"})
     if channels:
         name = f"{turning.turns} turns of {work.scene.bodies[work.scene.driving_link or 0].id}"
@@ -284,18 +267,15 @@ class Keyframes:
     seconds: float
     """Duration of the animation [s]."""
     speeds: tuple[Fraction | None, ...]
-    """Speed of each body relative to its parent, divided by the speed of the driving link; None if it is
-    undetermined.
-    """
+    """Speed of each body relative to its parent, divided by that of the driving link; None if undetermined."""
     ripples: bool
     _found: dict[int, Floats] = field(default_factory=dict, repr=False, compare=False)
 
     @classmethod
     def of(cls, work: SolidModel, turns: Fraction | None = None) -> Keyframes | None:
-        """Return the motion of a train over `turns` turns of the driving link, or None if nothing turns.
+        """Return the key frames of a train over `turns` turns of the driving link, or None if nothing turns.
 
-        The default is one period of the motion. If the period is long, the default is ten turns, or the maximum number
-        of turns if this is smaller.
+        The default is one period of the motion; for a long period, it is ten turns, or the maximum number of turns.
         """
         scene = work.scene
         if scene.movement.kind == "still" or scene.driving_link is None:
@@ -323,9 +303,7 @@ class Keyframes:
         return cls(work, turns, seconds, speeds, ripples)
 
     def keys(self, body: int) -> int:
-        """Return the number of intervals between the key frames of a body; 0 if the body is fixed relative to its
-        parent.
-        """
+        """Return the number of intervals between key frames of a body; 0 if it is fixed relative to its parent."""
         speed = self.speeds[body]
         if self.work.scene.bodies[body].travels and not self.ripples:
             return 1 if speed else 0

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -248,7 +248,11 @@ def _write_folder(
     except KeyboardInterrupt:
         tell(f"stopped; no files were written to {to}")
         raise typer.Exit(INTERRUPTED) from None
-    _print_notices([*missing, *notices(work, wanted)])
+    problems = [*missing, *notices(work, wanted)]
+    for problem in problems[:_SHOWN]:
+        tell(f"note: {problem}")
+    if len(problems) > _SHOWN:
+        tell(f"note: {len(problems) - _SHOWN} more notes are in README.md")
     tell(f"wrote {plural(count, 'file')} to {to}")
     if parts_requested(wanted):
         tell(unproved().replace("*", "").replace("`", "") if proof is None else proof.verdict)
@@ -256,22 +260,13 @@ def _write_folder(
 
 
 def _proof(work: SolidModel) -> TrainProof | None:
-    """Return the proof of the train, or None if its libraries are not installed. A progress bar is shown if it takes
-    long.
-    """
+    """Return the proof of the train, computed with a progress bar, or None if its libraries are not installed."""
     from geartrain.workshop.export.proof import proof_is_installed, proof_steps, prove_train
 
     if not proof_is_installed():
         return None
     with progress("proof", proof_steps(work), _PATIENCE) as bar:
         return prove_train(work, bar.advance)
-
-
-def _print_notices(problems: Sequence[Problem]) -> None:
-    for problem in problems[:_SHOWN]:
-        tell(f"note: {problem}")
-    if len(problems) > _SHOWN:
-        tell(f"note: {len(problems) - _SHOWN} more notes are in README.md")
 
 
 def _with_progress(files: Iterable[tuple[str, bytes]], count: int) -> Iterator[tuple[str, bytes]]:

@@ -1,32 +1,30 @@
 """Input data of feasibility trials: cutting errors, friction, torque limit at the crank, strength of loaded parts.
 
-Stresses are proportional to the torques of gear pairs. Stresses are computed once for the declared loads, and then
-scaled by the torques of each trial.
+Stresses are computed once for the declared loads, and then scaled by the torques of the gear pairs in each trial.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
-from math import inf, pi, radians
+from math import inf, pi
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import GearTrainError
 from geartrain.train.declaration import material_named
-from geartrain.workshop.cutting.declared_errors import ErrorOverride, ErrorSpecification
+from geartrain.workshop.cutting.declared_errors import ErrorOverride
 from geartrain.workshop.monte_carlo.friction_trials import draw_friction, friction_spreads
 from geartrain.workshop.monte_carlo.trial_block import BLOCK, HAND, STRENGTH, RandomStreams
 from geartrain.workshop.monte_carlo.trial_plan import TrialPlan, find_trial_plan
 
 if TYPE_CHECKING:
-    from geartrain.analysis.gear_train import GearTrain
     from geartrain.dynamics import Torques
     from geartrain.numerics.arrays import Floats
     from geartrain.train import Train
-    from geartrain.train.manufacturing import ArborSizes
 
 _SAMPLES = 2_000  # positions of the input in a run
 
@@ -44,15 +42,6 @@ def wedge_torque(torque: float, front: tuple[float, float], back: tuple[float, f
     (ratio, efficiency), (ratio_back, efficiency_back) = front, back
     net = (ratio / efficiency if efficiency > 0 else inf) - ratio_back * efficiency_back
     return torque / net if net > 0 else 0.0 if net < 0 else inf
-
-
-def _pivot_stress(sizes: ArborSizes, pressure: float) -> float:
-    """Return the bending stress of a pivot of diameter d and length l [MPa], 16 F l / (pi d^3). The force F is the
-    pressure on the projected area [MPa] times d l.
-    """
-    diameter = 1e3 * (sizes.pivot or sizes.diameter).si
-    length = diameter if sizes.pivot_length is None else 1e3 * sizes.pivot_length.si
-    return 16 * pressure * length**2 / (pi * diameter**2)
 
 
 class PairLoads(NamedTuple):
@@ -80,8 +69,9 @@ class LoadedPart:
     loads: Mapping[str, float]
 
     def stresses(self, torques: Mapping[str, Floats | float]) -> Floats:
-        """Return the stress of the part under other torques of the pairs [MPa]. The torques [N m] are keyed by pair.
-        The result is an upper bound if several pairs load the part.
+        """Return the stress of the part under given torques of the pairs, keyed by pair [MPa].
+
+        It is an upper bound if several pairs load the part.
         """
         ratios = [np.asarray(torques[name]) / own for name, own in self.loads.items() if own and name in torques]
         found: Floats = self.stress * np.max(ratios, axis=0) if ratios else np.zeros(1)
@@ -101,7 +91,7 @@ class FeasibilityPlan:
     @cached_property
     def train(self) -> GearTrain:
         """Gear train as declared, without random changes."""
-        return _train(self.declared)
+        return GearTrain(self.declared)
 
     @cached_property
     def crank(self) -> str:
@@ -115,15 +105,14 @@ class FeasibilityPlan:
 
     @cached_property
     def nominal(self) -> PairLoads | None:
-        """Torques with nominal friction; None if no loads with a unit are declared, or if the loads do not determine
-        the torques.
-        """
+        """Torques with nominal friction; None if loads with a unit are missing, or do not determine the torques."""
         known = self.declared.is_loaded(self.state) and self.declared.has_torque_units(self.state)
         return self.loads(self.train) if known else None
 
     def loads(self, train: GearTrain) -> PairLoads | None:
-        """Return the torques of a train, or None if the loads do not determine them. They are infinite if friction
-        locks the train.
+        """Return the torques of a train, or None if the loads do not determine them.
+
+        The torque at the crank is infinite if friction locks the train.
         """
         found = train.torques(self.state)
         crank = found.external.get(self.crank)
@@ -144,7 +133,7 @@ class FeasibilityPlan:
         """Return the torques with the random friction of one trial, or None if no loads are declared."""
         if self.nominal is None or not friction_spreads(self.declared):
             return self.nominal
-        return self.loads(_train(draw_friction(self.declared, seed, trial, self.per_part)))
+        return self.loads(GearTrain(draw_friction(self.declared, seed, trial, self.per_part)))
 
     @cached_property
     def parts(self) -> tuple[LoadedPart, ...]:
@@ -162,8 +151,11 @@ class FeasibilityPlan:
             gears = (gear for gear in self.declared.gears if not {*gear.pair}.isdisjoint(link.wheels))
             own = {gear.name: driven[gear.name] for gear in gears if gear.name in driven}
             if link.arbor is not None:
-                stress = max(arbor.stress, _pivot_stress(link.arbor, arbor.pivot_pressure))
-                yield from self._part(f"arbor of {arbor.link}", arbor.material, stress, own)
+                # bending stress 16 F l / (pi d^3) of a pivot of diameter d and length l; the force F is pressure d l
+                diameter = 1e3 * (link.arbor.pivot or link.arbor.diameter).si
+                length = diameter if link.arbor.pivot_length is None else 1e3 * link.arbor.pivot_length.si
+                bending = 16 * arbor.pivot_pressure * length**2 / (pi * diameter**2)
+                yield from self._part(f"arbor of {arbor.link}", arbor.material, max(arbor.stress, bending), own)
 
     def _part(self, name: str, material: str, stress: float, loads: Mapping[str, float]) -> Iterator[LoadedPart]:
         known = material_named(self.declared, material)
@@ -171,9 +163,7 @@ class FeasibilityPlan:
             yield LoadedPart(name, material, known.strength.si / 1e6, float(known.spread.value), stress, loads)
 
     def strengths(self, seed: int, trials: int) -> Floats:
-        """Return the strength of each part in each trial [MPa], drawn from lognormal distributions, shape (trials,
-        parts).
-        """
+        """Return the lognormally distributed strength of each part in each trial [MPa], shape (trials, parts)."""
         materials, found = sorted({part.material for part in self.parts}), np.zeros((trials, len(self.parts)))
         for at, part in enumerate(self.parts):
             item = at if self.per_part else materials.index(part.material)
@@ -181,9 +171,7 @@ class FeasibilityPlan:
         return found
 
     def hands(self, seed: int, trials: int) -> Floats | None:
-        """Return the maximum torque at the crank in each trial [N m], shape (trials,), or None if no drive limits the
-        torque.
-        """
+        """Return the torque limit at the crank in each trial [N m], shape (trials,); None if no limit is declared."""
         drive = self.declared.case(self.state).drive
         if drive is None or drive.steady_torque is None:
             return None
@@ -193,15 +181,16 @@ class FeasibilityPlan:
         return low + (high - low) * _drawn("random", seed, trials, 0, HAND)
 
     def held(self, pair: str) -> Mapping[str, float]:
-        """Return a mapping from pair to the torque on its driven wheel for a unit torque at the crank, while the driven
-        link of the pair `pair` is held fixed. Losses are neglected. The mapping is empty if the torques are not
+        """Return the torque on the driven wheel of each pair for a unit torque at the crank [1], without losses.
+
+        The driven link of the given pair is held fixed. The mapping, keyed by pair, is empty if the torques are not
         determined.
         """
         gear = self.torques.pairs.get(pair)
         if gear is None or gear.driver not in self.declared.wheels:
             return {}
         driven = next(link for link in gear.links[:2] if link != self.declared.wheels[gear.driver][0])
-        train = _train(_lossless(self.declared))
+        train = GearTrain(_lossless(self.declared))
         try:
             found = train.driven(driven, self.crank, self.state)
         except GearTrainError:  # the held link is the crank itself
@@ -211,27 +200,14 @@ class FeasibilityPlan:
             return {}
         return {name: each / abs(float(torque)) for name, each in _driven_torques(train, found) if each}
 
-    def at_accuracy(self, degrees: float) -> TrialPlan:
-        """Return the plan of trials in which pitch deviations are normally distributed with the given standard
-        deviation [deg].
-        """
-        wheels = tuple(
-            replace(w, errors={**w.errors, "pitch_deviation": ErrorSpecification(radians(degrees) / w.pitch, "normal")})
-            for w in self.cutting.wheels
-        )
-        return replace(self.cutting, wheels=wheels)
-
-
-def _train(declared: Train) -> GearTrain:
-    from geartrain.analysis.gear_train import GearTrain
-
-    return GearTrain(declared)
-
 
 def _drawn(law: str, seed: int, trials: int, item: int, kind: int) -> Floats:
-    """Return the random numbers of one stream. Whole blocks are drawn, so that the numbers do not depend on the number
-    of trials.
+    """Return the random numbers of one stream for all trials, shape (trials,).
+
+    law          name of the generator method that draws them, such as "random"
+    item, kind   numbers of the stream, as in `RandomStreams.rng`
     """
+    # whole blocks, so that the numbers do not depend on the number of trials
     blocks = (RandomStreams(seed, block).rng(item, kind) for block in range(-(-trials // BLOCK)))
     found: Floats = np.concatenate([getattr(rng, law)(BLOCK) for rng in blocks])[:trials]
     return found

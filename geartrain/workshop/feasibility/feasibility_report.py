@@ -1,6 +1,4 @@
-"""Report on the feasibility of a train (outcomes, crank torque, accuracy, pointer errors), and plot of the probability
-of turning.
-"""
+"""Report on the feasibility of a train, and plot of the probability that it turns."""
 
 from __future__ import annotations
 
@@ -44,7 +42,11 @@ def _sections(found: FeasibilityResult) -> Iterator[Section]:
 def _outcomes(found: FeasibilityResult) -> Section:
     wheels = " with perfect wheels" if found.perfect else ""
     text = f"The train{wheels} turns in {share_text(found.outcomes['turns'])} of the trials, given: {found.conditions}."
-    rows = [(name, share_text(found.outcomes[name]), _causes(found, name)) for name in OUTCOMES]
+    rows = []
+    for name in OUTCOMES:
+        causes = [f"{part} {100 * share.value:.3g} %" for part, share in found.causes.get(name, {}).items()]
+        more = [f"{len(causes) - _CAUSES} more"] if len(causes) > _CAUSES else []
+        rows.append((name, share_text(found.outcomes[name]), ", ".join([*causes[:_CAUSES], *more])))
     rows.append(("- rough running", share_text(found.rough), "tips clash, of the trials that turn"))
     rows.append(("- loss of contact", share_text(found.loose), "of the trials that turn"))
     if found.forced is not None:
@@ -52,12 +54,6 @@ def _outcomes(found: FeasibilityResult) -> Section:
         rows.append(("- with the wedge", share_text(found.forced["wedge"]), "flanks of the jammed pair squeezed"))
     notes = [f"Not included: {each}." for each in found.neglected]
     return Section("Outcome", (text, *notes), (Table(("outcome", "probability", "cause, of all trials"), cut(rows)),))
-
-
-def _causes(found: FeasibilityResult, outcome: str) -> str:
-    own = [f"{part} {100 * share.value:.3g} %" for part, share in found.causes.get(outcome, {}).items()]
-    more = [f"{len(own) - _CAUSES} more"] if len(own) > _CAUSES else []
-    return ", ".join([*own[:_CAUSES], *more])
 
 
 def _torque(found: FeasibilityResult) -> Section:
@@ -79,9 +75,7 @@ def _torque_text(figure: IntervalEstimate) -> str:
 
 
 def feasibility_figure(found: FeasibilityResult) -> Figure:
-    """Draw the probability that a train turns as a function of its accuracy. Raises `QuestionError` if no accuracies
-    were computed.
-    """
+    """Draw the probability that a train turns over its accuracy. Raises `QuestionError` if it was not computed."""
     from geartrain.drawing.style import headed, name_axes
     from geartrain.workshop.monte_carlo.monte_carlo_plots import probability_figure
 

@@ -1,16 +1,15 @@
-"""Feasibility trials. In each trial, the errors of all wheels, friction, strengths of metals and the torque limit are
-random.
+"""Feasibility trials: wheels, friction, strengths of metals and the torque limit are random.
 
 Cutting errors and pointer errors are the same as in `run_trials` with the same seed.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from itertools import pairwise
-from math import inf, nan
+from math import inf, nan, radians
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,6 +18,7 @@ from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.confidence_intervals import IntervalEstimate, ProbabilityEstimate, percentile_of
 from geartrain.numerics.results import Key, Pictured, Result
 from geartrain.numerics.work import Execution
+from geartrain.workshop.cutting.declared_errors import ErrorSpecification
 from geartrain.workshop.feasibility.feasibility_plan import FeasibilityPlan, wedge_torque
 from geartrain.workshop.monte_carlo.friction_trials import friction_spreads
 from geartrain.workshop.monte_carlo.monte_carlo_result import PartialTrials
@@ -215,29 +215,26 @@ class FeasibilityResult(Pictured, Result):
 
     @property
     def conditions(self) -> str:
-        """Description of the conditions of the trials: clearance, friction, filing, and how often random values are
-        drawn.
-        """
-        return ", ".join(self._conditions())
-
-    def _conditions(self) -> Iterator[str]:
+        """Description of the conditions of the trials: clearance, friction, filing, and how often values are drawn."""
         pairs, declared, spreads = self.plan.cutting.pairs, self.plan.declared, friction_spreads(self.plan.declared)
+        found = []
         for name, values in (
             ("backlash (pitches)", [pair.backlash for pair in pairs]),
             ("clearance factor", [1 + pair.sizes.excess for pair in pairs if hasattr(pair, "sizes")]),
         ):
             if values:
-                yield f"{name} {min(values):.4g} to {max(values):.4g}"
+                found.append(f"{name} {min(values):.4g} to {max(values):.4g}")
         texts = (
             f"of {'bearings' if name.startswith('bearing of ') else name} {each}" for name, each in spreads.items()
         )
         fixed = "none" if declared.friction is None else "without spread"
-        yield "friction " + ("; ".join(dict.fromkeys(texts)) or fixed)
-        yield "filed to fit" if self.plan.cutting.files else "no filing"
+        found.append("friction " + ("; ".join(dict.fromkeys(texts)) or fixed))
+        found.append("filed to fit" if self.plan.cutting.files else "no filing")
         if spreads or any(part.spread for part in self.plan.parts):
             apart = any(link.bearing and len(link.bearing.shared) < 2 for link in declared.links.values())
             own = ", of bearings as `shared` declares" if apart and not self.plan.per_part else ""
-            yield f"spreads drawn once per {'part' if self.plan.per_part else 'workshop'}{own}"
+            found.append(f"spreads drawn once per {'part' if self.plan.per_part else 'workshop'}{own}")
+        return ", ".join(found)
 
     @property
     def perfect(self) -> bool:
@@ -346,8 +343,9 @@ def run_feasibility(
 
 
 def _columns(plan: FeasibilityPlan, loads: Sequence[Any]) -> tuple[Floats | None, dict[str, Floats], dict[str, Floats]]:
-    """Return the crank torque, the torque of each pair and the efficiency of each pair. Arrays have one value for each
-    trial.
+    """Return the crank torque, and by pair the torque and the efficiency, in arrays with one value for each trial.
+
+    loads   `PairLoads` of each trial, or None if it has no loads
     """
     if plan.nominal is None:
         return None, {}, {}
@@ -363,14 +361,20 @@ def _columns(plan: FeasibilityPlan, loads: Sequence[Any]) -> tuple[Floats | None
 
 
 def work_feasibility(plan: FeasibilityPlan, seed: int, accuracies: tuple[float, ...], task: Sequence[int]) -> Any:
-    """Return the results of some trials as plain data: records and loads if no accuracies are given, or for one
-    accuracy a flag for each trial that stops.
+    """Return the results of one task as plain data: records and loads of its trials, or flags of stopped trials.
+
+    task   index of an accuracy (or -1), number of the first trial, number of trials
     """
     at, first, trials = task
     if at < 0:
         loads = [plan.drawn_loads(seed, trial) for trial in range(first, first + trials)]
         packed = [each and [each.crank if each.crank < inf else None, each.driven, each.efficiency] for each in loads]
         return {"trials": work_block(plan.cutting, seed, [first, trials]), "loads": packed}
-    changed = plan.at_accuracy(accuracies[at])
+    deviation = radians(accuracies[at])
+    wheels = tuple(
+        replace(each, errors={**each.errors, "pitch_deviation": ErrorSpecification(deviation / each.pitch, "normal")})
+        for each in plan.cutting.wheels
+    )
+    changed = replace(plan.cutting, wheels=wheels)
     marks, _ = judge_trial_pairs(draw_trial_wheels(changed, RandomStreams(seed, first // BLOCK), trials, first % BLOCK))
     return ((marks & (JAM | UNCUT)) != 0).any(axis=1).tolist()

@@ -1,6 +1,4 @@
-"""Jam probability of wheels with cutting errors for several clearance factors and error scales, estimated from one
-common set of random wheels.
-"""
+"""Jam probability for several clearance factors and error scales, estimated from one common set of random wheels."""
 
 from __future__ import annotations
 
@@ -27,9 +25,7 @@ _MOST = 1000  # clearances of a sweep: each costs as much as the trials themselv
 
 @dataclass(frozen=True, slots=True)
 class ClearanceCase(Result):
-    """Probabilities of a jam, clash, dwell and loss of contact in a train, for one clearance factor and one scale
-    factor of the errors.
-    """
+    """Event probabilities of a train for one clearance factor and one scale factor of the errors."""
 
     KEYS = ("clearance", "scale", Key("", "rates"), "pairs")
 
@@ -144,10 +140,9 @@ def jamming_map(
 
 
 def work_case(plan: TrialPlan, seed: int, task: Sequence[Any]) -> list[Any]:
-    """Return the numbers of events in some trials of one case: one list for each pair, followed by one list for the
-    train.
+    """Return [occurrences, trials] of each event, in one list for each pair and a last list for the train.
 
-    Each list contains [occurrences, trials] for each event. Trials in which a wheel cannot be cut are not counted.
+    task   clearance factor, scale factor of the errors, number of the first trial, number of trials
     """
     clearance, scale, first, trials = task
     changed = plan.scaled(scale)

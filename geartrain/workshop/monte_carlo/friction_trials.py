@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from geartrain.analysis.gear_train import GearTrain
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.confidence_intervals import (
     IntervalEstimate,
@@ -110,9 +111,7 @@ class FrictionPlan:
 
     @property
     def spreads(self) -> Mapping[str, FrictionSpread]:
-        """Distributions of the random friction coefficients, keyed by the pair or coupling that declares them, or by
-        "train".
-        """
+        """Distributions of the random friction coefficients, keyed by pair, coupling or "train"."""
         return friction_spreads(self.declared)
 
     def question(self, trials: int, seed: int) -> dict[str, Any]:
@@ -130,10 +129,8 @@ class FrictionPlan:
 
 
 def friction_spreads(declared: Train) -> dict[str, FrictionSpread]:
-    """Return the distributions of random friction coefficients, keyed by the pair or coupling that declares them, or by
-    "train".
-    """
-    found = {name: _spread(friction) for name, _, friction in _declarers(declared) if _is_random(friction)}
+    """Return the distributions of random friction coefficients, keyed by pair, coupling, "train" or bearing."""
+    found = {name: _spread(friction) for name, _, friction in _random_frictions(declared)}
     for name, link in declared.links.items():
         bearing = link.bearing
         if bearing is not None and bearing.coefficient is not None and (bearing.range or bearing.radii):
@@ -144,15 +141,15 @@ def friction_spreads(declared: Train) -> dict[str, FrictionSpread]:
 
 
 def draw_friction(declared: Train, seed: int, trial: int, per_part: bool = False) -> Train:
-    """Return the train with the friction coefficients drawn for one trial.
+    """Return the train with the random friction coefficients of one trial.
 
     per_part   True if the coefficient that the train declares is drawn separately for each pair
     """
     streams = RandomStreams(seed, trial // BLOCK)
-    drawn: dict[str, CoulombFriction] = {}
-    for name, item, friction in _declarers(declared, per_part):
-        if _is_random(friction):
-            drawn[name] = _with_coefficient(friction, streams.rng(item, FRICTION), trial % BLOCK)
+    drawn = {
+        name: _with_coefficient(friction, streams.rng(item, FRICTION), trial % BLOCK)
+        for name, item, friction in _random_frictions(declared, per_part)
+    }
     links = {
         name: link.model_copy(update={"bearing": _drawn_bearing(link.bearing, streams, item, trial % BLOCK, per_part)})
         for item, (name, link) in enumerate(declared.links.items(), 1)
@@ -167,7 +164,11 @@ def draw_friction(declared: Train, seed: int, trial: int, per_part: bool = False
 def _drawn_bearing(
     bearing: BearingFriction, streams: RandomStreams, item: int, row: int, per_part: bool
 ) -> BearingFriction:
-    """Return a bearing with its friction coefficient and its radius drawn for the trial in row `row` of a block."""
+    """Return a bearing with the random friction coefficient and radius of the trial with index `row` in its block.
+
+    item       number of the random stream of the bearing
+    per_part   True if a value that several bearings share is random for each bearing
+    """
 
     def between(low: float, high: float, kind: int) -> str:
         shared = not per_part and ("coefficient" if kind == PIVOT else "radius") in bearing.shared
@@ -187,8 +188,8 @@ def _friction_update(name: str, drawn: Mapping[str, CoulombFriction]) -> dict[st
     return {"friction": drawn[name]} if name in drawn else {}
 
 
-def _declarers(declared: Train, per_part: bool = False) -> Iterator[tuple[str, int, Any]]:
-    """Yield name, index and declared friction of the train and of each pair and coupling that declares friction.
+def _random_frictions(declared: Train, per_part: bool = False) -> Iterator[tuple[str, int, CoulombFriction]]:
+    """Yield name, index and friction of the train and of each pair and coupling that declares random friction.
 
     per_part   True if a pair without declared friction is also listed, with the friction of the train
     """
@@ -197,11 +198,9 @@ def _declarers(declared: Train, per_part: bool = False) -> Iterator[tuple[str, i
     parts += [(coupling.name, coupling) for coupling in declared.couplings]
     of_pairs = declared.friction if per_part else None
     for item, (name, part) in enumerate(parts):
-        yield name, item, getattr(part, "friction", None) or (of_pairs if 0 < item <= len(declared.gears) else None)
-
-
-def _is_random(friction: Any) -> bool:
-    return isinstance(friction, CoulombFriction) and friction.is_random
+        friction = getattr(part, "friction", None) or (of_pairs if 0 < item <= len(declared.gears) else None)
+        if isinstance(friction, CoulombFriction) and friction.is_random:
+            yield name, item, friction
 
 
 def _spread(friction: CoulombFriction) -> FrictionSpread:
@@ -214,9 +213,7 @@ def _spread(friction: CoulombFriction) -> FrictionSpread:
 
 
 def _with_coefficient(friction: CoulombFriction, rng: np.random.Generator, row: int) -> CoulombFriction:
-    """Return the friction with its coefficient drawn for the trial in row `row` of a block. Negative coefficients are
-    set to 0.
-    """
+    """Return the friction with the random coefficient of the trial with index `row` in its block, at least 0."""
     spread = _spread(friction)
     # a whole block is drawn, so that a trial does not depend on the trials computed with it
     if spread.range is not None:
@@ -363,18 +360,13 @@ def try_frictions(plan: FrictionPlan, trials: int, seed: int = 1, means: Executi
     # locked trials have no values
     columns = [np.array([value for value in column if value is not None]) for column in zip(*found, strict=True)]
     figures = dict(zip(FIGURES, map(TrialFigure, columns), strict=True))
-    locked = sum(row[0] is None for row in found)
-    return FrictionTrials(
-        _link(plan), trials, len(found), seed, plan.spreads, **figures, locks=ProbabilityEstimate(locked, len(found))
-    )
+    locks = ProbabilityEstimate(sum(row[0] is None for row in found), len(found))
+    link = plan.of or GearTrain(plan.declared).torques(plan.state).requested[0]
+    return FrictionTrials(link, trials, len(found), seed, plan.spreads, **figures, locks=locks)
 
 
 def work_frictions(plan: FrictionPlan, seed: int, task: Sequence[int]) -> list[list[float | None]]:
-    """Return the results of some trials as plain data: mean, maximum and starting torque, and efficiency of each trial.
-    Undefined values are None, for example if the train locks.
-    """
-    from geartrain.analysis.gear_train import GearTrain
-
+    """Return mean, maximum and starting torque and efficiency of each trial in the range `task`; None if undefined."""
     rows = []
     for trial in range(*task):
         drawn = GearTrain(draw_friction(plan.declared, seed, trial))
@@ -385,13 +377,6 @@ def work_frictions(plan: FrictionPlan, seed: int, task: Sequence[int]) -> list[l
             raise QuestionError(Problem(what, found.verdict.text, fix))
         rows.append([found.mean, found.maximum_torque, found.starting_torque, found.efficiency])
     return rows
-
-
-def _link(plan: FrictionPlan) -> str:
-    """Return the name of the link whose torque is reported, without running the trials."""
-    from geartrain.analysis.gear_train import GearTrain
-
-    return plan.of or GearTrain(plan.declared).torques(plan.state).requested[0]
 
 
 # -------------------------------------------------------------------------------------------------------------- as text
@@ -411,22 +396,12 @@ def trial_sections(found: FrictionTrials) -> Iterator[Section]:
     lines.append(f"Drawn from normal or uniform distributions, negative values set to 0: {drawn}.")
     if found.locks.count:
         lines.append(f"The train locks in {share_text(found.locks)} of the trials. These are not included below.")
-    yield Section("Trials of friction", lines, (_figures(found),))
-
-
-def _figures(found: FrictionTrials) -> Table:
-    figures = {
-        f"mean torque at {found.link}": found.mean,
-        "maximum": found.maximum,
-        "starting": found.starting,
-        "efficiency": found.efficiency,
-    }
-    rows = [_row(name, figure) for name, figure in figures.items() if len(figure.values)]
-    return Table(("over all trials", "mean", "standard deviation", "2.5 %", "97.5 %"), rows)
-
-
-def _row(name: str, figure: TrialFigure) -> tuple[str, ...]:
-    percentiles = figure.percentiles
-    low, high = min(percentiles), max(percentiles)
-    ends = f"{percentiles[low].value:.5g}", f"{percentiles[high].value:.5g}"
-    return (name, number_text(figure.mean, 5), number_text(figure.deviation), *ends)
+    rows = []
+    for name in FIGURES:
+        figure: TrialFigure = getattr(found, name)
+        if len(figure.values):
+            ends = (f"{figure.percentiles[percent].value:.5g}" for percent in (2.5, 97.5))
+            label = f"mean torque at {found.link}" if name == "mean" else name
+            rows.append((label, number_text(figure.mean, 5), number_text(figure.deviation), *ends))
+    table = Table(("over all trials", "mean", "standard deviation", "2.5 %", "97.5 %"), rows)
+    yield Section("Trials of friction", lines, (table,))

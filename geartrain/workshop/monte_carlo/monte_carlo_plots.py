@@ -1,12 +1,8 @@
-"""Plots of Monte Carlo trials: pointer errors, jam probabilities and sensitivities.
-
-`monte_carlo_figure` draws one picture of a result: a chart of the errors of pointers, bands of their errors over a
-turn, a map of jam probabilities over two quantities, a chart of variance shares, or the convergence of an estimate.
-"""
+"""Plots of Monte Carlo trials: pointer errors, jam probabilities, variance shares and convergence."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence, Sized
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -20,7 +16,6 @@ from geartrain.drawing.style import (
     RED,
     SCALE,
     WIDTH,
-    Axes,
     Figure,
     Line2D,
     Patch,
@@ -44,7 +39,7 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.workshop.monte_carlo.clearance_study import ClearanceCase
     from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult
-    from geartrain.workshop.monte_carlo.trial_results import PointerErrorCourse, PointerErrorStatistics, TrialResults
+    from geartrain.workshop.monte_carlo.trial_results import PointerErrorCourse, TrialResults
 
 
 PICTURES = ("errors", "course", "convergence", "sobol", "pairs", "map")
@@ -56,6 +51,7 @@ _SHARE_LOOKS: dict[str, Mapping[str, Any]] = {
     "first order": DOT,
     "total, with interactions": {"marker": "o", "markersize": 10, "color": BLUE, "markerfacecolor": "none"},
 }
+_TURNING = "give trials in which the pointer turns: larger clearances, or smaller errors (--cutting)"
 _SHARES = ("every trial", "95 % of the trials", "50 %")  # of the trials in a band
 _SHADES = (0.12, 0.22, 0.26)  # opacities of the bands, which are drawn over each other
 _DASHES: Any = (0, (4, 1.2))
@@ -78,8 +74,6 @@ def _picture(findings: MonteCarloResult, picture: str) -> Figure:
     if picture == "errors":
         return error_figure(trials)
     if picture == "course":
-        why = "no pointer errors along a turn were computed"
-        _require(findings.courses, why, "name the outputs to follow: --of NAME")
         return course_figure(findings.courses, trials.plan.driving_link)
     if picture == "convergence":
         return convergence_figure(trials.convergence())
@@ -97,8 +91,8 @@ def _picture(findings: MonteCarloResult, picture: str) -> Figure:
     return _jam_map(findings.cleared)
 
 
-def _require(what: Collection[object], why: str, fix: str) -> None:
-    if not what:
+def _require(drawn: Sized, why: str, fix: str) -> None:
+    if not len(drawn):
         raise QuestionError(Problem("there is nothing to draw", why, fix))
 
 
@@ -119,18 +113,20 @@ def _jam_map(cleared: Sequence[ClearanceCase]) -> Figure:
 
 
 def course_figure(courses: Sequence[PointerErrorCourse], driving_link: str = "the input") -> Figure:
-    """Draw the median, the central 50 and 95 % ranges and the extremes of each pointer's error over turns of the
-    driving link.
+    """Draw median, central 50 and 95 % ranges and extremes of each pointer's error over turns of the driving link.
 
     The thin dashed line shows one trial. Trials in which an error is not finite are excluded. Raises `QuestionError` if
     there is no pointer to draw.
     """
+    _require(courses, "no pointer errors along a turn were computed", "name the outputs to follow: --of NAME")
     given = {each.name: each for each in courses}
     errors = {name: np.degrees(each.errors[np.isfinite(each.errors).all(axis=1)]) for name, each in given.items()}
-    bands = {name: _bands(each) for name, each in errors.items()}
-    if not bands:
-        raise _no_errors("no pointer is given")
-    shown, left = _largest_spreads(bands)
+    bands = {name: _bands(name, each) for name, each in errors.items()}
+    spread = {name: float(np.ptp(levels[1:-1])) for name, levels in bands.items()}
+    largest = sorted(bands, key=lambda name: -spread[name])[:_COURSES]
+    shown = {name: levels for name, levels in bands.items() if name in largest}
+    left = len(bands) - len(shown)
+    omitted = f"\n{left} pointers with smaller errors are not drawn: name them with --of" if left else ""
     spans = {float(np.ptp(given[name].turns)) for name in shown}
     figure, panels = curve_panels(
         [_ROW] * len(shown), 1.3, share=len(spans) <= 1
@@ -144,30 +140,32 @@ def course_figure(courses: Sequence[PointerErrorCourse], driving_link: str = "th
         axes.axhline(0.0, color=GREY, linewidth=0.8, linestyle="-.")
         name_axes(axes, y=f"{name}\nerror (deg)", parse_math=False)
         axes.set_xlim(turns[0], turns[-1])
-    name_axes(panels[-1], f"turns of {driving_link}{left}", parse_math=False)
-    legend_below(figure, 5, [*_bands_key(), *panels[0].get_legend_handles_labels()[0]], "left")
+    name_axes(panels[-1], f"turns of {driving_link}{omitted}", parse_math=False)
+    # legend patches in the visible shades of the bands, each of which is drawn over the wider bands
+    clear = np.cumprod([1 - shade for shade in _SHADES]).tolist()
+    keys = [
+        Patch(color=BLUE, alpha=1 - part, linewidth=0, label=label) for part, label in zip(clear, _SHARES, strict=True)
+    ]
+    legend_below(figure, 5, [*keys, *panels[0].get_legend_handles_labels()[0]], "left")
     return figure
 
 
-def _bands(errors: Floats) -> Floats:
-    """Return the minimum, the percentiles `PERCENTS` and the maximum of the errors over the trials, shape (7,
-    positions).
-    """
-    if not errors.size:
-        raise _no_errors("a pointer cannot turn in any trial")
+def _bands(name: str, errors: Floats) -> Floats:
+    """Return minimum, `PERCENTS` percentiles and maximum of a pointer's errors over the trials, (7, positions)."""
+    _require(errors, f"'{name}' cannot turn in any trial", _TURNING)
     found: Floats = np.percentile(errors, (0, *PERCENTS, 100), axis=0)
     return found
 
 
 def error_figure(trials: TrialResults) -> Figure:
-    """Draw the median and the central 50 and 95 % ranges of each shown pointer's error. The pointer with the widest
-    range is at the top.
+    """Draw the median and the central 50 and 95 % ranges of each shown pointer's error, the widest range on top.
 
     Raises `QuestionError` if a pointer has no errors.
     """
     shown = [each for each in trials.pointers if each.name in trials.plan.shown]
-    values = {each.name: np.degrees(_known(each)) for each in shown}
-    ranges = {name: np.percentile(own, PERCENTS) for name, own in values.items()}
+    for pointer in shown:
+        _require(pointer.kept, f"'{pointer.name}' cannot turn in any trial", _TURNING)
+    ranges = {each.name: np.percentile(np.degrees(each.kept), PERCENTS) for each in shown}
     ranked = sorted(ranges, key=lambda name: ranges[name][0] - ranges[name][-1])
     days = any(trials.plan.shown.values())
     rows = []
@@ -182,36 +180,6 @@ def error_figure(trials: TrialResults) -> Figure:
     label = f"error (deg) at random positions{note}\ndot median, thick 50 %, thin 95 % of the trials"
     label += left if len(ranked) > MOST_ROWS else ""
     return interval_chart({label: rows}, {"median": DOT}, ("median", "95 %", *["days"] * days))
-
-
-def _known(pointer: PointerErrorStatistics) -> Floats:
-    if not pointer.kept.size:
-        raise _no_errors(f"'{pointer.name}' cannot turn in any trial")
-    return pointer.kept
-
-
-def _largest_spreads(bands: Mapping[str, Floats]) -> tuple[dict[str, Floats], str]:
-    """Return the bands of the pointers with the largest spread, in the given order, and a note on the omitted
-    pointers.
-    """
-    spread = {name: float(np.ptp(levels[1:-1])) for name, levels in bands.items()}
-    names = sorted(bands, key=lambda name: -spread[name])[:_COURSES]
-    left = len(bands) - len(names)
-    words = f"\n{left} pointers with smaller errors are not drawn: name them with --of" if left else ""
-    return {name: levels for name, levels in bands.items() if name in names}, words
-
-
-def _bands_key() -> list[Patch]:
-    """Return legend patches in the visible shades of the bands. Each band is drawn over the wider bands."""
-    through = np.cumprod([1 - shade for shade in _SHADES])
-    return [
-        Patch(color=BLUE, alpha=1 - float(left), linewidth=0, label=label)
-        for left, label in zip(through, _SHARES, strict=True)
-    ]
-
-
-def _no_errors(why: str) -> QuestionError:
-    return QuestionError(Problem("the errors cannot be drawn", why, "give trials in which a pointer turns"))
 
 
 # ------------------------------------------------------------------------------------------------- map of probabilities
@@ -231,40 +199,31 @@ def jam_map_figure(clearances: ArrayLike, scales: ArrayLike, probabilities: Arra
     mesh = axes.pcolormesh(x, y, shown, shading="gouraud", cmap=SCALE, vmin=0.0, vmax=1.0, rasterized=True)
     mesh.set_gid("map")
     colour_bar(figure, axes, mesh, "probability of a jam", ticks=_JAM_TICKS, format=lambda tick, _: f"{tick:.0%}")
-    handles = [_line(axes, x, y, shown, *each) for each in zip(LEVELS, _LEVEL_DASHES, strict=True)]
+    handles = []
+    # probabilities rise from 0 to 1 within few cells; arcsin(sqrt(p)) is more linear, so contours interpolate well
+    arcsines = np.arcsin(np.sqrt(shown))
+    for level, dashes in zip(LEVELS, _LEVEL_DASHES, strict=True):
+        contour = axes.contour(x, y, arcsines, levels=[np.arcsin(np.sqrt(level))], colors=BLACK, linewidths=2.0)
+        contour.set_linestyle([dashes])
+        contour.set_gid(f"{level:.0%}")
+        handles.append(Line2D([], [], color=BLACK, linestyle=dashes, linewidth=2.0, label=f"{level:.0%}"))
     legend_below(figure, 4, handles, "left", handlelength=4)
     across = "clearance factor" if x[0] >= 1 else "fraction of the clearance window of each pair"
     name_axes(axes, across, "factor of the declared errors")
     return figure
 
 
-def _line(axes: Axes, x: Floats, y: Floats, shown: Any, level: float, dashes: Any) -> Line2D:
-    # probabilities rise from 0 to 1 within few cells; arcsin(sqrt(p)) is more linear there, so contours interpolate
-    # well
-    contour = axes.contour(x, y, _arcsine(shown), levels=[_arcsine(level)], colors=BLACK, linewidths=2.0)
-    contour.set_linestyle([dashes])
-    contour.set_gid(f"{level:.0%}")
-    return Line2D([], [], color=BLACK, linestyle=dashes, linewidth=2.0, label=f"{level:.0%}")
-
-
-def _arcsine(probability: Any) -> Any:
-    return np.arcsin(np.sqrt(probability))
-
-
 # ---------------------------------------------------------------------------------------------------- variance shares
 
 
 def share_figure(shares: Mapping[str, Sequence[IntervalEstimate]], title: str = "") -> Figure:
-    """Draw a chart of the first-order and total variance share of each cause, with confidence intervals as lines.
+    """Draw the variance shares of the `MOST_ROWS` largest causes, with confidence intervals as lines.
 
-    Only the `MOST_ROWS` largest causes are drawn, and the axis label gives the number of omitted causes. Raises
-    `QuestionError` if there is no cause.
+    Raises `QuestionError` if there is no cause.
 
     shares   first-order share of the variance of each cause and, if known, its total share with all interactions
     """
-    if not shares:
-        what, why = "the list of causes is empty", "a chart of shares needs at least one cause"
-        raise QuestionError(Problem(what, why, "give the share of at least one cause"))
+    _require(shares, "a chart of shares needs at least one cause", "give the share of a wheel, pair or kind of error")
     ranked = sorted(shares.items(), key=lambda each: -each[1][-1].value)
     shown, rest = ranked[:MOST_ROWS], ranked[MOST_ROWS:]
     rows = [

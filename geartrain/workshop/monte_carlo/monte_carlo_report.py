@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from math import degrees, isfinite
 from typing import TYPE_CHECKING
 
@@ -10,11 +10,8 @@ from geartrain.report.document import Document, Section, Table, cut
 
 if TYPE_CHECKING:
     from geartrain.numerics import IntervalEstimate, ProbabilityEstimate
-    from geartrain.workshop.monte_carlo.clearance_study import ClearanceCase
     from geartrain.workshop.monte_carlo.monte_carlo_result import MonteCarloResult
-    from geartrain.workshop.monte_carlo.sobol_indices import SobolIndices
     from geartrain.workshop.monte_carlo.trial_results import (
-        PairEventRates,
         PointerErrorCourse,
         PointerErrorStatistics,
         TrialResults,
@@ -50,17 +47,21 @@ def _sections(found: MonteCarloResult) -> Iterator[Section]:
     for course in found.courses:
         yield _course(course)
     yield from (_shares(found, pointer) for pointer in found.trials.pointers[:4] if len(pointer.shares) > 1)
-    yield from map(_indices, found.indices)
+    for each in found.indices:
+        rows = [(index.name, *(_index(figure) for figure in (index.first, index.total))) for index in each.indices]
+        text = f"Sobol indices by {each.by}, {each.trials} base samples; the total index includes all interactions."
+        table = Table((each.by, "first order", "total"), cut(rows))
+        yield Section(f"Sensitivity of {each.output} by {each.by}", (text,), (table,))
     if found.cleared:
+        given = [case for case in found.cleared if case.clearance is not None]
+        cells = [(f"{case.clearance:.6g}", *(share_text(case.events[event]) for event in _EVENTS)) for case in given]
         text = "Probability of each event in any pair of the train, with the same wheels at every clearance."
-        yield Section("Clearance", (text,), (clearance_table(found.cleared, _EVENTS),))
+        yield Section("Clearance", (text,), (Table(("clearance", *_EVENTS), cells),))
     yield _convergence(found)
 
 
 def share_text(each: ProbabilityEstimate) -> str:
-    """Return a probability with its confidence interval as text such as `1.2 % (0.9..1.6)`, or "-" if there are no
-    trials.
-    """
+    """Return a probability with its confidence interval as text such as `1.2 % (0.9..1.6)`, or "-" without trials."""
     if not each.of:
         return "-"
     low, high = each.interval
@@ -68,9 +69,7 @@ def share_text(each: ProbabilityEstimate) -> str:
 
 
 def _percent(value: float) -> str:
-    """Return a probability in percent as text, with two significant digits below 10 % and one decimal at or
-    above 10 %.
-    """
+    """Return a probability in percent as text, with two significant digits below 10 % and one decimal from there."""
     percent = 100 * value
     return f"{percent:.2g}" if percent < 10 else f"{percent:.1f}".removesuffix(".0")
 
@@ -96,7 +95,11 @@ def _verdict(found: MonteCarloResult) -> Section:
 
 
 def _pairs(found: MonteCarloResult) -> Section:
-    rows = [_pair_row(pair) for pair in (*found.trials.pairs, found.trials.train)]
+    rows = []
+    for pair in (*found.trials.pairs, found.trials.train):
+        # NaN, which is not equal to itself, marks an unknown value
+        backlash, bound = (f"{each:.3g}" if each == each else "-" for each in (pair.backlash, pair.bound))
+        rows.append((pair.name, backlash, *(share_text(pair.events[name]) for name in _EVENTS), bound))
     header = ("pair", "backlash (pitches)", *_EVENTS, "bound on jams")
     text = (
         "Probability of each event over the full meshing cycle. The backlash is for perfect wheels, in pitches of the "
@@ -113,13 +116,6 @@ def _filing(found: MonteCarloResult) -> Section:
     header = ("pair", "jams before", "strokes", "teeth filed", "maximum strokes", "jams after")
     text = "If a pair jams, its flanks are filed until it passes. Strokes and teeth are means over all trials."
     return Section("Filing", (text,), (Table(header, cut(rows)),))
-
-
-def _pair_row(pair: PairEventRates) -> tuple[str, ...]:
-    # NaN, which is not equal to itself, marks an unknown value
-    backlash, bound = (f"{each:.3g}" if each == each else "-" for each in (pair.backlash, pair.bound))
-    events = (share_text(pair.events[name]) for name in _EVENTS)
-    return (pair.name, backlash, *events, bound)
 
 
 def pointer_section(pointers: Sequence[PointerErrorStatistics]) -> Section:
@@ -171,24 +167,8 @@ def _shares(found: MonteCarloResult, pointer: PointerErrorStatistics) -> Section
     return Section(f"Variance of {pointer.name}", (text,), (Table(("pair", "share"), rows),))
 
 
-def _indices(each: SobolIndices) -> Section:
-    rows = [(index.name, *map(_index, (index.first, index.total))) for index in each.indices]
-    text = f"Sobol indices by {each.by}, {each.trials} base samples; the total index includes all interactions."
-    title = f"Sensitivity of {each.output} by {each.by}"
-    return Section(title, (text,), (Table((each.by, "first order", "total"), cut(rows)),))
-
-
 def _index(figure: IntervalEstimate) -> str:
     return f"{figure.value:.3f} ({figure.low:.3f}..{figure.high:.3f})"
-
-
-def clearance_table(cases: Iterable[ClearanceCase], events: Sequence[str]) -> Table:
-    """Return a table of the probability of each event for each clearance factor, except the declared
-    clearance factor.
-    """
-    given = (case for case in cases if case.clearance is not None)
-    rows = [(f"{case.clearance:.6g}", *(share_text(case.events[event]) for event in events)) for case in given]
-    return Table(("clearance", *events), rows)
 
 
 def _convergence(found: MonteCarloResult) -> Section:

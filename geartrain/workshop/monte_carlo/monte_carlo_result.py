@@ -143,9 +143,7 @@ class MonteCarloResult(Tabular, Pictured, Result):
 
     @property
     def wheel_errors(self) -> ErrorSizes:
-        """Sizes of the cutting errors, keyed by wheel, kind and distribution, as fractions of pitch, half angle or
-        tooth depth.
-        """
+        """Sizes of the cutting errors by wheel, kind and distribution, as fractions of pitch, half angle or depth."""
         return _sizes({wheel.name: wheel.errors for wheel in self.trials.plan.wheels})
 
     @property
@@ -188,8 +186,6 @@ def study_trials(
 
 
 def with_jamming_map(found: MonteCarloResult, means: Execution, clearances: Sequence[float]) -> MonteCarloResult:
-    """Return a result that also contains the trials repeated with several clearance factors and scale factors of the
-    errors.
-    """
+    """Return the result with trials repeated at several clearance factors and scale factors of the errors."""
     of, clearances = found.trials, clearances or _SHARES
     return replace(found, cleared=jamming_map(of.plan, clearances, _SCALES, of.wanted, of.seed, means))

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -139,7 +140,7 @@ def find_sobol_indices(
         raise QuestionError(Problem(what, why, "name another output: --of NAME"))
     rows: list[Any] = []
     # no journal: its tasks are identified by block and trials, and would be confused with those of the trials
-    for part in replace(means, journal=None).run(SobolBlock(plan, seed, output, by), trial_tasks(trials)):
+    for part in replace(means, journal=None).run(partial(work_samples, plan, seed, output, by), trial_tasks(trials)):
         rows += part
     values = np.array(rows, dtype=float)
     # outputs are infinite in trials in which no teeth touch
@@ -150,10 +151,10 @@ def find_sobol_indices(
 
 
 def saltelli_indices(values: Floats, seed: int) -> list[tuple[IntervalEstimate, IntervalEstimate]]:
-    """Return the first-order and total index of each input variable with bootstrap intervals; 0 if the values do not
-    vary.
+    """Return the first-order and total index of each input variable with bootstrap intervals.
 
-    values   f(A), f(AB(1)), ..., f(AB(d)), f(B) in columns, (samples, d + 2)
+    values   columns f(A), f(AB(1)), ..., f(AB(d)), f(B) of a model f with d variables, (samples, d + 2); A and B are
+             independent samples of all variables, and AB(i) is A with variable i from B
     seed     seed of the bootstrap resamples
     """
     values = values - values.mean()  # centred values reduce the variance of the estimate of S_i
@@ -169,8 +170,10 @@ def saltelli_indices(values: Floats, seed: int) -> list[tuple[IntervalEstimate, 
 
 
 def _saltelli(values: Floats) -> Floats:
-    """Return first-order and total Sobol indices of d input variables, shape (2, d)."""
-    # columns f(A), f(AB(1)), ..., f(AB(d)), f(B)
+    """Return first-order and total Sobol indices of d input variables, shape (2, d); 0 if the values do not vary.
+
+    The values are described in `saltelli_indices`.
+    """
     a, b, mixed = values[:, :1], values[:, -1:], values[:, 1:-1]
     # A and B have the same distribution, so their pooled variance is the better estimate
     variance = np.var(values[:, [0, -1]])
@@ -181,7 +184,7 @@ def _saltelli(values: Floats) -> Floats:
 
 
 def error_groups(plan: TrialPlan, output: int, by: By) -> list[tuple[str, Streams]]:
-    """Return the input variables that can affect an output, each with the numbers of its random streams."""
+    """Return name and random streams of each input variable that can affect the output with the index `output`."""
     pairs = plan.reach[output]
     wheels = sorted({wheel for at in pairs for wheel in (plan.pairs[at].first, plan.pairs[at].second)})
     off = [at for at in wheels if not plan.wheels[at].true]
@@ -199,29 +202,18 @@ def error_groups(plan: TrialPlan, output: int, by: By) -> list[tuple[str, Stream
     return [*found, ("position", ((plan.position,), EVERY))]
 
 
-@dataclass(frozen=True)
-class SobolBlock:
-    """Task function that computes the errors of an output in base samples [rad]. The result has one row for each sample
-    and the columns A, AB(i) and B.
+def work_samples(plan: TrialPlan, seed: int, output: int, by: By, task: Sequence[int]) -> list[list[float]]:
+    """Return the errors of an output [rad] in the base samples of one task; each row is as in `saltelli_indices`.
+
+    task   number of the first sample, and number of samples
     """
-
-    plan: TrialPlan
-    seed: int
-    output: int
-    by: By
-
-    def __call__(self, task: Sequence[int]) -> list[list[float]]:
-        """Return the output errors in the samples of one task as plain data."""
-        first, trials = task
-        inputs = [theirs for _, theirs in error_groups(self.plan, self.output, self.by)]
-        samples: tuple[Streams, ...] = (((), ()), *inputs, (EVERY, EVERY))
-        columns = [self._errors(first, trials, each) for each in samples]
-        found: list[list[float]] = np.stack(columns, axis=1).tolist()
-        return found
-
-    def _errors(self, first: int, trials: int, second: Streams) -> Floats:
-        streams = RandomStreams(self.seed, _STREAMS + first // BLOCK, second)
-        drawn = draw_trial_wheels(self.plan, streams, trials, first % BLOCK)
-        found = trial_pointers(drawn, np.arange(drawn.trials), (self.output,))
-        errors: Floats = found.errors(input_positions(drawn))[0]
-        return errors
+    first, trials = task
+    samples: list[Streams] = [((), ()), *(streams for _, streams in error_groups(plan, output, by)), (EVERY, EVERY)]
+    columns = []
+    for second in samples:
+        streams = RandomStreams(seed, _STREAMS + first // BLOCK, second)
+        drawn = draw_trial_wheels(plan, streams, trials, first % BLOCK)
+        pointers = trial_pointers(drawn, np.arange(trials), (output,))
+        columns.append(pointers.errors(input_positions(drawn))[0])
+    found: list[list[float]] = np.stack(columns, axis=1).tolist()
+    return found

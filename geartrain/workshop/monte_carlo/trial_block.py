@@ -1,9 +1,7 @@
-"""One block of trials: wheels are drawn, pairs evaluated and pointer errors computed. The results are the same in any
-process.
+"""One block of trials: wheels are drawn, pairs evaluated and pointer errors computed.
 
 Random errors come from independent streams, each keyed by seed, block, wheel and kind of error. A trial therefore has
-the same errors in any process, regardless of other computations. Scaled errors are the same random numbers times a
-factor, and a study of clearance factors uses the same wheels for every clearance factor.
+the same errors in any process, and studies of clearance factors and of scaled errors use the same random numbers.
 """
 
 from __future__ import annotations
@@ -66,21 +64,19 @@ class RandomStreams:
     seed: int
     block: int
     other: Streams = ((), ())
-    """Items (wheels or pairs) and kinds of error that are drawn from the second of the two samples for Sobol
-    indices.
-    """
+    """Items (wheels or pairs) and kinds of error that are drawn from the second sample for Sobol indices."""
 
     def rng(self, item: int, kind: int) -> np.random.Generator:
-        """Return the random number generator for one kind of error of one wheel or pair, or for the position of the
-        input.
-        """
+        """Return the random number generator for one kind of error of one item (wheel, pair or input position)."""
         key = (self.block, item, kind, int(item in self.other[0] and kind in self.other[1]))
         # PCG64 by name: numpy's default generator may change, and results must not
         return np.random.Generator(np.random.PCG64(np.random.SeedSequence(self.seed, spawn_key=key)))
 
     def errors(self, item: int, kind: str, off: ErrorSpecification, shape: tuple[int, ...]) -> Floats:
-        """Return random errors as fractions of pitch, half angle or depth, as an array of shape (trials,) or (trials,
-        teeth).
+        """Return errors drawn from the distribution `off`, as fractions of pitch, half angle or depth.
+
+        item    number of the wheel or pair
+        shape   shape of the result: (trials,), or (trials, teeth)
         """
         if off.way == "value":
             return np.full(shape, off.size)
@@ -92,11 +88,11 @@ class RandomStreams:
 def draw_wheel(
     wheel: WheelErrors, item: int, streams: RandomStreams, rows: slice
 ) -> tuple[CutWheel | DisplacedWheel, Bools]:
-    """Return one wheel drawn for some trials of a block, and a mask of the trials in which it can be cut.
+    """Return one wheel with random errors in some trials of a block, and a mask of the trials in which it can be cut.
 
-    Pitch deviations and drawn arrays have shape (trials, z), and the mask has shape (trials,). Triangular wheels have
-    tip radius 1, or -1 if they are internal. If a wheel cannot be cut in a trial, its teeth are returned without errors
-    (displaced flanks: without pitch deviations), so that teeth always have tips in later computations.
+    `item` is the number of the wheel, and `rows` are the numbers of the trials in the block. Triangular wheels have tip
+    radius 1, or -1 if they are internal. In trials in which a wheel cannot be cut, its teeth have no errors (displaced
+    flanks: no pitch deviations), so that teeth always have tips in later computations.
     """
     # a whole block is drawn and then sliced, so that a trial does not depend on the trials computed with it
     shape, trials = (BLOCK, wheel.z), rows.stop - rows.start
@@ -151,15 +147,16 @@ STOPS, LOST = JAM | CLASH, JAM | DISENGAGED | UNCUT
 
 @dataclass(frozen=True)
 class TrialWheels:
-    """Drawn wheels of some trials: `wheels` contains the wheels by number, with tip radius 1; `good` contains masks of
-    the trials in which each wheel can be cut.
-    """
+    """Wheels with random errors in consecutive trials of a block."""
 
     plan: TrialPlan
     streams: RandomStreams
     rows: slice
+    """Numbers of the trials within their block."""
     wheels: tuple[CutWheel | DisplacedWheel, ...]
+    """Wheels of the plan, triangular ones with tip radius 1."""
     good: tuple[Bools, ...]
+    """Mask for each wheel, True in trials in which it can be cut."""
 
     @property
     def trials(self) -> int:
@@ -167,9 +164,9 @@ class TrialWheels:
         return int(self.rows.stop - self.rows.start)
 
     def pair(self, at: int, widest: int = 0) -> Any:
-        """Return the gear pair with index `at`, with its drawn wheels in all trials.
+        """Return the gear pair with index `at`, with its random errors in all trials.
 
-        widest   1 for the maximum and -1 for the minimum centre distance within the bearing clearance, 0 for the drawn
+        widest   1 for the maximum and -1 for the minimum centre distance within the bearing clearance, 0 for a random
                  distance
         """
         pair = self.plan.pairs[at]
@@ -180,16 +177,12 @@ class TrialWheels:
 
     @cached_property
     def filing(self) -> dict[int, FilingWork[Any]]:
-        """Filing of each pair that is filed to fit, at the minimum centre distance that its bearings allow, keyed by
-        pair index.
-        """
+        """Result of filing each pair that is filed to fit, at its minimum centre distance, keyed by pair index."""
         pairs = enumerate(self.plan.pairs)
         return {at: pair.filed(pair.cut(self.wheels, self._shift(pair, at, -1))) for at, pair in pairs if pair.stroke}
 
     def strokes(self) -> Floats:
-        """Return the numbers of file strokes and of filed teeth of each pair in alternate columns, shape (trials, 2 *
-        pairs).
-        """
+        """Return numbers of file strokes and of filed teeth of each pair, alternating, shape (trials, 2 * pairs)."""
         found = np.zeros((self.trials, 2 * len(self.plan.pairs)))
         for at, work in self.filing.items():
             found[:, 2 * at], found[:, 2 * at + 1] = work.strokes, work.teeth
@@ -208,7 +201,7 @@ class TrialWheels:
 
 
 def draw_trial_wheels(plan: TrialPlan, streams: RandomStreams, trials: int = BLOCK, start: int = 0) -> TrialWheels:
-    """Return the wheels drawn for consecutive trials of a block, beginning with trial number `start` of the block."""
+    """Return the wheels with random errors in `trials` trials of a block, from the trial with index `start`."""
     rows = slice(start, start + trials)
     found = [draw_wheel(wheel, at, streams, rows) for at, wheel in enumerate(plan.wheels)]
     return TrialWheels(plan, streams, rows, tuple(wheel for wheel, _ in found), tuple(good for _, good in found))
@@ -218,62 +211,47 @@ def draw_trial_wheels(plan: TrialPlan, streams: RandomStreams, trials: int = BLO
 
 
 def judge_trial_pairs(drawn: TrialWheels) -> tuple[Marks, Floats]:
-    """Return the event flags and the minimum backlash [pitch of the driven wheel] of each pair, both of shape (trials,
-    pairs).
-    """
-    judged = [_judged(drawn, at) for at in range(len(drawn.plan.pairs))]
-    return np.stack([marks for marks, _ in judged], axis=1), np.stack([backlash for _, backlash in judged], axis=1)
-
-
-def _judged(drawn: TrialWheels, at: int) -> tuple[Marks, Floats]:
-    pair = drawn.plan.pairs[at]
-    # jams are found at the smallest distance of the bearings, other events at both limits
-    near, far = pair.verdicts(drawn.pair(at, -1)), None
-    if pair.fitting.get("bearing"):
-        far = pair.verdicts(drawn.pair(at, 1))
-    loose = far or near
-    marks = (
-        JAM * near.jams
-        + CLASH * (near.clash | loose.clash)
-        + DWELL * (near.dwell | loose.dwell)
-        + DISENGAGED * (near.disengaged | loose.disengaged)
-    )
-    uncut = ~(drawn.good[pair.first] & drawn.good[pair.second])
-    marks = np.where(uncut, UNCUT, marks)
-    return marks.astype(np.uint8), near.backlash / pair.pitches[1]
+    """Return event flags and minimum backlash [pitch of the driven wheel] of each pair, both (trials, pairs)."""
+    columns, backlashes = [], []
+    for at, pair in enumerate(drawn.plan.pairs):
+        # jams are found at the smallest distance of the bearings, other events at both limits
+        near = pair.verdicts(drawn.pair(at, -1))
+        loose = pair.verdicts(drawn.pair(at, 1)) if pair.fitting.get("bearing") else near
+        marks = (
+            JAM * near.jams
+            + CLASH * (near.clash | loose.clash)
+            + DWELL * (near.dwell | loose.dwell)
+            + DISENGAGED * (near.disengaged | loose.disengaged)
+        )
+        uncut = ~(drawn.good[pair.first] & drawn.good[pair.second])
+        columns.append(np.where(uncut, UNCUT, marks).astype(np.uint8))
+        backlashes.append(near.backlash / pair.pitches[1])
+    return np.stack(columns, axis=1), np.stack(backlashes, axis=1)
 
 
 # ------------------------------------------------------------------------------------------------------------- pointers
 
 
 def input_positions(drawn: TrialWheels) -> Floats:
-    """Return a random input position for each trial [turn], uniformly distributed over the span of the plan, shape
-    (trials,).
-    """
+    """Return a random input position for each trial, uniform over the span of the plan [turn], shape (trials,)."""
     # a whole block is drawn and then sliced, as for all errors
     return drawn.streams.rng(drawn.plan.position, POSITION).uniform(0.0, drawn.plan.span, BLOCK)[drawn.rows]
 
 
 @dataclass(frozen=True)
 class TrialPointers:
-    """Composed motion of the train with drawn wheels (`cut`) and with perfect wheels (`even`) at given input
-    positions.
-    """
+    """Motion of the outputs with the random errors of the wheels (`cut`) and with perfect wheels (`even`)."""
 
     cut: ErrorComposition
     even: ErrorComposition
     transmissions: dict[str, TrialTransmissionFunction]
 
     def errors(self, turns: Floats) -> Floats:
-        """Return the error of each output [rad]: its position with the drawn wheels minus the mean position that it
-        would have with perfect teeth, shape (outputs, n).
-        """
+        """Return each output's position minus its mean position with perfect teeth [rad], shape (outputs, n)."""
         return self.cut.at(turns).error - self.even.at(turns).error
 
     def superposed(self, turns: Floats) -> Floats:
-        """Return the first-order approximation of `errors` [rad]. The transmission error of each pair is evaluated at
-        the mean angle of its driver and multiplied by the mean ratios of the pairs and pins that follow.
-        """
+        """Return the first-order superposition of the transmission errors of all pairs at each output [rad]."""
         # the anomaly of the pins cancels in the difference
         return Superposition(self.cut).at(turns) - Superposition(self.even).at(turns)
 
@@ -281,10 +259,9 @@ class TrialPointers:
 def trial_pointers(
     drawn: TrialWheels, rows: NDArray[np.int64], outputs: tuple[int, ...] | None = None
 ) -> TrialPointers:
-    """Return the motion of the given outputs (by default all outputs) with the drawn wheels. `rows` contains the trial
-    of each position.
+    """Return the motion of the outputs with the given indices (None: all) in the trials `drawn`.
 
-    The transmission functions of all pairs and pins are composed exactly, for every trial at its own input position.
+    rows   index of the trial for each input position
     """
     plan, whole = drawn.plan, drawn.plan.composition
     at = {pair.name: number for number, pair in enumerate(plan.pairs)}

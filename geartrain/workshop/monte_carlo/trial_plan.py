@@ -1,9 +1,4 @@
-"""Input data of the trials of a train: wheels with their errors, pairs with their sizes, and the composed motion of the
-pairs.
-
-A `TrialPair` is a gear pair that can be drawn, evaluated, filed and set in motion, with any tooth form. A `TrialPlan`
-contains all pairs of a train and the composition of their errors at the outputs.
-"""
+"""Input data of trials: wheels with errors, pairs with any tooth form, and the composition of their errors."""
 
 from __future__ import annotations
 
@@ -11,6 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from itertools import chain
 from math import gcd, inf, lcm, nan, pi
 from typing import TYPE_CHECKING, Any
 
@@ -24,7 +20,6 @@ from geartrain.workshop.cutting.declared_errors import (
     ErrorSpecification,
     WheelErrors,
     check_names,
-    filing_stroke,
     pair_errors,
     wheel_errors,
 )
@@ -40,7 +35,6 @@ from geartrain.workshop.cutting.trial_transmission import (
 if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.dynamics import Motion
-    from geartrain.kinematics.circuits import Circuit
     from geartrain.numerics.arrays import Ints
     from geartrain.teeth.conjugate.displaced_contact import DisplacedContact
     from geartrain.teeth.gear_mesh import GearMesh
@@ -57,16 +51,19 @@ _MAXIMUM_SPAN = 10**6  # turns of the input, if the train takes longer to repeat
 
 @dataclass(frozen=True, slots=True)
 class TrialPair(ABC):
-    """Gear pair of a plan, with any tooth form.
-
-    `first` and `second` are the indices of driver and driven wheel; `mirrored` contains flags that are True for wheels
-    that turn against the numbering of their teeth.
-    """
+    """Gear pair of a plan, with any tooth form."""
 
     name: str
     first: int
+    """Index of the driver among the wheels of the plan."""
     second: int
+    """Index of the driven wheel."""
     mirrored: tuple[bool, bool]
+    """Flags of driver and driven wheel, True for a wheel that turns against the numbering of its teeth."""
+    teeth: tuple[int, int]
+    """Numbers of teeth of the driver and of the driven wheel."""
+    depth: float
+    """Smaller tooth depth of the two wheels [unit of the radii, module, or rad for bevel gears]."""
     even: float
     """Mean transmission error of the pair without cutting errors [rad of the driven wheel]."""
     fitting: Mapping[str, ErrorSpecification] = field(default_factory=dict, kw_only=True)
@@ -74,16 +71,6 @@ class TrialPair(ABC):
     stroke: float = field(default=0.0, kw_only=True)
     """Depth of one stroke of the file divided by the smaller tooth depth of the two wheels; 0 if the pair is not filed.
     """
-
-    @property
-    @abstractmethod
-    def teeth(self) -> tuple[int, int]:
-        """Numbers of teeth of the driver and of the driven wheel."""
-
-    @property
-    @abstractmethod
-    def depth(self) -> float:
-        """Smaller tooth depth of the two wheels [unit of the radii, module, or rad for bevel gears]."""
 
     @property
     @abstractmethod
@@ -97,9 +84,7 @@ class TrialPair(ABC):
 
     @abstractmethod
     def cut(self, wheels: Sequence[Any], shift: Any) -> Any:
-        """Return the pair with the drawn wheels, scaled to its sizes, and with the centre distance increased by
-        `shift`.
-        """
+        """Return the pair with the given wheels, scaled to its sizes, and the centre distance increased by `shift`."""
 
     @abstractmethod
     def verdicts(self, pair: Any) -> MeshingVerdicts:
@@ -111,21 +96,14 @@ class TrialPair(ABC):
 
     @abstractmethod
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """Return a cut pair filed by strokes of the declared depth, until it turns without a jam or a flank reaches its
-        filing limit.
-        """
+        """Return a cut pair filed until it turns without a jam, or a flank has lost an eighth of a pitch."""
 
     @abstractmethod
     def cleared(self, clearance: float) -> TrialPair:
-        """Return the pair at another clearance. A value of 1 or more is a clearance factor; a value below 1 is a
-        relative position between the limits of the clearance factor.
-        """
+        """Return the pair at a clearance factor (1 or more), or at a position between its limits (below 1)."""
 
     def jamming_bound(self, sigma: float) -> float:
-        """Return an upper bound of the jam probability; NaN if no bound is known.
-
-        The pitch deviations are normally distributed with the standard deviation `sigma` [pitch].
-        """
+        """Return an upper bound of the jam probability for normal pitch deviations `sigma` [pitch]; NaN if unknown."""
         return nan
 
     @property
@@ -136,7 +114,7 @@ class TrialPair(ABC):
     @property
     def count(self) -> int:
         """Number of tooth pairs in one full meshing cycle."""
-        return self.teeth[0] * self.teeth[1] // gcd(*self.teeth)
+        return lcm(*self.teeth)
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,33 +124,26 @@ class TriangularTrialPair(TrialPair):
     sizes: TriangularSizes
 
     @property
-    def teeth(self) -> tuple[int, int]:
-        """Numbers of teeth of the driver and of the driven wheel."""
-        return self.sizes.z1, self.sizes.z2
-
-    @property
-    def depth(self) -> float:
-        """Smaller tooth depth of the two wheels [unit of the radii]."""
-        return min(self.sizes.depths)
-
-    @property
     def backlash(self) -> float:
         """Nominal backlash [pitch of the driven wheel]."""
         return nominal_backlash(self.sizes)
 
     @property
     def question(self) -> tuple[float, ...]:
-        """Signed radii, half angles and excess of the centre distance. These numbers identify the pair in a journal."""
+        """Signed radii, half angles and excess of the centre distance, as part of the key of a journal."""
         sizes = self.sizes
         return *sizes.signed_radii, sizes.beta1, sizes.beta2, sizes.excess
 
     def cut(self, wheels: Sequence[Any], shift: Any) -> CutGearPair:
-        """Return the pair of drawn wheels of tip radius 1, scaled to the sizes of this pair."""
-        sizes = self.sizes
-        R1, R2 = sizes.signed_radii
-        first = fitted(wheels[self.first], R1, sizes.beta1, self.mirrored[0])
-        second = fitted(wheels[self.second], R2, sizes.beta2, self.mirrored[1])
-        return CutGearPair(sizes, first, second, shift)
+        """Return the pair with the given wheels of tip radius 1 (-1 if internal), scaled to the sizes of this pair."""
+        cut = []
+        for at, R, beta, mirrored in zip(
+            (self.first, self.second), self.sizes.signed_radii, self.sizes.half_angles, self.mirrored, strict=True
+        ):
+            drawn: CutWheel = wheels[at]
+            wheel = CutWheel(R, beta, drawn.place, abs(R) * drawn.tip, drawn.leading, drawn.trailing)
+            cut.append(wheel.mirrored() if mirrored else wheel)
+        return CutGearPair(self.sizes, cut[0], cut[1], shift)
 
     def verdicts(self, pair: Any) -> MeshingVerdicts:
         """Return the events (jam, clash, dwell, loss of contact) of a cut pair in each trial."""
@@ -183,24 +154,16 @@ class TriangularTrialPair(TrialPair):
         return CutTrialTransmission(pair, self.even, rows)
 
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """Return a cut pair filed until it turns without a jam. At most an eighth of a pitch is removed from each
-        flank.
-        """
+        """Return a cut pair filed until it turns without a jam, or a flank has lost an eighth of a pitch."""
         limit = _MAXIMUM_FILING * self.sizes.R2 * self.pitches[1]
         return file_to_fit(pair, tight_place, self.stroke * self.depth, limit)
 
     def jamming_bound(self, sigma: float) -> float:
-        """Return an upper bound of the jam probability, 2 lcm(z1, z2) Q(j / (2 sigma)).
-
-        Here z1 and z2 are the tooth numbers, j is the nominal backlash, `sigma` is the standard deviation of the pitch
-        deviations [pitch], and Q is the normal tail probability.
-        """
+        """Return an upper bound of the jam probability for normal pitch deviations `sigma` [pitch]."""
         return jamming_bound(self.sizes, sigma)
 
     def cleared(self, clearance: float) -> TriangularTrialPair:
-        """Return the pair with another clearance factor (1 or more), or at another relative position between its limits
-        (below 1).
-        """
+        """Return the pair at a clearance factor (1 or more), or at a position between its limits (below 1)."""
         if clearance >= 1:  # a clearance factor; smaller numbers are fractions of the window
             return replace(self, sizes=self.sizes.at(clearance - 1))
         from geartrain.teeth.triangular.clearance_window import find_window
@@ -213,33 +176,11 @@ class TriangularTrialPair(TrialPair):
         return replace(self, sizes=self.sizes.at(window.at(clearance)))
 
 
-def fitted(wheel: CutWheel, radius: float, half_angle: float, mirrored: bool) -> CutWheel:
-    """Return a wheel of tip radius 1 (-1 for an internal wheel), scaled to the sizes of its pair.
-
-    If `mirrored` is True, it is the mirror image, which turns against the numbering of its teeth.
-    """
-    found = CutWheel(radius, half_angle, wheel.place, abs(radius) * wheel.tip, wheel.leading, wheel.trailing)
-    return found.mirrored() if mirrored else found
-
-
 @dataclass(frozen=True, slots=True)
 class DisplacedTrialPair(TrialPair):
-    """Gear pair of any non-triangular tooth form. Its flanks are displaced along the path of contact, to first order in
-    the errors.
-    """
+    """Gear pair of any other tooth form, with flanks displaced at the contact, to first order in the errors."""
 
     contact: DisplacedContact
-
-    @property
-    def teeth(self) -> tuple[int, int]:
-        """Numbers of teeth of the driver and of the driven wheel."""
-        first, second = self.contact.wheels
-        return first.z, second.z
-
-    @property
-    def depth(self) -> float:
-        """Smaller tooth depth of the two wheels [module; rad for bevel gears]."""
-        return min(each.depth for each in self.contact.wheels)
 
     @property
     def backlash(self) -> float:
@@ -248,12 +189,12 @@ class DisplacedTrialPair(TrialPair):
 
     @property
     def question(self) -> tuple[float, ...]:
-        """Numbers that identify the contact of the pair in a journal: its limits, flank factors, backlash and lag."""
+        """Limits of contact, flank factors, backlash and lag of the pair, as part of the key of a journal."""
         at = self.contact
         return at.start, at.end, float(at.normal[0]), float(at.normal[-1]), at.backlash, float(at.even[0])
 
     def cut(self, wheels: Sequence[Any], shift: Any) -> DisplacedPair:
-        """Return the pair of drawn wheels. Wheels that turn against the numbering of their teeth are mirrored."""
+        """Return the pair with the given wheels. Wheels that turn against the numbers of their teeth are mirrored."""
         pair = zip((self.first, self.second), self.mirrored, strict=True)
         first, second = (wheels[at].mirrored() if turned else wheels[at] for at, turned in pair)
         return DisplacedPair(self.contact, first, second, shift)
@@ -264,15 +205,11 @@ class DisplacedTrialPair(TrialPair):
         return found
 
     def transmission(self, pair: Any, rows: Ints) -> TrialTransmissionFunction:
-        """Return the transmission functions of a cut pair, which follow from the foremost tooth pair at each driver
-        angle.
-        """
+        """Return the transmission functions of a cut pair, which follow from the foremost tooth pair at each angle."""
         return DisplacedTrialTransmission(pair, self.even, rows)
 
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """Return a cut pair filed until it turns without a jam. At most an eighth of a pitch is removed from each
-        flank.
-        """
+        """Return a cut pair filed until it turns without a jam, or a flank has lost an eighth of a pitch."""
         limit = _MAXIMUM_FILING * self.contact.wheels[0].pitch
         return file_to_fit(pair, DisplacedPair.tight_place, self.stroke * self.depth, limit)
 
@@ -457,6 +394,7 @@ def find_trial_plan(
     """
     motion = train.motion(state, outputs, without)._turning(outputs)
     meshes = [mesh for mesh in motion._problem.teeth if mesh.has_cut_sizes or mesh.displaced_contact is not None]
+    both = [_even_wheels(train, mesh) for mesh in meshes]
     if not meshes:
         what = f"'{train.name}' has no tooth form for which cutting errors can be computed"
         why = "cutting errors are computed for triangular teeth and for forms with a known path of contact"
@@ -464,22 +402,24 @@ def find_trial_plan(
         raise QuestionError(Problem(what, why, fix))
     # a wheel in several pairs is drawn once, with the teeth of its first pair
     even: dict[str, WheelErrors] = {}
-    for mesh in meshes:
-        for wheel in _even_wheels(train, mesh):
-            even.setdefault(wheel.name, wheel)
-    names = tuple(even)
-    check_names(settings, names, [mesh.name for mesh in meshes])
+    for wheel in chain.from_iterable(both):
+        even.setdefault(wheel.name, wheel)
+    names, pair_names = tuple(even), [mesh.name for mesh in meshes]
+    check_names(settings, names, pair_names)
     wheels = tuple(wheel_errors(train.declaration, each, settings) for each in even.values())
-    senses = _RotationSenses(motion)
-    pairs = tuple(_pair(train, mesh, names, senses, settings) for mesh in meshes)
-    composition = motion._with_sources([pair.name for pair in pairs])
+    mirrored = _mirrored(motion, meshes)
+    pairs = tuple(
+        _pair(train, mesh, pair, names, turned, settings)
+        for mesh, pair, turned in zip(meshes, both, mirrored, strict=True)
+    )
+    composition = motion._with_sources(pair_names)
     if not perfect and all(wheel.true for wheel in wheels) and not any(pair.fitting for pair in pairs):
         what = f"'{train.name}' declares no manufacturing errors"
         why = "without them all trials are identical"
         fix = "declare `cutting: {pitch_deviation: {normal: 2 %}}`, or give --cutting 'pitch_deviation=2 %'"
         raise QuestionError(Problem(what, why, fix))
     speeds = tuple(tally.ratio for tally in motion._statistics())
-    reach = tuple(_reach(composition, at, [pair.name for pair in pairs]) for at in range(len(motion.outputs)))
+    reach = tuple(_reach(composition, at, pair_names) for at in range(len(motion.outputs)))
     return TrialPlan(
         train.name,
         wheels,
@@ -527,42 +467,39 @@ def _reach(composition: ErrorComposition, output: int, names: Sequence[str]) -> 
     return tuple(at for at, name in enumerate(names) if name in used)
 
 
-class _RotationSenses:
-    """Sense of rotation of each wheel in each of its pairs.
-
-    Teeth are numbered in the order in which they pass the mesh of the first pair of the wheel.
-    """
-
-    def __init__(self, motion: Motion) -> None:
-        self.motion = motion
-        self.circuits: dict[str, Circuit] = {circuit.id: circuit for circuit in motion._problem.circuits}
-        self.first: dict[str, int] = {}
-
-    def mirrored(self, pair: str, wheel: str) -> bool:
-        """Return True if the sense of rotation of a wheel in the given pair is opposite to its sense in its
-        first pair.
-        """
-        circuit = self.circuits[pair]
-        link = circuit.i if wheel == circuit.wheels[0] else circuit.j
-        sense = -1 if self.motion._problem.relative(link, circuit.carrier) < 0 else 1
-        return self.first.setdefault(wheel, sense) != sense
+def _mirrored(motion: Motion, meshes: Sequence[GearMesh]) -> list[tuple[bool, bool]]:
+    """Return flags of driver and driven wheel of each mesh, True for a wheel that turns against its tooth numbers."""
+    circuits = {circuit.id: circuit for circuit in motion._problem.circuits}
+    first: dict[str, int] = {}
+    found = []
+    for mesh in meshes:
+        circuit, flags = circuits[mesh.name], []
+        for wheel in (mesh.driver, mesh.driven):
+            link = circuit.i if wheel == circuit.wheels[0] else circuit.j
+            sense = -1 if motion._problem.relative(link, circuit.carrier) < 0 else 1
+            # teeth are numbered in the order in which they pass the mesh of the first pair of the wheel
+            flags.append(first.setdefault(wheel, sense) != sense)
+        found.append((flags[0], flags[1]))
+    return found
 
 
 def _pair(
-    train: GearTrain, mesh: GearMesh, names: tuple[str, ...], senses: _RotationSenses, settings: Sequence[ErrorOverride]
+    train: GearTrain,
+    mesh: GearMesh,
+    wheels: tuple[WheelErrors, WheelErrors],
+    names: tuple[str, ...],
+    mirrored: tuple[bool, bool],
+    settings: Sequence[ErrorOverride],
 ) -> TrialPair:
-    wheels, contact = _even_wheels(train, mesh), mesh.displaced_contact
+    contact, counts = mesh.displaced_contact, (wheels[0].z, wheels[1].z)
     depths = mesh.cut_sizes.depths if contact is None else [wheel.depth for wheel in wheels]
     # the wheel with the smaller tooth depth; the driver if both depths are equal
     lesser = wheels[0] if depths[0] <= depths[1] else wheels[1]
-    fitting = pair_errors(train.declaration, mesh, lesser, settings)
-    mirrored = senses.mirrored(mesh.name, mesh.driver), senses.mirrored(mesh.name, mesh.driven)
-    numbers = names.index(mesh.driver), names.index(mesh.driven)
-    stroke = filing_stroke(train.declaration, mesh, lesser)
+    fitting, stroke = pair_errors(train.declaration, mesh, lesser, settings)
+    given = mesh.name, names.index(mesh.driver), names.index(mesh.driven), mirrored, counts, min(depths)
     if contact is None:
-        sizes, even = mesh.cut_sizes, mesh.transmission.error_moments()[0]
-        return TriangularTrialPair(mesh.name, *numbers, mirrored, even, sizes, fitting=fitting, stroke=stroke)
+        even = mesh.transmission.error_moments()[0]
+        return TriangularTrialPair(*given, even, mesh.cut_sizes, fitting=fitting, stroke=stroke)
     # the mean of the first-order transmission function itself, so that its model error at another centre distance is
     # not counted as a cutting error
-    even = -mean_lag(contact)
-    return DisplacedTrialPair(mesh.name, *numbers, mirrored, even, contact, fitting=fitting, stroke=stroke)
+    return DisplacedTrialPair(*given, -mean_lag(contact), contact, fitting=fitting, stroke=stroke)

@@ -1,6 +1,4 @@
-"""Results of Monte Carlo trials: event probabilities of pairs, and pointer errors at random positions and
-over a turn.
-"""
+"""Results of Monte Carlo trials: event probabilities of pairs, and pointer errors at random positions and in a turn."""
 
 from __future__ import annotations
 
@@ -192,11 +190,7 @@ class TrialResults(Tabular):
         return FirstOrderError(*(sqrt(np.mean(each[good] ** 2)) for each in (off, exact)))
 
     def _shares(self, at: int, runs: Bools) -> dict[str, float]:
-        """Return the variance share of each pair: the covariance of its contribution and the total error, divided by
-        the variance of the total error.
-
-        runs   mask of the trials that are used, shape (trials,)
-        """
+        """Return the variance share of each pair in the error of output `at`, over the trials in the mask `runs`."""
         superposition = Superposition(self.plan.composition)
         numbers = {pair.name: number for number, pair in enumerate(self.plan.pairs)}
         parts = {
@@ -206,7 +200,7 @@ class TrialResults(Tabular):
         }
         whole = sum(parts.values(), np.zeros(np.count_nonzero(runs)))
         total = float(np.var(whole)) if len(whole) else 0.0
-        # covariances instead of variances, because pairs with a common wheel are correlated
+        # covariance of each contribution with the total error, because pairs with a common wheel are correlated
         return {name: float(np.mean(part * (whole - whole.mean()))) / total for name, part in parts.items() if total}
 
     @property
@@ -246,11 +240,7 @@ class TrialResults(Tabular):
 
 
 def turning_trials(marks: Marks, pairs: Sequence[int]) -> Bools:
-    """Return a mask of the trials in which all given pairs transmit motion, shape (trials,).
-
-    A trial is excluded if a given pair jams, disengages or has a wheel that cannot be cut. Clashes do not exclude a
-    trial.
-    """
+    """Return a mask of the trials in which no given pair jams, disengages or has a wheel that cannot be cut."""
     runs: Bools = np.all((marks[:, list(pairs)] & LOST) == 0, axis=1)
     return runs
 
@@ -339,9 +329,7 @@ class ConvergenceStep:
 
 
 class FirstOrderError(NamedTuple):
-    """Root mean square of the error of first-order superposition, and root mean square of the exact pointer error for
-    comparison [rad].
-    """
+    """Error of first-order superposition compared with the exact pointer error."""
 
     off: float
     """Root mean square of the error of first-order superposition [rad]."""
@@ -434,10 +422,7 @@ class PointerErrorStatistics(Result):
         return float(np.abs(self.kept).max(initial=0.0))
 
     def beyond(self, angle: float) -> ProbabilityEstimate:
-        """Return the probability that the absolute pointer error exceeds an angle.
-
-        angle   angle, 0 or more [rad]
-        """
+        """Return the probability that the absolute pointer error exceeds `angle` [rad]."""
         return ProbabilityEstimate(int(np.count_nonzero(np.abs(self.kept) > angle)), len(self.kept))
 
 

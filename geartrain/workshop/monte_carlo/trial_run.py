@@ -46,11 +46,10 @@ _MOST = 10**9  # trials: more would not fit into memory
 
 @dataclass(frozen=True, slots=True)
 class TrialRecord:
-    """Results of the trials of one task, with fields as in `TrialResults`; `first` is the number of the first trial in
-    the task.
-    """
+    """Results of the trials of one task, with fields as in `TrialResults`."""
 
     first: int
+    """Number of the first trial in the task."""
     turns: Floats
     marks: NDArray[np.uint8]
     backlash: Floats
@@ -75,12 +74,11 @@ def check_trials(trials: int) -> None:
 
 
 def trial_tasks(trials: int, cases: int = 1) -> list[list[int]]:
-    """Return the tasks into which the trials are divided, each given by its first trial and its number of trials.
+    """Return first trial and number of trials of each task: a block, or a part of a block if there are few blocks.
 
-    A task is one block, or a half or a quarter of a block if there are few blocks. Sums are rounded task by task.
-    Therefore the tasks depend only on the number of trials and of `cases` (repetitions with other sizes), not on the
-    number of workers.
+    cases   number of times that all trials are run, each with other sizes or errors
     """
+    # sums are rounded task by task, so the tasks must not depend on the number of workers
     blocks = [range(start, min(start + BLOCK, trials)) for start in range(0, trials, BLOCK)]
     parts = min(4, -(-_TASKS // (len(blocks) * cases)))
     found = []
@@ -192,15 +190,9 @@ def work_block(plan: TrialPlan, seed: int, task: Sequence[int]) -> dict[str, Any
     for at, pair in enumerate(plan.pairs):
         if pair.name in found.transmissions:
             lags[:, at] = found.transmissions[pair.name].last - pair.even
-    arrays: dict[str, NDArray[Any]] = {
-        "turns": turns,
-        "marks": marks,
-        "backlash": backlash,
-        "errors": errors,
-        "linear": linear,
-        "lags": lags,
-    }
-    return {name: _pack(each) for name, each in {**arrays, "filing": drawn.strokes()}.items()}
+    arrays: dict[str, NDArray[Any]] = {"turns": turns, "marks": marks, "backlash": backlash, "errors": errors}
+    arrays |= {"linear": linear, "lags": lags, "filing": drawn.strokes()}
+    return {name: _pack(each) for name, each in arrays.items()}
 
 
 def _pack(array: NDArray[Any]) -> str:
@@ -211,8 +203,9 @@ def _pack(array: NDArray[Any]) -> str:
 
 
 def unpack(first: int, packed: Mapping[str, str]) -> TrialRecord:
-    """Return the results of the trials of one task, whose first trial has the number `first`, from the packed data of a
-    worker or a journal.
+    """Return the results of one task, which begins with trial `first`.
+
+    packed   arrays as base64 text of .npy files, from a worker or a journal
     """
     return TrialRecord(first, **{name: np.load(BytesIO(b64decode(each))) for name, each in packed.items()})
 
@@ -283,8 +276,7 @@ _EVENTS = "bit mask: 1 jam, 2 clash, 4 dwell, 8 disengaged, 16 wheels cannot be 
 def trial_table(
     plan: TrialPlan, path: Path, force: bool = False, replay: bool = False
 ) -> Iterator[Callable[[TrialRecord], None]]:
-    """Yield a function that appends one record to a table file (.parquet or .csv). The table has one row for each
-    trial.
+    """Yield a function that appends one record to a table file (.parquet or .csv) with one row for each trial.
 
     force    True if an existing file may be overwritten
     replay   True if an interrupted run is resumed, and the file is written again from the journal

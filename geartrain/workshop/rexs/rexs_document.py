@@ -1,5 +1,4 @@
-"""REXS files in JSON (.rexsj) and in XML (.rexs): writers of both formats from one structure, and a reader of both
-formats.
+"""Writer and reader of REXS files in JSON (.rexsj) and in XML (.rexs).
 
 The structure follows the JSON file: components with attributes, relations of components, and load cases. See the
 specification of REXS 1.4, "Interface structure" and "JSON as an alternative file format" (www.rexs.info).
@@ -94,9 +93,7 @@ class RexsDocument:
 
 
 def written(attributes: Attributes) -> list[Model]:
-    """Return attributes with types and units in the structure of a JSON file. Attributes with the value None are
-    omitted.
-    """
+    """Return attributes with types and units in the structure of a JSON file; None values are omitted."""
     found = []
     for name, value in attributes.items():
         kind, unit = _ATTRIBUTES[name]
@@ -112,9 +109,7 @@ def to_json(model: Model) -> str:
 
 
 def to_xml(model: Model) -> str:
-    """Return the content of an XML file that contains the given model, with the byte order mark that REXS 1.4
-    requires.
-    """
+    """Return the content of an XML file with the given model, and with the byte order mark that REXS 1.4 requires."""
     root = _element("model", model)
     ElementTree.indent(root)
     return f'\ufeff<?xml version="1.0" encoding="UTF-8"?>\n{ElementTree.tostring(root, encoding="unicode")}\n'
@@ -237,9 +232,7 @@ def _document(model: Model, place: str) -> RexsDocument:
 
 
 def _values(part: Model, units: dict[str, str]) -> Iterator[tuple[str, Any]]:
-    """Yield name and value of each supported attribute of a component, and add the units of these attributes to
-    `units`.
-    """
+    """Yield name and value of each supported attribute of a component, and add its unit to `units`."""
     for given in part.get("attributes", ()):
         name, unit = str(given["id"]), str(given.get("unit") or "none").replace("none", "")
         value = next((value for key, value in given.items() if key not in ("id", "unit")), None)
@@ -253,12 +246,10 @@ def _values(part: Model, units: dict[str, str]) -> Iterator[tuple[str, Any]]:
         try:
             if is_list != isinstance(value, list):
                 raise TypeError
-            read = [_scalar_of(each, kind) for each in (value if is_list else [value])]
+            given_values = value if is_list else [value]
+            is_flag = kind.startswith("boolean")
+            read = [str(each).lower() == "true" if is_flag else float(each) for each in given_values]
         except (TypeError, ValueError, OverflowError):
             raise ValueError(f"`{name}` of component {part['id']} is {value!r}, not a {kind}") from None
         if all(map(isfinite, read)):
             yield name, read if is_list else read[0]
-
-
-def _scalar_of(value: Any, kind: str) -> float:
-    return str(value).lower() == "true" if kind.startswith("boolean") else float(value)

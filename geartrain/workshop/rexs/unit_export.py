@@ -180,8 +180,7 @@ class _Unit:
     def teeth(self, name: str) -> tuple[float | None, float | None]:
         """Return pressure angle [deg] and profile shift of a wheel, from its first pair with involute teeth.
 
-        If no tooth form is declared, the angle is 20 deg and the profile shift is None. If all declared forms are
-        non-involute, both are None.
+        Without a tooth form, they are 20 deg and None; without an involute form, both are None.
         """
         pairs = [gear for gear in self.declared.gears if name in gear.pair]
         forms = [(gear.pair.index(name), self.declared.form_of(gear)) for gear in pairs]
@@ -193,9 +192,7 @@ class _Unit:
     # ------------------------------------------------------------------------------------------------ stages, carriers
 
     def stage_of(self, gear: GearPair) -> tuple[str, str, str] | None:
-        """Return the stage type of a pair and the names of its first and second gear, or None if REXS has no such
-        stage.
-        """
+        """Return the stage type of a pair and the names of its two gears, or None if REXS has no such stage."""
         first, second = sorted(gear.pair, key=self.kind)
         kind = _STAGES.get((self.kind(first), self.kind(second)))
         skew = kind == "cylindrical_stage" and self.work.layout.axis_distance(first, second) is None
@@ -262,9 +259,7 @@ class _Unit:
 
     @cached_property
     def engagement(self) -> Mapping[tuple[str, ...], list[bool]]:
-        """Engagement flags of each brake (key with one link) and each lock (key with two links). A flag is True in a
-        state in which the brake or lock is engaged.
-        """
+        """Flags of each brake (key: one link) and lock (key: two links), True in states in which it is engaged."""
         found: dict[tuple[str, ...], list[bool]] = {}
         for at, case in enumerate(self.cases):
             for links in (*((link,) for link in case.fixed), *case.locks):
@@ -278,9 +273,7 @@ class _Unit:
         return declared.get(links, f"{' - '.join(links)} held")
 
     def clutch(self, links: tuple[str, ...], engaged: list[bool]) -> None:
-        """Add a brake on one link, or a lock between two links. It is switchable unless it is engaged in
-        every state.
-        """
+        """Add a brake on one link, or a lock between two links; it is switchable if a state releases it."""
         ends = [self.numbers["link", link] for link in links if ("link", link) in self.numbers]
         name, fixed = self.clutch_name(links), all(engaged) and not any(links in case.clutches for case in self.cases)
         if ends:
@@ -290,9 +283,7 @@ class _Unit:
 
     @cached_property
     def torques(self) -> Mapping[int, Torques]:
-        """Torques of each state, keyed by state index. States without loads in N m, or with undetermined torques, are
-        omitted.
-        """
+        """Torques by state index, without states whose loads are not in N m or do not determine the torques."""
         found = {}
         for at, case in enumerate(self.cases):
             if case.loads and all(load.unit or not load.value for load in case.loads.values()):
@@ -301,9 +292,7 @@ class _Unit:
         return {at: torques for at, torques in found.items() if torques.verdict}
 
     def loads(self, at: int) -> Mapping[str, float]:
-        """Return the external torques on each link in a state [N m], without the torques of brakes and the forces on
-        sliding links.
-        """
+        """Return the external torques on each link in a state [N m], without brakes and sliding links."""
         apart = {link for links in self.engagement for link in links} | self.declared.sliding
         computed = self.torques[at].external if at in self.torques else {}
         given = self.cases[at].loads.items()
@@ -346,9 +335,7 @@ def _sizes(kind: str, place: WheelPlace, wheel: Wheel) -> Attributes:
 
 
 def _pose(axis: AxisPlace | None = None, point: Vector | None = None) -> Attributes:
-    """Return the attributes that describe the pose of a component: u is directed along its axis, and w perpendicular to
-    it.
-    """
+    """Return the attributes of a component's pose: u is directed along its axis, and w perpendicular to it."""
     along, origin = (axis.direction, axis.point) if axis else ((0.0, 0.0, 1.0), (0.0, 0.0, 0.0))
     vectors = {"u_axis_vector": along, "support_vector": point or origin, "w_axis_vector": basis(along)[0]}
     return {name: [*map(float, each)] for name, each in vectors.items()} | {"reference_component_for_position": 1}

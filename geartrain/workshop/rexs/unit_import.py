@@ -67,17 +67,9 @@ class _Pose(NamedTuple):
     origin: Vector
     u: Vector
 
-    def is_coaxial(self, other: _Pose) -> bool:
-        """Return True if the u-axes of the two components are collinear, False otherwise."""
-        distance = size(cross(self.u, minus(other.origin, self.origin)))
-        scale = 1.0 + size(self.origin) + size(other.origin)
-        return size(cross(self.u, other.u)) < _NEAR and distance < _NEAR * scale
-
 
 class _GearUnit:
-    """Links, axes, wheels and states of a gear unit. A link is identified by the id of one of its shafts, or by
-    `_FRAME`.
-    """
+    """Links, axes, wheels and states of a gear unit. The id of a link is that of one of its shafts, or `_FRAME`."""
 
     def __init__(self, document: RexsDocument) -> None:
         self.document, self.parts, self.relations = document, document.components, document.relations
@@ -156,10 +148,11 @@ class _GearUnit:
     # -------------------------------------------------------------------------------------------------- links and axes
 
     def _carrier(self, stage: int) -> list[int]:
-        """Return the ids of the shafts, pins and side plates that belong to the carrier of a stage; empty if the
-        carrier has no shaft.
-        """
-        shafts, pins = (self._of_stage(stage, relation) for relation in ("planet_carrier_shaft", "planet_pin"))
+        """Return the ids of shafts, pins and side plates of the carrier of a stage; empty if it has no shaft."""
+        shafts, pins = (
+            [shaft for whole, shaft in self.relations[relation] if whole == stage]
+            for relation in ("planet_carrier_shaft", "planet_pin")
+        )
         plates = []
         for carrier in self.document.parts(stage, "planet_carrier"):
             shafts += self.document.parts(carrier, "shaft")
@@ -167,14 +160,9 @@ class _GearUnit:
         found = [*dict.fromkeys(shaft for shaft in shafts if shaft not in pins), *pins]
         return [*found, *plates] if found else []
 
-    def _of_stage(self, stage: int, relation: str) -> list[int]:
-        return [shaft for whole, shaft in self.relations[relation] if whole == stage]
-
     @cached_property
     def bodies(self) -> DisjointSets[int]:
-        """Disjoint sets of shafts, side plates and casings that form one rigid body each. `_FRAME` represents the
-        casing.
-        """
+        """Disjoint sets of shafts, side plates and casings that are one rigid body; `_FRAME` is in the casing's set."""
         bodies: DisjointSets[int] = DisjointSets()
         for casing in self.document.of_type("gear_casing"):
             bodies.join(_FRAME, casing)
@@ -189,9 +177,7 @@ class _GearUnit:
         return bodies
 
     def link_of(self, part: int) -> int:
-        """Return the id of the link to which a shaft, gear, side plate or casing belongs, or the id of the part if
-        there is no link.
-        """
+        """Return the id of the link to which a shaft, gear, side plate or casing belongs, or else its own id."""
         return self.bodies.find(self.mount.get(part, part))
 
     @cached_property
@@ -228,7 +214,9 @@ class _GearUnit:
             if self.parts[coupling].type in _COUPLINGS:
                 yield inner, outer
         for (first, pose), (second, other) in combinations(self.poses.items(), 2):
-            if pose.is_coaxial(other):
+            distance = size(cross(pose.u, minus(other.origin, pose.origin)))
+            scale = 1.0 + size(pose.origin) + size(other.origin)
+            if size(cross(pose.u, other.u)) < _NEAR and distance < _NEAR * scale:
                 yield first, second
 
     @cached_property
@@ -254,9 +242,7 @@ class _GearUnit:
         return -1 if link in self.poses and dot(self.poses[link].u, self.direction) < 0 else 1
 
     def _place(self, link: int) -> dict[str, Any]:
-        """Return direction and position of the axis of a link as data of a declaration; empty if the file does not give
-        them.
-        """
+        """Return direction and position of a link's axis as data of a declaration; empty if the file has none."""
         pose = self.poses.get(link)
         if pose is None:
             return {}
@@ -305,9 +291,7 @@ class _GearUnit:
         return "" if value is None else f"{_text(value)} {_UNITS.get(unit, unit)}".strip()
 
     def _gear(self, mesh: tuple[int, int]) -> dict[str, Any]:
-        """Return the declaration of a gear pair. It has involute teeth if the file gives pressure angle and profile
-        shift of the flanks.
-        """
+        """Return a gear pair as data of a declaration, involute if the file gives pressure angle and profile shift."""
         pair = {"pair": [self.name(gear) for gear in mesh]}
         left = {roles[0]: roles[1] for roles in self.relations["flank"]}
         flanks = [self.parts[left[gear]].attributes if gear in left else {} for gear in mesh]
@@ -337,9 +321,7 @@ class _GearUnit:
 
     @cached_property
     def copies(self) -> dict[int, list[int]]:
-        """Groups of equal planets, keyed by the first planet of each group. They are evenly spaced and have equal
-        wheels that mesh with the same central wheels.
-        """
+        """Groups of evenly spaced planets with equal wheels and mates, keyed by the first planet of each group."""
         meshes: dict[int, list[tuple[Any, ...]]] = defaultdict(list)
         for mesh in self.meshes:
             for own, other in (mesh, mesh[::-1]):
@@ -359,9 +341,7 @@ class _GearUnit:
         return found
 
     def _is_even(self, group: list[int]) -> bool:
-        """Return True if planets are evenly spaced about the axis of their carrier, or if their positions are
-        unknown.
-        """
+        """Return True if planets are evenly spaced about the axis of their carrier, or have unknown positions."""
         centre, poses = self.poses.get(self.top(group[0])), [self.poses.get(link) for link in group]
         if centre is None or None in poses:
             return True
@@ -403,9 +383,7 @@ class _GearUnit:
         return {**(self.parts[part].attributes if part in self.parts else {}), **case.get(part, {})}
 
     def _connections(self, gears: int) -> Iterator[tuple[int, list[str], list[bool]]]:
-        """Yield each coupling of two links once: component id, names of its links except the frame, and engagement in
-        each gear of the unit.
-        """
+        """Yield the id of each coupling, the names of its links except the frame, and its engagement in each gear."""
         seen = set()
         for coupling, *sides in self.relations["side"]:
             ends, part = [self.link_of(side) for side in sides], self.parts[coupling]
@@ -439,9 +417,7 @@ class _GearUnit:
         return _if_any(inputs=inputs, loads={link: f"{_text(torque)} N m" for link, torque in loads.items()})
 
     def _torque(self, given: Attributes, speed: float | None) -> float | None:
-        """Return the torque of a load [N m]: the given value, or the value that follows from its power [kW] and the
-        speed of the shaft [1/min].
-        """
+        """Return the torque of a load [N m], as given or from its power [kW] and the shaft's speed [1/min]."""
         if not given.get("defines_torque", True):
             return None
         if "torque_around_u_axis" not in given and "power" in given and speed:
@@ -456,9 +432,7 @@ def _if_any(**parts: Any) -> dict[str, Any]:
 
 
 def _clean(name: str) -> str:
-    """Return a name without the bracketed id that some programs append, and without the characters that separate wheel
-    names.
-    """
+    """Return a name without the bracketed id that some programs append, and with "-" for "~"."""
     return re.sub(r"\s*\[\d+\].*$", "", name).replace("~", "-").strip()
 
 

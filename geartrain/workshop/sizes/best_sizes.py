@@ -64,17 +64,11 @@ class BestToothSizes(Tabular, Pictured, Result):
     outlines: OutlineAgreement
     """Comparison of the properties of the best design with the properties computed from its drawn outlines."""
     equal_depth: ToothSizes | None
-    """Design with equally deep teeth, and with the relative clearance and half angles of the initial design; None if it
-    cannot turn.
-    """
+    """Initial design with the radii of teeth of equal depth; None if it cannot turn."""
     pitch_true: ToothSizes | None
-    """Design with tip radii proportional to the tooth numbers, and with the other values of the initial design; None if
-    it cannot turn.
-    """
+    """Initial design with tip radii proportional to the tooth numbers; None if it cannot turn."""
     front: tuple[ToothSizes, ...]
-    """Pareto front, from the best design for the first objective to the best design for the second objective; empty if
-    there is one objective.
-    """
+    """Pareto front, from the best design for the first objective to that for the second; empty for one objective."""
     evaluations: int
     """Number of designs that the search evaluated."""
     stops: float | None
@@ -90,9 +84,7 @@ class BestToothSizes(Tabular, Pictured, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Columns of a table with the best design, the rule-based designs that can turn, and the Pareto front. Angles
-        are in rad.
-        """
+        """Columns of a table with the best design, the rule-based designs that can turn, and the Pareto front."""
         rule = {"best": self.best, "equal depth": self.equal_depth, "pitch-true": self.pitch_true}
         rows = [(name, sizes) for name, sizes in rule.items() if sizes is not None]
         rows += [(f"front {at}", sizes) for at, sizes in enumerate(self.front, start=1)]
@@ -209,26 +201,18 @@ def _checked(start: ToothSizes, aims: tuple[str, ...], free: Mapping[str, Range 
 
 @dataclass(frozen=True)
 class OutlineAgreement(Result):
-    """Comparison of properties of a design computed from its transmission function and from the contact of its drawn
-    outlines.
-    """
+    """Comparison of properties of a design: computed from its transmission function, and from its drawn outlines."""
 
     KEYS = ("turns", "loss", "error", "impact", "backlash", "difference")
 
     loss: tuple[float, float]
-    """Two values of the loss [1]: computed from the transmission function, and computed from the outlines."""
+    """Loss: its values from the transmission function, and from the outlines [1]."""
     error: tuple[float, float]
-    """Two values of the peak-to-peak transmission error [rad of the driven wheel]: computed from the transmission
-    function, and computed from the outlines.
-    """
+    """Peak-to-peak error: values from the transmission function, and from the outlines [rad of the driven wheel]."""
     impact: tuple[float, float]
-    """Two values of the impact loss, as defined in `ToothSizes` [1]: computed from the transmission function, and
-    computed from the outlines.
-    """
+    """Impact loss, as in `ToothSizes`: its values from the transmission function, and from the outlines [1]."""
     backlash: tuple[float, float]
-    """Two values of the backlash [rad of the driven wheel]: computed from the transmission function, and computed from
-    the outlines.
-    """
+    """Backlash: its values from the transmission function, and from the outlines [rad of the driven wheel]."""
     turns: bool
     """True if the drawn outlines turn without a jam and without a loss of contact."""
 
@@ -253,9 +237,7 @@ def outline_transmission(sizes: TriangularSizes, friction: float) -> OutlineTran
 
 
 def confirm_by_outlines(design: ToothSizes) -> OutlineAgreement:
-    """Compare the properties of a design with the properties computed from the contact of its drawn outlines. The
-    design must be able to turn.
-    """
+    """Compare the properties of a design, which must turn, with those computed from its drawn outlines."""
     transmission = outline_transmission(design.sizes, design.friction)
     low, high = transmission.error_range()
     return OutlineAgreement(
@@ -268,9 +250,7 @@ def confirm_by_outlines(design: ToothSizes) -> OutlineAgreement:
 
 
 def _mean_efficiency(transmission: OutlineTransmission) -> float:
-    """Return the mean efficiency over the driver angle, computed by Gauss quadrature in cells in which the function is
-    smooth.
-    """
+    """Return the mean efficiency over the driver angle, by Gauss quadrature in cells in which it is smooth."""
     import numpy as np
 
     nodes, weights = np.polynomial.legendre.leggauss(_NODES)
@@ -283,10 +263,7 @@ def _mean_efficiency(transmission: OutlineTransmission) -> float:
 
 
 def _outline(z: int, R: float, beta: float, length: float, ring: bool) -> GearOutline:
-    """Return the outline of a wheel with straight flanks.
-
-    The flanks extend from the tips at radius `R` inwards or, for an internal wheel, outwards.
-    """
+    """Return the outline of a wheel with straight flanks from the tips at radius `R` inwards (internal: outwards)."""
     import numpy as np
 
     from geartrain.teeth.contact import GearOutline, OutlineCurve, ToothFlanks

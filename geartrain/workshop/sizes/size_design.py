@@ -231,9 +231,7 @@ _FIGURES = ("loss", "loss_at_constant_load", "error", "impact", "jam", "backlash
 
 
 def size_columns(designs: Sequence[ToothSizes]) -> dict[str, Sequence[Any]]:
-    """Return table columns by name, with one row for each design that can turn: sizes and properties. Angles are in
-    rad.
-    """
+    """Return table columns of sizes and properties, keyed by name, with one row for each design; angles in rad."""
     names = ("radii", "window", "clearance_factor", *_FIGURES)
     angles = {f"half_angle_{at + 1}": [each.half_angles[at] for each in designs] for at in (0, 1)}
     return angles | {name: [getattr(each, name) for each in designs] for name in names}
@@ -277,7 +275,7 @@ def keeps(design: ToothSizes, limits: Iterable[SizeLimit]) -> bool:
 
 
 def form_data(sizes: ToothSizes, exact: bool = False) -> dict[str, Any]:
-    """Return the sizes as data of a declaration. If `exact` is True, all digits of each float are written."""
+    """Return the sizes as data of a declaration; with all digits if `exact` is True."""
     angles, lengths = ("", "") if exact else (".10g", f".{DIGITS}f")
     first, second = (f"{degrees(angle):{angles}} deg" for angle in sizes.half_angles)
     return {

@@ -2,8 +2,7 @@
 
 The objectives are continuous functions of the sizes, but they have kinks where the phases of the path of contact
 change, and several local minima. DIRECT finds the lowest minimum (`minimise`). The Pareto front of two objectives is
-found by the epsilon-constraint method: the first objective is minimised under bounds on the second. All designs that
-were computed in the search are candidates for the front.
+found by the epsilon-constraint method: the first objective is minimised under bounds on the second.
 """
 
 from __future__ import annotations
@@ -77,9 +76,7 @@ class SizeSearch:
         return keeps(design, (*self.limits, *more))
 
     def value(self, aim: str, more: Sequence[SizeLimit] = ()) -> Callable[[Point], float]:
-        """Return the objective as a function of a point. Infeasible designs have larger values than feasible
-        designs.
-        """
+        """Return the objective as a function of a point; infeasible designs have larger values than all others."""
 
         def figure(at: Point) -> float:
             design = self.design(at)
@@ -92,9 +89,7 @@ class SizeSearch:
         return figure
 
     def minimum(self, aim: str, starts: Sequence[ToothSizes] = ()) -> ToothSizes:
-        """Return the best design for one objective. Raises `QuestionError` if no design turns and satisfies
-        the limits.
-        """
+        """Return the best design for one objective. Raises `QuestionError` if no design is feasible."""
         sampled = minimise(self.value(aim), self.bounds, [self.place(each) for each in starts])
         best = self.design(sampled.best)
         if self.keeps(best):
@@ -108,9 +103,7 @@ class SizeSearch:
         raise QuestionError(Problem(what, why, fix))
 
     def front(self, first: str, second: str) -> tuple[ToothSizes, ...]:
-        """Return the Pareto front of two objectives, from the best design for `first` to the best design for
-        `second`.
-        """
+        """Return the Pareto front of two objectives, from the best design for `first` to the best for `second`."""
         ends = self.minimum(first), self.minimum(second)
         low, high = (each.merit(second) for each in ends[::-1])
         for step in range(1, _FRONT + 1):
@@ -121,25 +114,17 @@ class SizeSearch:
             inside = [at for at, each in self.designs.items() if self.keeps(each, [bound])]
             if inside:  # the best known design within the bound is the start
                 polish(known, min(inside, key=lambda at: self.designs[at].merit(first)), rounds=1)
-        return _spread(undominated([each for each in self.designs.values() if self.keeps(each)], first, second), second)
-
-
-def undominated(designs: Sequence[ToothSizes], first: str, second: str) -> tuple[ToothSizes, ...]:
-    """Return the Pareto front of given designs, from the best design for the objective `first` to the best for
-    `second`.
-    """
-    found: list[ToothSizes] = []
-    # in this order a design is dominated unless it improves the second objective
-    for each in sorted(designs, key=lambda design: (design.merit(first), design.merit(second))):
-        if not found or each.merit(second) < found[-1].merit(second):
-            found.append(each)
-    return tuple(found)
+        feasible = [each for each in self.designs.values() if self.keeps(each)]
+        front: list[ToothSizes] = []
+        # in this order a design is dominated unless it improves the second objective
+        for each in sorted(feasible, key=lambda design: (design.merit(first), design.merit(second))):
+            if not front or each.merit(second) < front[-1].merit(second):
+                front.append(each)
+        return _spread(front, second)
 
 
 def _spread(front: Sequence[ToothSizes], aim: str) -> tuple[ToothSizes, ...]:
-    """Return a front without the designs that differ negligibly from their predecessor. Both ends of the front are
-    kept.
-    """
+    """Return a Pareto front without designs that differ negligibly from their predecessor; both ends are kept."""
     worth = _WORTH * (front[0].merit(aim) - front[-1].merit(aim))
     found = [front[0]]
     for each in front[1:-1]:
@@ -169,9 +154,8 @@ def checked_ranges(free: Mapping[str, Range | None]) -> dict[str, Range]:
             raise QuestionError(Problem(what, why, f"give bounds from {minimum:g} to {most:g} (angles in rad)"))
         found[name] = (float(low), float(high))
     if not found:
-        what = "no parameter is free"
-        why = "a search needs at least one free parameter"
-        raise QuestionError(Problem(what, why, f"free one or more of {', '.join(PARAMETERS)}"))
+        why = "with all parameters fixed, there is only one design"
+        raise QuestionError(Problem("no parameter is free", why, f"free one or more of {', '.join(PARAMETERS)}"))
     return found
 
 
@@ -180,8 +164,7 @@ def checked_ranges(free: Mapping[str, Range | None]) -> dict[str, Range]:
 
 @dataclass(frozen=True)
 class ProbabilityLimit:
-    """Limit on the probability that a pair with cutting errors jams or clashes. It is evaluated only for the best
-    designs.
+    """Limit on the probability that a pair with cutting errors jams or clashes, evaluated only for the best designs.
 
     See Also
     --------
@@ -245,15 +228,13 @@ class PairTrials:
 
 
 def best_within(search: SizeSearch, aim: str, limit: ProbabilityLimit) -> tuple[ToothSizes, float]:
-    """Return the best design that satisfies a probability limit, and its probability of a jam or clash.
-
-    Designs are evaluated in the order of their objective values. Designs near a rejected design are skipped.
-    """
+    """Return the best design that satisfies a probability limit, and its probability of a jam or clash."""
     known = sorted((at for at, each in search.designs.items() if search.keeps(each)), key=search.value(aim))
     refused: list[Point] = []
     for at in known:
         if len(refused) == _MOST_TRIALS:
             break
+        # designs near a rejected one are skipped
         if any(distance(at, other, search.bounds) < _NEAR for other in refused):
             continue
         if (probability := limit.probability(search.design(at))) <= limit.bound:
@@ -269,9 +250,7 @@ def best_within(search: SizeSearch, aim: str, limit: ProbabilityLimit) -> tuple[
 def _bisect_to_limit(
     search: SizeSearch, aim: str, limit: ProbabilityLimit, at: Point, probability: float, refused: Sequence[Point]
 ) -> tuple[ToothSizes, float]:
-    """Return an accepted design near the probability limit, and its probability. It is found by bisection between an
-    accepted design and the nearest rejected design.
-    """
+    """Return a design near the probability limit, by bisection between an accepted and a rejected design."""
     if not refused:
         return search.design(at), probability
     value = search.value(aim)
@@ -323,9 +302,7 @@ class SampledFunction:
 
 
 def distance(one: Point, other: Point, bounds: Sequence[tuple[float, float]]) -> float:
-    """Return the maximum over all coordinates of the difference of two points in a box, as a fraction of the range of
-    the coordinate [1].
-    """
+    """Return the maximum difference of two points in a coordinate, as a fraction of its range in the box [1]."""
     return max(abs(a - b) / (high - low) for a, b, (low, high) in zip(one, other, bounds, strict=True))
 
 
@@ -364,11 +341,12 @@ def polish(sampled: SampledFunction, start: Point, rounds: int = _ROUNDS) -> Non
     step, here = _STEP, start
     for turn in range(rounds):
         before = sampled(here)
-        # alternate the sides of the simplex, so that one that collapsed along a kink is not restarted unchanged
-        corners = [
-            here,
-            *(_moved_point(sampled, here, which, step if turn % 2 else -step) for which in range(len(here))),
-        ]
+        corners = [here]
+        for which, (low, high) in enumerate(sampled.bounds):
+            # alternate the sides of the simplex, so that one that collapsed along a kink is not restarted unchanged
+            by = (step if turn % 2 else -step) * (high - low)
+            place = here[which] + by if low <= here[which] + by <= high else here[which] - by
+            corners.append((*here[:which], place, *here[which + 1 :]))
         # sizes are declared with 6 decimals
         options = {"initial_simplex": np.array(corners), "maxfev": 50 * len(here), "xatol": 1e-6, "fatol": 1e-10}
         found = minimize(sampled, np.array(here), method="Nelder-Mead", options=options)  # type: ignore[call-overload]
@@ -406,13 +384,3 @@ def _search_between(sampled: SampledFunction, low: float, high: float) -> None:
     if high > low:
         tolerance = _FINE * (last - first)
         minimize_scalar(lambda x: sampled((x,)), bounds=(low, high), method="bounded", options={"xatol": tolerance})
-
-
-def _moved_point(sampled: SampledFunction, at: Point, which: int, step: float) -> Point:
-    """Return the point that is moved along one variable by a fraction of its range, in a direction that stays in the
-    box.
-    """
-    low, high = sampled.bounds[which]
-    by = step * (high - low)
-    place = at[which] + by if low <= at[which] + by <= high else at[which] - by
-    return (*at[:which], place, *at[which + 1 :])

@@ -59,23 +59,18 @@ def tooth_sizes_figure(found: BestToothSizes) -> Figure:
     z1, z2 = found.teeth
     best = " and ".join(_LABELS[aim].partition(",")[0].partition(" (")[0] for aim in found.aims)
     title = f"triangular teeth, {z1} and {z2}, wheel {found.driver} drives: best {best}"
-    return headed(_front_figure(found) if len(found.aims) == 2 else _aim_figure(found), title)
-
-
-def _aim_figure(found: BestToothSizes) -> Figure:
-    """Draw the designs of a search for one objective, in one panel for each free parameter."""
-    names = list(found.free)
-    figure, panels = curve_panels([3.2] * len(names), share=False)
-    for axes, name in zip(panels, names, strict=True):
+    if len(found.aims) == 2:
+        return headed(_front_figure(found), title)
+    # one panel for each free parameter
+    figure, panels = curve_panels([3.2] * len(found.free), share=False)
+    for axes, name in zip(panels, found.free, strict=True):
         _panel(axes, found, name, found.aims[0])
     _key(figure, figure.axes[0])
-    return figure
+    return headed(figure, title)
 
 
 def train_sizes_figure(found: BestTrainSizes) -> Figure:
-    """Draw the improvement of each pair of a train by the best tooth sizes. The pair with the worst declared sizes is
-    at the top.
-    """
+    """Draw the improvement of each pair of a train, with the pair of the worst declared sizes on top."""
     sign = -1.0 if found.aim == "jam" else 1.0
     pairs = sorted(found.pairs, key=lambda pair: -sign * _shown(pair.declared or pair.together, found.aim))
     rows = []
@@ -85,22 +80,15 @@ def train_sizes_figure(found: BestTrainSizes) -> Figure:
         }
         ends = marks.get("as declared", marks["best for the train"]), marks["best for the train"]
         rows.append(Row(f"{pair.name}, {pair.teeth[0]}/{pair.teeth[1]}", marks, (ends,)))
-    figure = interval_chart(
-        {_LABELS[found.aim]: rows}, {name: look for name, _, look in _PAIR_MARKS}, title=_gain(found)
-    )
-    axes = figure.axes[0]
-    axes.set_xlim(left=min(0.0, axes.get_xlim()[0]))
-    return figure
-
-
-def _gain(found: BestTrainSizes) -> str:
-    """Return a text with the objective of the train as declared and optimised, such as `a to b: loss (%) 46.9 as
-    declared, ...`.
-    """
     before, after = (
         "none" if each is None else f"{_in_units(each, found.aim):.3g}" for each in (found.before, found.together)
     )
-    return f"{found.train} to {found.output}: {_LABELS[found.aim]} {before} as declared, {after} optimised"
+    label = _LABELS[found.aim]
+    title = f"{found.train} to {found.output}: {label} {before} as declared, {after} optimised"
+    figure = interval_chart({label: rows}, {name: look for name, _, look in _PAIR_MARKS}, title=title)
+    axes = figure.axes[0]
+    axes.set_xlim(left=min(0.0, axes.get_xlim()[0]))
+    return figure
 
 
 def _front_figure(found: BestToothSizes) -> Figure:
@@ -147,11 +135,7 @@ def _panel(axes: Axes, found: BestToothSizes, across: str, up: str) -> None:
 
 
 def _span(found: BestToothSizes, name: str) -> tuple[float, float]:
-    """Return the axis limits of an objective.
-
-    The limits extend from the minimum of the objective to its largest relevant value, and include the rule-based
-    designs.
-    """
+    """Return the axis limits of an objective, which include all designs that are not much worse than the best."""
     values = sorted(_shown(each, name) for each in found.tried)
     marked = [_shown(each, name) for each in (found.equal_depth, found.pitch_true, *found.front) if each is not None]
     # designs far worse than the best would compress all other designs into a line

@@ -29,16 +29,22 @@ _WORDS = (
 
 
 def describe_tooth_sizes(found: BestToothSizes) -> Document:
-    """Return the report on the best and the rule-based sizes of a pair, with the check of the outlines and the Pareto
-    front.
-    """
+    """Return the report on the best sizes of a pair, with rule-based sizes, outline check and Pareto front."""
     aims = " and ".join(AIM_WORDS[aim] for aim in found.aims)
     z1, z2 = found.teeth
+    stops = (
+        ""
+        if found.stops is None
+        else (f" With the given errors, the best design jams or clashes in {100 * found.stops:.3g} % of the trials.")
+    )
+    best = found.best
+    angles = ", ".join(f"{degrees(angle):.6g} deg" for angle in dict.fromkeys(best.half_angles))
+    angle = angles if "," not in angles else f"[{angles}]"
     summary = [
         f"The wheel of {found.teeth[found.driver - 1]} teeth drives the wheel of {found.teeth[2 - found.driver]} "
         f"teeth; coefficient of friction {found.friction:g}. Free parameters: {free_text(found.free)}."
-        f"{_limits_text(found.limits)}{_stops_text(found)} Designs evaluated: {found.evaluations}.",
-        sizes_text(found.best),
+        f"{_limits_text(found.limits)}{stops} Designs evaluated: {found.evaluations}.",
+        f"Declared as {{form: triangular, half_angle: {angle}, window: {best.window:.6g}, radii: {best.radii:.6g}}}.",
     ]
     sections = [Section("Sizes", (_WORDS,), (Table(_HEADER, list(_rows(found))),)), _agreement(found.outlines)]
     if found.front:
@@ -47,12 +53,14 @@ def describe_tooth_sizes(found: BestToothSizes) -> Document:
 
 
 def describe_train_sizes(found: BestTrainSizes) -> Document:
-    """Return the report on the best sizes of a train: the improvement of the train, and each pair before and after the
-    optimisation.
-    """
+    """Return the report on the best sizes of a train, and of each pair before and after the optimisation."""
     aim = found.aim
     rows = [
-        (name, "does not run" if each is None else figure_text(aim, each), *_efficiency(aim, each))
+        (
+            name,
+            "does not run" if each is None else figure_text(aim, each),
+            *(["-" if each is None else f"{1 - each:.6f}"] if aim == "loss" else ()),
+        )
         for name, each in (
             ("as declared", found.before),
             ("optimised separately", found.apart),
@@ -88,17 +96,8 @@ _TRAIN_FIGURES = {
 }
 
 
-def _efficiency(aim: str, loss: float | None) -> tuple[str, ...]:
-    if aim != "loss":
-        return ()
-    return ("-",) if loss is None else (f"{1 - loss:.6f}",)
-
-
 def _pairs_section(found: BestTrainSizes) -> Section:
-    """Return the report section that lists each pair before and after the optimisation.
-
-    The section contains relative clearances (windows) and half angles only if they are free parameters.
-    """
+    """Return the report section that lists radii, free parameters and objective of each pair, before and after."""
     sizes = [("radii", "radii"), *((name, name.replace("_", " ")) for name in found.free if name != "radii")]
     header = ["pair", "drives", "teeth"]
     for _, words in sizes:
@@ -135,15 +134,6 @@ def figure_text(figure: str, value: float) -> str:
     return f"{value:.5g}"
 
 
-def sizes_text(sizes: ToothSizes) -> str:
-    """Return a sentence that gives the sizes as data for a tooth form in a declaration."""
-    angles = ", ".join(f"{degrees(angle):.6g} deg" for angle in dict.fromkeys(sizes.half_angles))
-    angle = angles if "," not in angles else f"[{angles}]"
-    return (
-        f"Declared as {{form: triangular, half_angle: {angle}, window: {sizes.window:.6g}, radii: {sizes.radii:.6g}}}."
-    )
-
-
 def free_text(free: Mapping[str, tuple[float, float]]) -> str:
     """Return a list of the free parameters with their bounds, as text."""
     parts = []
@@ -161,12 +151,6 @@ def _limits_text(limits: Sequence[SizeLimit]) -> str:
         side = "at least" if limit.figure in limit.MINIMUM else "at most"
         parts.append(f"{limit.figure} {side} {figure_text(limit.figure, limit.bound)}")
     return f" Limits: {', '.join(parts)}."
-
-
-def _stops_text(found: BestToothSizes) -> str:
-    if found.stops is None:
-        return ""
-    return f" With the given errors, the best design jams or clashes in {100 * found.stops:.3g} % of the trials."
 
 
 def _rows(found: BestToothSizes) -> Iterator[Sequence[str]]:

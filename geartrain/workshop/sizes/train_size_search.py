@@ -1,11 +1,8 @@
-"""Optimisation of the triangular teeth of a whole train: each pair separately, then all pairs together if they
-interact.
+"""Optimisation of the triangular teeth of a train: each pair separately, then all pairs together if they interact.
 
-Only some pairs transmit power to an output, and only some pairs influence its transmission error. These pairs first get
-the sizes that are best for each pair separately. The objective is a property of the train: its loss from input to
-output, or the error of a pointer. Coordinate descent starts from the better of the declared sizes and the separate
-optima. It changes one size of one pair at a time until the improvement is negligible, so the result is never worse than
-the separate optima.
+The pairs that act on the output first get the sizes that are best for each pair separately. The loss of the train or
+the error of the output is then minimised by coordinate descent, which changes one size of one pair at a time. It starts
+from the better of the declared sizes and the separate optima, so the result is never worse than these.
 """
 
 from __future__ import annotations
@@ -131,9 +128,7 @@ class TrainSizeSearch:
 
     @property
     def _is_joint(self) -> bool:
-        """True if the objective depends on all pairs jointly, because power losses and transmission errors propagate
-        through the train.
-        """
+        """True if the objective depends on all pairs jointly, because losses and errors propagate through the train."""
         return self.aim in ("loss", "error")
 
     # -------------------------------------------------------------------------------------------------------- pairs
@@ -190,10 +185,7 @@ class TrainSizeSearch:
 
     @cached_property
     def _common_angle_groups(self) -> tuple[tuple[str, ...], ...]:
-        """Groups of pairs with common wheels, which share one half angle; empty if the half angle is not free.
-
-        A group is omitted if some of its pairs are not optimised.
-        """
+        """Groups of optimised pairs with common wheels, which share one half angle; empty if it is not free."""
         if "half_angle" not in self.free:
             return ()
         pairs = {mesh.name: mesh.gear.pair for mesh in self._all_meshes}
@@ -201,14 +193,9 @@ class TrainSizeSearch:
         return tuple(tuple(each) for each in joined_groups(pairs, of_wheels) if {*each} <= {*self._requested})
 
     def _free_of(self, name: str) -> dict[str, Range]:
-        """Return the bounds of the free parameters of one pair. The half angle is not free if another pair shares a
-        wheel with it.
-        """
-        return {
-            size: each
-            for size, each in self.free.items()
-            if size != "half_angle" or (name,) in self._common_angle_groups
-        }
+        """Return the bounds of a pair's free parameters, without the half angle if another pair shares a wheel."""
+        own_angle = (name,) in self._common_angle_groups
+        return {size: each for size, each in self.free.items() if size != "half_angle" or own_angle}
 
     # ----------------------------------------------------------------------------------------------------- comparison
 
@@ -227,20 +214,17 @@ class TrainSizeSearch:
             # the smallest margin decides on a jam, and impacts add up
             return max(each) if self.aim == "jam" else sum(each)
         try:
-            return self._loss(self._resized(sizes)) if self.aim == "loss" else self._error(self._resized(sizes))
+            train = self._resized(sizes)
+            if self.aim == "loss":
+                found = train.driven(self.link, self.source, self.state)
+                efficiency = found.efficiency if found.verdict else None
+                # an efficiency of 0 or less means that the train is self-locking
+                return inf if efficiency is None or efficiency <= 0 else 1 - float(efficiency)
+            run = MotionRun(train.motion(self.state, (self.output,)), _TURNS, _SAMPLES)
+            run.run()
+            return run.statistics[0].peak_to_peak
         except GearTrainError:
             return inf
-
-    def _loss(self, train: GearTrain) -> float:
-        found = train.driven(self.link, self.source, self.state)
-        efficiency = found.efficiency if found.verdict else None
-        # an efficiency of 0 or less means that the train is self-locking
-        return inf if efficiency is None or efficiency <= 0 else 1 - float(efficiency)
-
-    def _error(self, train: GearTrain) -> float:
-        run = MotionRun(train.motion(self.state, (self.output,)), _TURNS, _SAMPLES)
-        run.run()
-        return run.statistics[0].peak_to_peak
 
     # ---------------------------------------------------------------------------------------------------------- search
 
@@ -282,9 +266,7 @@ class TrainSizeSearch:
         )
 
     def _separate_optima(self) -> dict[str, ToothSizes]:
-        """Return the sizes that are best for each pair separately. Pairs with common wheels have one common
-        half angle.
-        """
+        """Return the sizes that are best for each pair separately, with equal half angles of common wheels."""
         found = {name: self._separate_optimum(name) for name in self._requested}
         for group in self._common_angle_groups:
             if len(group) > 1:
@@ -325,9 +307,7 @@ class TrainSizeSearch:
     def _step(
         self, best: float, sizes: Mapping[str, ToothSizes], names: Sequence[str], size: str, reach: float
     ) -> tuple[float, dict[str, ToothSizes]]:
-        """Return the objective and the sizes after one size is optimised near its value by Brent's bounded method, for
-        one pair or for several pairs with a common size.
-        """
+        """Return the objective and the changed designs after one (common) size of some pairs is optimised nearby."""
         lowest, highest = self.free[size]
         here, width = sizes[names[0]].parameter(size), reach * (highest - lowest)
         found: tuple[float, dict[str, ToothSizes]] = best, {}
@@ -369,9 +349,7 @@ class TrainSizeSearch:
 
 @dataclass(frozen=True)
 class PairSizes(Result):
-    """Sizes of one pair of a train: declared sizes, sizes that are best for the pair, and sizes that are best for the
-    train.
-    """
+    """Sizes of one pair of a train: as declared, best for the pair, and best for the train."""
 
     KEYS = ("name", "driver", "teeth", Key("before", "declared"), "apart", "together", "outlines")
 
@@ -388,9 +366,7 @@ class PairSizes(Result):
     runs: bool
     """True if the pair turns with its declared sizes."""
     outlines: OutlineAgreement
-    """Comparison of properties of the sizes `together`, computed from the transmission function and from the drawn
-    outlines.
-    """
+    """Comparison of properties of the sizes `together` with those computed from the drawn outlines."""
 
     @property
     def teeth(self) -> tuple[int, int]:
@@ -459,9 +435,7 @@ class BestTrainSizes(Tabular, Pictured, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Columns of a table of the sizes of each pair: as declared (if the pair turns), optimised separately, and
-        optimised for the train.
-        """
+        """Columns of a table of the sizes of each pair: as declared (if it turns), separately, and together."""
         rows = [
             (pair.name, name, sizes)
             for pair in self.pairs
@@ -473,10 +447,7 @@ class BestTrainSizes(Tabular, Pictured, Result):
 
 
 def declared_sizes(mesh: TriangularMesh) -> ToothSizes:
-    """Return the declared sizes of a pair, with the first wheel of the pair first.
-
-    If the pair does not turn, its clearance factor is midway between the limits.
-    """
+    """Return the declared sizes of a pair, with its clearance factor midway between the limits if it does not turn."""
     sizes, window = mesh.transmission.sizes, mesh.window
     driver = 1 + mesh.gear.pair.index(mesh.driver)
     if driver == 2:
@@ -503,12 +474,9 @@ def best_shared_angle(
 ) -> dict[str, ToothSizes]:
     """Return the designs of several pairs at the common half angle that minimises their total objective.
 
-    The result is never worse than the designs `start`.
-
-    start    designs of the pairs with their present half angles
+    start    designs of the pairs with their present half angles; the result is never worse
     sized    function that returns the best sizes of a pair at a half angle [rad]; raises `QuestionError` if no sizes
              turn
-    limits   limits on each pair
     """
 
     def figure(designs: Mapping[str, ToothSizes]) -> float:

@@ -110,9 +110,7 @@ def run(
 
 
 def _declare(declaration: Mapping[str, Any], file: str, to: Sink) -> None:
-    """Write a declaration that extends the given train. It refers to the train by name if geartrain contains it, and by
-    path if not.
-    """
+    """Write a declaration that extends the given train by its name, or by its path if it is a file."""
     from geartrain.train.yaml_nodes import as_yaml
 
     parent = file
@@ -134,21 +132,15 @@ class SizeQuestion:
     errors: tuple[str, ...]
 
     def check(self, others: Mapping[str, object]) -> None:
-        """Raise an error if options that require `--objective` are given without it, or if options that it excludes are
-        given with it.
-        """
+        """Raise an error if options require `--objective` but it is missing, or if it excludes options `others`."""
+        what, fix = "the option cannot be combined with --objective", "omit one of the two options"
+        refused = others
         if self.best is None:
-            for option, given in (("--free", self.free), ("--within", self.within), ("--cutting", self.errors)):
-                if given:
-                    raise option_error(
-                        option, "the option applies only to a search with --objective", "give --objective too"
-                    )
-            return
-        for option, other in others.items():
-            if other:
-                raise option_error(
-                    option, "the option cannot be combined with --objective", "omit one of the two options"
-                )
+            what, fix = "the option applies only to a search with --objective", "give --objective too"
+            refused = {"--free": self.free, "--within": self.within, "--cutting": self.errors}
+        for option, given in refused.items():
+            if given:
+                raise option_error(option, what, fix)
 
     def answer(self, pair: PairRequest, to: Sink, picture: Sink, json: bool) -> NoReturn:
         """Write the best sizes as a report, as data and as a plot, and end the command."""
@@ -169,9 +161,7 @@ class SizeQuestion:
         raise typer.Exit(GOOD if found.outlines.turns else VERDICT)
 
     def _probability(self) -> ProbabilityLimit | None:
-        """Return the limit on the probability that a pair with cutting errors jams or clashes, or None if it is not
-        given.
-        """
+        """Return the limit on the probability that a pair jams or clashes, or None if it is not given."""
         from geartrain.workshop.sizes.size_search import ProbabilityLimit
 
         given = [text.partition("=")[2] for text in self.within if _is_probability(text)]
@@ -224,9 +214,7 @@ def _start(pair: PairRequest) -> ToothSizes:
 
 
 def read_free(given: Sequence[str]) -> Mapping[str, tuple[float, float] | None]:
-    """Return a mapping from parameter name to bounds, parsed from texts NAME or NAME=LOW:HIGH. If there are no texts,
-    the radii are free.
-    """
+    """Return the bounds of free parameters (None: usual bounds) from texts NAME or NAME=LOW:HIGH; default: radii."""
     found: dict[str, tuple[float, float] | None] = {}
     for text in given or ("radii",):
         name, equals, rest = text.partition("=")

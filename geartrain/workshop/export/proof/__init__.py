@@ -13,6 +13,27 @@ link_freedom   range of angles of each link that the teeth allow
 
 from __future__ import annotations
 
-from geartrain.workshop.export.proof.train_proof import TrainProof, proof_is_installed, proof_steps, prove_train
+from geartrain.workshop.export.proof.mesh_proof import paired_wheels, prove_mesh, read_wheels
+from geartrain.workshop.export.proof.train_proof import (
+    TrainProof,
+    overlaps,
+    proof_is_installed,
+    proof_steps,
+    prove_solids,
+    prove_train,
+)
+from geartrain.workshop.export.proof.turned_pair import TurnedPair, read_material
 
-__all__ = ["TrainProof", "proof_is_installed", "proof_steps", "prove_train"]
+__all__ = [
+    "TrainProof",
+    "TurnedPair",
+    "overlaps",
+    "paired_wheels",
+    "proof_is_installed",
+    "proof_steps",
+    "prove_mesh",
+    "prove_solids",
+    "prove_train",
+    "read_material",
+    "read_wheels",
+]

@@ -1,5 +1,4 @@
-"""Freedom of each link: the range of angles that the teeth allow in the parts as cut and assembled, computed without
-speeds.
+"""Freedom of each link: the range of angles that the teeth allow in the parts as cut and assembled.
 
 For every mesh at a pose, the outlines give the limits of the lag of its second wheel. A lag is a linear combination of
 angles of links. Linear programmes over all meshes therefore give the range of each link while the input is held, and
@@ -43,9 +42,7 @@ class LinkFreedom(Result):
     link: str
     """Name of the link."""
     backlash: float | None
-    """Range of the angle due to the backlash of all meshes between the input and the link [rad]; None if teeth do not
-    limit it.
-    """
+    """Range of the angle due to backlash between the input and the link [rad]; None if teeth do not limit it."""
 
 
 FreedomProof = tuple[tuple[LinkFreedom, ...], tuple[BuildFinding, ...]]
@@ -54,10 +51,10 @@ FreedomProof = tuple[tuple[LinkFreedom, ...], tuple[BuildFinding, ...]]
 def prove_freedom(
     work: SolidModel, pairs: Mapping[str, TurnedPair], names: Mapping[str, tuple[str, str]]
 ) -> FreedomProof:
-    """Return the freedom of all links except frame and inputs, and findings for links whose freedom contradicts the
-    result of `solve`.
+    """Return the freedom of all links except frame and inputs, and findings where it contradicts the solved speeds.
 
-    pairs   meshes that were individually proved to turn, by pair; `names` are the names of wheels 1 and 2 of each mesh
+    pairs   outlines of the meshes that were individually proved to turn, keyed by the name of the pair
+    names   names of wheels 1 and 2 of each mesh, keyed by the name of the pair
     """
     try:
         return _Motion(work, pairs, names).prove()
@@ -67,9 +64,7 @@ def prove_freedom(
 
 @dataclass(frozen=True, slots=True)
 class _Constraint:
-    """Constraint of a mesh on the angles of the links: low <= weights . deviations <= high [rad], where deviations are
-    changes of the angles.
-    """
+    """Constraint of a mesh on the small changes of the link angles: low <= weights @ changes <= high [rad]."""
 
     pair: str
     weights: Floats
@@ -85,7 +80,7 @@ class _Motion:
         self.case = work.sized.declaration.case(work.sized.declaration.state_or_first(work.state))
 
     def prove(self) -> FreedomProof:
-        """Return the freedom of all links, checked in several poses. Each contradiction is reported once."""
+        """Return the freedom of all links at the first pose, and findings in several poses, each reported once."""
         findings: dict[str, BuildFinding] = {}
         links: tuple[LinkFreedom, ...] = ()
         speeds = {body.id: body.speed for body in self.scene.bodies}
@@ -93,7 +88,11 @@ class _Motion:
         for at, pose in enumerate(_POSES if turns else _POSES[:1]):
             rows, off = self._constraints(pose)
             for pair, mm in off.items():
-                findings.setdefault(pair, self._out_of_step(pair, mm, pose))
+                where = f" after {pose} turns" if pose else ""
+                what = f"pair '{pair}': its wheels overlap{where}" + ("" if mm == inf else f" by {mm:.3g} mm")
+                why = "at the solved angles of all links, a tooth of one wheel meets a tooth of the other"
+                fix = "fix a wheel to its arbor at another angle, or change tooth numbers"
+                findings.setdefault(pair, BuildFinding("F1", "error", Problem(what, why, fix)))
             if off:
                 break
             if not at:
@@ -104,27 +103,23 @@ class _Motion:
     # ------------------------------------------------------------------------------------------------------------ rows
 
     def _constraints(self, pose: Fraction) -> tuple[list[_Constraint], dict[str, float]]:
-        """Return the constraints of all meshes in a pose, and a mapping from pair to the arc by which its second wheel
-        exceeds the backlash [mm].
-        """
+        """Return the constraints of all meshes in a pose, and the arc by which teeth overlap [mm], keyed by pair."""
         angles = scene_pose(self.scene, pose).angles
         rows, off = [], {}
         for circuit in self.work.sized.circuits:
             turned = self.pairs.get(circuit.id)
-            if turned is None or self._axis_senses(circuit) is None:
-                weights = self._ratio_constraint(circuit)
-                rows.append(_Constraint(circuit.id, weights, 0.0, 0.0))
+            senses = None if turned is None else self._axis_senses(circuit)
+            if turned is None or senses is None:
+                rows.append(_Constraint(circuit.id, self._ratio_constraint(circuit), 0.0, 0.0))
                 continue
-            row, beyond = self._mesh_constraint(circuit, turned, angles)
+            row, beyond = self._mesh_constraint(circuit, turned, senses, angles)
             rows.append(row)
             if beyond > _TOUCH * turned.pitches[1]:
                 off[circuit.id] = beyond * self.work.layout.wheels[self.names[circuit.id][1]].radius
         return rows, off
 
     def _ratio_constraint(self, circuit: Circuit) -> Floats:
-        """Return the coefficients of the constraint that follows from the ratio of a circuit without rotated outlines,
-        such as a bevel pair.
-        """
+        """Return the coefficients of the exact ratio of a pair whose outlines were not turned, such as a bevel pair."""
         weights = np.zeros(len(self.scene.bodies))
         for link, count in ((circuit.i, circuit.a), (circuit.j, circuit.b), (circuit.carrier, -circuit.a - circuit.b)):
             at = self.bodies[link]
@@ -133,8 +128,9 @@ class _Motion:
         return weights / max(float(np.abs(weights).max()), 1.0)
 
     def _axis_senses(self, circuit: Circuit) -> tuple[int, int, int] | None:
-        """Return the senses (1 or -1) of both wheels and of their carrier about the first axis; None if the axes are
-        not parallel.
+        """Return the senses (1 or -1) of both wheels and their carrier about the axis of the first wheel.
+
+        None is returned if the axes are not parallel.
         """
         one, other = (self.wheels[name] for name in self.names[circuit.id])
         n = np.array(one.direction)
@@ -149,14 +145,15 @@ class _Motion:
             senses.append(1 if cosine > 0 else -1)
         return senses[0], senses[1], senses[2]
 
-    def _mesh_constraint(self, circuit: Circuit, turned: TurnedPair, angles: Floats) -> tuple[_Constraint, float]:
-        """Return the constraint of a mesh in a pose, and the angle by which the second wheel exceeds the backlash
-        [rad].
+    def _mesh_constraint(
+        self, circuit: Circuit, turned: TurnedPair, senses: tuple[int, int, int], angles: Floats
+    ) -> tuple[_Constraint, float]:
+        """Return the constraint of a mesh for the link angles `angles`, and the angle by which its teeth overlap [rad].
+
+        The overlap is an angle of the second wheel; it is inf if that wheel is nowhere free.
         """
         one, other = (self.wheels[name] for name in self.names[circuit.id])
         first, second, held = (one.body, other.body, self.bodies[circuit.carrier])
-        senses = self._axis_senses(circuit)
-        assert senses is not None
         s1, s2, sk = senses
         ratio = turned.counts[0] / turned.counts[1] * (1 if turned.ring else -1)
         # a tooth of the first wheel faces a space of the second one on the line of centres
@@ -176,8 +173,9 @@ class _Motion:
         return _Constraint(circuit.id, weights, low, high), max(low, -high, 0.0) if low == low else inf
 
     def _tooth_angle(self, wheel: SceneWheel, one: SceneWheel, other: SceneWheel, turned: TurnedPair) -> float:
-        """Return the angle about the first axis from the direction of the mesh to a wheel's first tooth in the zero
-        pose [rad].
+        """Return the angle from the line of centres to the first tooth of `wheel` in the zero pose [rad].
+
+        one, other   first and second wheel of the mesh; the angle is positive about the axis of the first wheel
         """
         n = np.array(one.direction)
         between = np.subtract(other.centre, one.centre) * (-1 if turned.ring else 1)
@@ -191,9 +189,7 @@ class _Motion:
 
     @cached_property
     def _fixed_equations(self) -> Floats:
-        """Matrix of the equations of fixed links (except inputs) and of links locked together, with one equation in
-        each row.
-        """
+        """Coefficients of the equations of fixed links (except inputs) and of locked links, one equation per row."""
         count = len(self.scene.bodies)
         rows = []
         frame = self.work.sized.declaration.frame
@@ -207,7 +203,7 @@ class _Motion:
         return np.array(rows)
 
     def _links(self, rows: Sequence[_Constraint]) -> Iterator[LinkFreedom]:
-        """Yield the freedom of each link while the inputs are fixed."""
+        """Yield the freedom of each link under the constraints `rows` while the inputs are fixed."""
         held = np.eye(len(self.scene.bodies))[[self.bodies[link] for link in self.case.inputs]]
         fixed = np.concatenate([self._fixed_equations, held])
         still = {self.work.sized.declaration.frame, *self.case.inputs}
@@ -218,8 +214,11 @@ class _Motion:
             yield LinkFreedom(body.id, ends[1] - ends[0] if np.isfinite(ends).all() else None)
 
     def _maximum_angle(self, rows: Sequence[_Constraint], fixed: Floats, at: int, way: int) -> float:
-        """Return the maximum angle of a link in one direction, found by linear programming [rad]; infinite if the angle
-        is not limited.
+        """Return the maximum angle of a link in one direction by linear programming [rad]; infinite without a limit.
+
+        rows    constraints of the meshes
+        fixed   coefficients of further equations, one in each row
+        at      index of the link; `way` is the direction, 1 or -1
         """
         from scipy.optimize import linprog
 
@@ -250,17 +249,22 @@ class _Motion:
     def _contradictions(
         self, links: Sequence[LinkFreedom], rows: Sequence[_Constraint], turns: bool
     ) -> Iterator[BuildFinding]:
-        """Yield findings on links for which the teeth contradict the result of `solve`."""
+        """Yield findings on links for which the teeth contradict the solved speeds.
+
+        rows    constraints of the meshes
+        turns   True if any link of the train turns according to the solved speeds
+        """
         speeds = {body.id: body.speed for body in self.scene.bodies}
         for link in links:
             if link.backlash is None and speeds[link.link] is not None:
                 what = f"link '{link.link}' can turn while the input is fixed"
                 why = "its speed is determined, but the cut teeth do not prevent this motion"
-                yield _finding("error", what, why, "declare a tooth form for its meshes, or give taller teeth")
+                fix = "declare a tooth form for its meshes, or give taller teeth"
+                yield BuildFinding("F1", "error", Problem(what, why, fix))
             elif link.backlash is not None and speeds[link.link] is None:
                 what = f"link '{link.link}' is fixed by its teeth, but `solve` does not determine its speed"
                 fix = "check the pairs of this link, or declare another input"
-                yield _finding("note", what, "the proof and the solution contradict each other", fix)
+                yield BuildFinding("F1", "note", Problem(what, "the proof and the solution contradict each other", fix))
         driving_link = self.scene.driving_link
         if driving_link is None or not self.case.inputs:
             return
@@ -269,17 +273,7 @@ class _Motion:
         if turns and np.isfinite(ends).any():
             what = f"'{self.scene.bodies[driving_link].id}' jams after {np.degrees(ends[1] - ends[0]):.3g} degrees"
             why = "the backlash of all meshes together does not allow a full turn"
-            yield _finding("error", what, why, "remove one mesh of the loop")
-
-    def _out_of_step(self, pair: str, mm: float, pose: Fraction) -> BuildFinding:
-        where = f" after {pose} turns" if pose else ""
-        what = f"pair '{pair}': its wheels overlap{where}" + ("" if mm == inf else f" by {mm:.3g} mm")
-        why = "at the solved angles of all links, a tooth of one wheel meets a tooth of the other"
-        return _finding("error", what, why, "fix a wheel to its arbor at another angle, or change tooth numbers")
-
-
-def _finding(level: str, what: str, why: str, fix: str) -> BuildFinding:
-    return BuildFinding("F1", "error" if level == "error" else "note", Problem(what, why, fix))
+            yield BuildFinding("F1", "error", Problem(what, why, "remove one mesh of the loop"))
 
 
 def _wrapped(angle: float, pitch: float) -> float:

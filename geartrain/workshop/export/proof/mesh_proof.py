@@ -33,9 +33,7 @@ if TYPE_CHECKING:
     from geartrain.scene.solids.wheel_blanks import Blank
 
 ALLOWED = 1e-3
-"""Amount by which the measured backlash may be smaller than the declared backlash [mm]: the accuracy of the
-outlines.
-"""
+"""Amount by which the measured backlash may be below the declared backlash [mm]: the accuracy of the outlines."""
 _CLEARANCE, _TIP = 0.1, 0.2  # modules: minimum clearance under a tip, and minimum tip width
 _AROUND = 32  # chords per quarter circle of the middle line of a cut around a corner
 _BUFFER = 0.01  # of a kerf: error of lines that shapely offsets
@@ -47,9 +45,7 @@ _LAND = 0.05  # tooth heights below the tip circle at which the tip width is mea
 
 @dataclass(frozen=True, slots=True)
 class MeshProof(Result):
-    """Measured values of a mesh as cut. The mesh is turned through a pitch, or through all combinations of unequal
-    teeth.
-    """
+    """Measured values of a mesh as cut, turned through a pitch, or through all combinations of unequal teeth."""
 
     KEYS = ("pair", "declared", "minimum", "most", "overlap", "contact_ratio", "clearance", "tip_width", "module")
 
@@ -66,9 +62,7 @@ class MeshProof(Result):
     contact_ratio: float | None
     """Contact ratio of conjugate teeth at the design distance; None for other tooth forms."""
     clearance: float
-    """Minimum distance on the line of centres from the tip of one wheel to the root of the other wheel (bottom
-    clearance) [mm].
-    """
+    """Minimum bottom clearance: distance on the line of centres from a tip to the root of the other wheel [mm]."""
     tip_width: float
     """Smaller tip width of the two wheels [mm]."""
     module: float
@@ -86,9 +80,7 @@ class CutTrain:
 
 
 def read_wheels(work: SolidModel) -> CutTrain:
-    """Return the material of each cut wheel as read from its written drawing, with half the kerf removed along every
-    edge.
-    """
+    """Return the material of each cut wheel, read from its drawing, with half the kerf removed along every edge."""
     kerf = work.process.kerf
     materials: dict[str, Any] = {}
     findings = []
@@ -122,9 +114,7 @@ def _with_pins(ring: Any, blank: Blank) -> Any:
 
 
 def paired_wheels(work: SolidModel, cut: CutTrain) -> dict[str, tuple[PairBacklash, tuple[Blank, Blank], TurnedPair]]:
-    """Return backlash, blanks and outlines of each pair of cut wheels, keyed by pair. The internal or driven wheel is
-    the second.
-    """
+    """Return backlash, blanks and outlines of each pair of cut wheels, with the internal or driven wheel second."""
     # the backlash of teeth that are not conjugate is stated for a driver that is held
     found, drivers = {}, {mesh.name: mesh.driver for mesh in work.sized.meshes}
     for backlash in work.blanks.backlashes:
@@ -152,9 +142,7 @@ def axis_distance(layout: Layout, wheels: tuple[str, str]) -> float:
 
 
 def prove_mesh(backlash: PairBacklash, wheels: tuple[Blank, Blank], turned: TurnedPair) -> MeshProof:
-    """Return the measured values of a mesh whose outlines are rotated against each other, with findings on violated
-    rules.
-    """
+    """Return the measured values of a mesh, whose outlines are turned against each other, with its findings."""
     found = turned.turn()
     R, module = wheels[1].pitch_radius, wheels[1].module
     # arc length on the pitch circle of the second wheel, as the declared backlash
@@ -174,17 +162,15 @@ def prove_mesh(backlash: PairBacklash, wheels: tuple[Blank, Blank], turned: Turn
         min(tip_width(*each) for each in tips),
         module,
     )
-    names, rolls = (wheels[0].wheel, wheels[1].wheel), wheels[1].pins is not None
-    findings = _findings(backlash, proof, found, turned, names)
-    return replace(
-        proof, findings=tuple(each for each in findings if not (rolls and each.rule == "T2"))
-    )  # the bottom between two lobes is itself a flank, at a distance from the pins of about the backlash
+    findings = _findings(backlash, proof, found, turned, (wheels[0].wheel, wheels[1].wheel))
+    if wheels[1].pins is not None:
+        # the bottom between two lobes is itself a flank, at a distance from the pins of about the backlash
+        findings = (each for each in findings if each.rule != "T2")
+    return replace(proof, findings=tuple(findings))
 
 
 def clearance(turned: TurnedPair) -> float:
-    """Return the minimum distance on the line of centres from the tip of one wheel to the root of the other
-    wheel [mm].
-    """
+    """Return the minimum distance on the line of centres from a tip to the root of the other wheel [mm]."""
     (tip, root), (other_tip, other_root) = turned.reaches
     a = turned.distance
     if turned.ring:
@@ -193,8 +179,10 @@ def clearance(turned: TurnedPair) -> float:
 
 
 def tip_width(material: Any, reach: tuple[float, float], teeth: int) -> float:
-    """Return the mean width of the tips of a wheel slightly below its tip circle [mm]; the pin diameter for a
-    lantern.
+    """Return the mean tip width of a wheel slightly below its tip circle [mm], or the pin diameter of a lantern.
+
+    material   shape of the wheel; `reach` are its tip and root radii (mm)
+    teeth      number of teeth
     """
     shapely = plane_geometry()
     tip, root = reach
@@ -212,7 +200,8 @@ def _findings(
     pair, module = f"pair '{proof.pair}'", proof.module
     if found.place is not None:
         where = turned.words(found.place, names)
-        yield _error("T5", f"{pair}: {where} overlap by {proof.overlap:.3g} mm2", _STUCK, _LOOSER)
+        what = f"{pair}: {where} overlap by {proof.overlap:.3g} mm2"
+        yield _error("T5", what, "overlapping teeth cannot turn", _LOOSER)
     elif min(proof.minimum, proof.declared) <= _TOUCH:
         what = f"{pair} has no backlash"
         fix = f"give --backlash {0.05 * module:.3g}mm"
@@ -221,7 +210,8 @@ def _findings(
         what = f"{pair} has a backlash of {proof.minimum:.4g} mm, but {proof.declared:.4g} mm are declared"
         yield _error("T5", what, "its teeth are thicker as cut than as declared", _LOOSER)
     elif not np.isfinite(proof.most):
-        yield _error("T5", f"{pair} slips: one wheel can turn past the other", "the tips do not overlap", _NEARER)
+        fix = "reduce the centre distance, or give taller teeth"
+        yield _error("T5", f"{pair} slips: one wheel can turn past the other", "the tips do not overlap", fix)
     if proof.clearance < _CLEARANCE * module - TOLERANCE:
         what = f"{pair}: the clearance between tips and roots is only {proof.clearance:.3g} mm"
         why = "if the clearance is too small, tips touch roots, or dirt jams the pair"
@@ -240,14 +230,11 @@ def _findings(
         )
     if proof.tip_width < _TIP * module:
         what = f"{pair} has tips only {proof.tip_width:.3g} mm wide"
-        yield BuildFinding(
-            "T4", "note", Problem(what, "tips narrower than 0.2 modules burn or break", "shorten the addendum")
-        )
+        why = "tips narrower than 0.2 modules break, or burn in a laser"
+        yield BuildFinding("T4", "note", Problem(what, why, "shorten the addendum"))
 
 
-_STUCK = "overlapping teeth cannot turn"
 _LOOSER = "give more backlash, shorter addenda, or another centre distance"
-_NEARER = "reduce the centre distance, or give taller teeth"
 
 
 def _error(rule: str, what: str, why: str, fix: str) -> BuildFinding:

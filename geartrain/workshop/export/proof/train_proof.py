@@ -18,7 +18,7 @@ import numpy as np
 
 from geartrain.dynamics.cut_teeth import not_cut
 from geartrain.errors import MissingExtraError, Problem
-from geartrain.kinematics.buildability import BuildFinding, build_errors
+from geartrain.kinematics.buildability import BuildFinding, BuildLevel, build_errors
 from geartrain.numerics.exact import plural
 from geartrain.numerics.results import Key, Result
 from geartrain.scene.pose import ScenePose, scene_pose
@@ -28,7 +28,6 @@ from geartrain.workshop.export.proof.mesh_proof import MeshProof, paired_wheels,
 from geartrain.workshop.export.proof.turned_pair import NOTHING, plane_geometry
 
 if TYPE_CHECKING:
-    from geartrain.numerics.arrays import Floats
     from geartrain.scene.parts.eccentrics import Eccentric
     from geartrain.scene.solids.solid_assembly import SolidModel
     from geartrain.scene.solids.solid_part import SolidPart
@@ -36,9 +35,7 @@ if TYPE_CHECKING:
 
 
 SLIVER = 1e-3
-"""Maximum common volume of two parts that is ignored [mm3]. It is about the volume by which the chords of two round
-surfaces in contact overlap.
-"""
+"""Maximum common volume of two parts that is ignored [mm3], due to the chords of round surfaces in contact."""
 
 _POSITIONS = 7  # of the wave generator in a pitch of the internal wheel
 _PARTS = 4  # subdivision of each chord of the wheel, because bending curves it
@@ -92,10 +89,12 @@ def prove_train(work: SolidModel, watch: Callable[[], None] = lambda: None) -> T
     names = {pair: (wheels[0].wheel, wheels[1].wheel) for pair, (_, wheels, _) in paired.items()}
     links, freedom = prove_freedom(work, {pair: each[2] for pair, each in paired.items() if pair not in stuck}, names)
     watch()
-    uncut = [*_uncut(work)]
-    named = {
-        found.problem.what for found in uncut
-    }  # if the declaration has them as notes too, the error replaces these
+    uncut = []
+    for name, problems in work.blanks.uncut.items():
+        level: BuildLevel = "error" if name in work.blanks.flat else "note"
+        uncut += [BuildFinding("W3", level, not_cut(name, problem)) for problem in problems]
+    # if the declaration has them as notes too, the error replaces these
+    named = {found.problem.what for found in uncut}
     findings = [found for found in work.sized.build_findings if found.problem.what not in named]
     findings += [*uncut, *_frame(work), *cut.findings]
     findings += [found for mesh in meshes for found in mesh.findings]
@@ -122,15 +121,6 @@ def proof_steps(work: SolidModel) -> int:
     return len(work.blanks.backlashes) + 1 + len(_poses(work))
 
 
-def _uncut(work: SolidModel) -> Iterator[BuildFinding]:
-    """Yield findings on wheels that have no drawing: errors for flat wheels, notes for other wheels."""
-    blanks = work.blanks
-    for name, problems in blanks.uncut.items():
-        flat = name in blanks.flat
-        for problem in problems:
-            yield BuildFinding("W3", "error" if flat else "note", not_cut(name, problem))
-
-
 def _frame(work: SolidModel) -> Iterator[BuildFinding]:
     """Yield findings on axes that the plates cannot support, on obstacles to arbors, and on cups of flexible wheels."""
     if work.frame is None:
@@ -149,7 +139,9 @@ def _frame(work: SolidModel) -> Iterator[BuildFinding]:
 def prove_solids(work: SolidModel, watch: Callable[[], None] = lambda: None) -> tuple[BuildFinding, ...]:
     """Return findings on parts that overlap in some pose, in descending order of their common volume.
 
-    watch   progress function, called after each pose. Raises `MissingExtraError` if manifold3d is not installed.
+    Raises `MissingExtraError` if manifold3d is not installed.
+
+    watch   progress function, called after each pose
     """
     solids = _Solids(work)
     found: dict[tuple[int, int], float] = {}
@@ -182,9 +174,7 @@ class _Solids:
         self.made: dict[int, Any] = {}
 
     def near(self, pose: ScenePose) -> Iterator[tuple[int, int]]:
-        """Yield the indices of each two parts of different bodies whose bounding boxes overlap, except
-        meshing wheels.
-        """
+        """Yield the indices of each two parts of different bodies whose bounding boxes overlap; no meshing wheels."""
         points = [pose.point(part.body, place) for part, place in zip(self.parts, self.placed, strict=True)]
         low = np.array([each.min(axis=0) for each in points])
         high = np.array([each.max(axis=0) for each in points])
@@ -251,16 +241,16 @@ def prove_waves(work: SolidModel, cut: CutTrain) -> Iterator[BuildFinding]:
 
 
 def overlaps(work: SolidModel, wave: Eccentric, thin: Any, ring: tuple[str, Any]) -> Iterator[float]:
-    """Yield the area of overlap of a bent flexible wheel and its internal wheel [mm2] for each position of the wave
-    generator.
-    """
+    """Yield the overlap of a bent flexible wheel and its internal wheel [mm2] at each position of the wave."""
     assert wave.wave is not None
     shapely = plane_geometry()
     name, material = ring
     blank, counts = work.blanks.wheels[wave.wheels[0]], work.blanks.wheels[name].teeth
     pitch, z = 2 * np.pi / counts, blank.teeth
     middle = wave.radius + wave.wave.wall / 2
-    line = _divided(np.asarray(thin.exterior.coords)[:-1])
+    corners = np.asarray(thin.exterior.coords)[:-1]
+    along = np.arange(_PARTS)[None, :, None] / _PARTS
+    line = (corners[:, None, :] + (np.roll(corners, -1, axis=0) - corners)[:, None, :] * along).reshape(-1, 2)
     # over this range the wheel turns back by one of its pitches, after which the positions repeat
     for turn in np.arange(_POSITIONS) * pitch / _POSITIONS * counts / (counts - z):
         own = -turn * (counts - z) / z
@@ -269,11 +259,3 @@ def overlaps(work: SolidModel, wave: Eccentric, thin: Any, ring: tuple[str, Any]
         c, s = np.cos(pitch / 2), np.sin(pitch / 2)
         held = shapely.transform(material, lambda points, c=c, s=s: points @ np.array([[c, s], [-s, c]]))
         yield float(shapely.intersection(bent, held).area)
-
-
-def _divided(line: Floats) -> Floats:
-    """Return a polyline with equidistant points inserted between its corners."""
-    steps = np.arange(_PARTS)[None, :, None] / _PARTS
-    after = np.roll(line, -1, axis=0)
-    found: Floats = (line[:, None, :] + (after - line)[:, None, :] * steps).reshape(-1, 2)
-    return found

@@ -49,9 +49,7 @@ _COUNTS = {"M": 2, "L": 2, "A": 7, "Z": 0}
 
 @dataclass(frozen=True, slots=True)
 class FreeTurn:
-    """Range of angles in which wheel 2 is free while wheel 1 turns. Arrays have one item for each position of
-    wheel 1.
-    """
+    """Range of angles in which wheel 2 is free, in arrays with one item for each position of wheel 1."""
 
     low: Floats
     """Minimum lag at which wheel 2 is free [rad]; NaN at positions where no lag is free."""
@@ -91,18 +89,14 @@ class TurnedPair:
         return first, _teeth(inner, self.ring)
 
     def turn(self) -> FreeTurn:
-        """Return the free range of wheel 2 while wheel 1 turns through a pitch, for each combination of different teeth
-        that meet.
-        """
+        """Return the free ranges of wheel 2 while wheel 1 turns by a pitch, for all different teeth that meet."""
         found = [self._measure(tooth_pair) for tooth_pair in self.tooth_pairs]
         worst = max(found, key=lambda each: float(each.overlap.max()))
         return _joined(found, worst.place)
 
     @cached_property
     def tooth_pairs(self) -> list[tuple[int, int]]:
-        """Indices of the tooth of wheel 1 and the space of wheel 2 that meet, for each combination of
-        different teeth.
-        """
+        """Pairs of a tooth of wheel 1 and a space of wheel 2 that meet (indices), one for each different pair."""
         z1, z2 = self.counts
         way = 1 if self.ring else -1
         found: dict[tuple[int, int], tuple[int, int]] = {}
@@ -115,8 +109,9 @@ class TurnedPair:
         return list(found.values())
 
     def free(self, turned: Floats, lags: Floats, tooth_pair: tuple[int, int] = (0, 0)) -> FreeTurn:
-        """Return the free range of wheel 2 near given lags [rad] at angles `turned` of wheel 1, which are within a
-        pitch about 0 [rad].
+        """Return the free range of wheel 2 near the lags `lags` for each angle `turned` of wheel 1 [rad].
+
+        tooth_pair   indices of the tooth of wheel 1 and of the space of wheel 2 on the line of centres
         """
         t, lag = np.asarray(turned, dtype=float), np.asarray(lags, dtype=float).copy()
         first = _moved(self._contact_region(0, tooth_pair[0]), t, 0.0)
@@ -128,15 +123,21 @@ class TurnedPair:
                 first[at], float(t[at]), tooth_pair, (float(lag[at]), float(areas[at]))
             )
         if (areas > NOTHING).any():
-            place = self._overlap_centre(first, t, lag, tooth_pair, int(areas.argmax()))
+            # centroid of the largest part of the overlap
+            at = int(areas.argmax())
+            shapely = plane_geometry()
+            common = shapely.intersection(first[at], self._second(t[at : at + 1], lag[at : at + 1], tooth_pair)[0])
+            sliver = max(shapely.get_parts(common).tolist(), key=lambda part: float(part.area))
+            place = float(sliver.centroid.x), float(sliver.centroid.y)
         ends = [self._last_free_lag(first, t, lag, way, tooth_pair) for way in (-1, 1)]
         blocked = areas > NOTHING
         low, high = (np.where(blocked, np.nan, end) for end in ends)
         return FreeTurn(low, high, np.where(blocked, areas, 0.0), place)
 
     def _measure(self, tooth_pair: tuple[int, int]) -> FreeTurn:
-        """Return the free range of a tooth pair through a pitch. It also contains intermediate positions at which wheel
-        2 is not free.
+        """Return the free ranges of wheel 2 while a tooth pair turns through a pitch, at equally spaced positions.
+
+        Further positions are added where the wheels overlap between these positions.
         """
         t = self._positions(_STEPS)
         found = self.free(t, np.zeros(_STEPS), tooth_pair)
@@ -158,8 +159,10 @@ class TurnedPair:
     def _nearest_free_lag(
         self, first: Any, t: float, tooth_pair: tuple[int, int], here: tuple[float, float]
     ) -> tuple[float, float]:
-        """Return the free lag of wheel 2 within half a pitch that is nearest to a lag [rad], and its area of overlap
-        [mm2]. If no lag is free, the lag of minimum overlap is returned.
+        """Return the free lag nearest to the present lag [rad], or the lag of minimum overlap, and its overlap [mm2].
+
+        first   region of contact of wheel 1, rotated by its angle t (rad)
+        here    present lag (rad) and its overlap (mm2)
         """
         tries = here[0] + self.pitches[1] * (np.arange(1, _TRIES + 1) - (_TRIES + 1) / 2) / _TRIES
         areas = self._areas(np.full(_TRIES, first), np.full(_TRIES, t), tries, tooth_pair)
@@ -173,8 +176,9 @@ class TurnedPair:
         return float(tries[at]), float(areas[at])
 
     def _last_free_lag(self, first: Any, t: Floats, lag: Floats, way: int, tooth_pair: tuple[int, int]) -> Floats:
-        """Return the last free lag in one direction, found by bisection [rad]; infinite if it is not limited within a
-        pitch.
+        """Return the last free lags in one direction (`way`, 1 or -1) from the free lags `lag`, by bisection [rad].
+
+        A lag is infinite if nothing stops wheel 2 within a pitch.
         """
         free, met = lag.copy(), lag + way * self.pitches[1] / 2
         loose = self._areas(first, t, met, tooth_pair) <= NOTHING
@@ -198,20 +202,11 @@ class TurnedPair:
         shapely = plane_geometry()
         return np.asarray(shapely.area(shapely.intersection(first, self._second(t, lag, tooth_pair))))
 
-    def _overlap_centre(
-        self, first: Any, t: Floats, lag: Floats, tooth_pair: tuple[int, int], at: int
-    ) -> tuple[float, float]:
-        """Return the coordinates of the centroid of the largest part of the overlap [mm]."""
-        shapely = plane_geometry()
-        common = shapely.intersection(first[at], self._second(t[at : at + 1], lag[at : at + 1], tooth_pair)[0])
-        sliver = max(shapely.get_parts(common).tolist(), key=lambda part: float(part.area))
-        return float(sliver.centroid.x), float(sliver.centroid.y)
-
     # -------------------------------------------------------------------------------------- possible regions of contact
 
     @cached_property
     def _extents(self) -> tuple[float, float]:
-        """Half angles of the region in which the tip circles overlap, as seen from each of the two axes [rad]."""
+        """Half angles of the overlap of the tip circles, as seen from each of the two axes [rad]."""
         (tip, _), (other, _) = self.reaches
         a = self.distance
         if not a:
@@ -222,8 +217,10 @@ class TurnedPair:
         return acos(min(max(one, -1.0), 1.0)), acos(min(max(two, -1.0), 1.0))
 
     def _contact_region(self, which: int, tooth: int) -> Any:
-        """Return the part of a wheel that can be in contact while one tooth (or one space of wheel 2) passes the line
-        of centres.
+        """Return the region of a wheel that can touch its mate while a tooth (wheel 2: a space) is near the line of
+        centres.
+
+        which   0 for wheel 1, 1 for wheel 2
         """
         kind = which, self._alike[which][tooth]
         if kind in self._cropped:
@@ -241,17 +238,17 @@ class TurnedPair:
 
     @cached_property
     def _alike(self) -> tuple[tuple[int, ...], tuple[int, ...]]:
-        """Index of the first tooth that is equal to each tooth, for both wheels. All neighbours of equal teeth are also
-        equal.
-        """
+        """Kind of each tooth of both wheels; teeth of the same kind have equal outlines and equal neighbours."""
         first, second = self.materials
         return _alike(first, self.counts[0], False, self.same), _alike(second, self.counts[1], self.ring, self.same)
 
     # --------------------------------------------------------------------------------------------------- descriptions
 
     def words(self, place: tuple[float, float], names: tuple[str, str]) -> str:
-        """Return a phrase that describes the position of an overlap by tip, flank or root of both wheels, with the
-        radii [mm].
+        """Return a phrase with the part (tip, flank or root) and the radius [mm] of an overlap on both wheels.
+
+        place   coordinates of the overlap relative to the axis of wheel 1 (mm)
+        names   names of wheels 1 and 2
         """
         away = -self.distance if self.ring else self.distance
         radii = hypot(*place), hypot(place[0] - away, place[1])
@@ -274,9 +271,7 @@ def _part(radius: float, tip: float, root: float) -> str:
 
 
 def _tooth_lines(material: Any, ring: bool) -> Any:
-    """Return the outline of an external wheel, the hole of an internal wheel, or the outlines of the pins of
-    a lantern.
-    """
+    """Return the outline of an external wheel, the hole of an internal wheel, or the outlines of lantern pins."""
     shapely = plane_geometry()
     if ring:
         return max(material.interiors, key=lambda line: float(shapely.Polygon(line).area))
@@ -292,8 +287,9 @@ def _teeth(material: Any, ring: bool) -> tuple[float, float]:
 
 
 def _alike(material: Any, count: int, ring: bool, same: float) -> tuple[int, ...]:
-    """Return the kind of each tooth: 0 for every tooth if the wheel coincides with itself after a rotation by one
-    pitch, otherwise the index of the tooth.
+    """Return the kind of each tooth: 0 if a rotation by a pitch leaves the wheel unchanged, otherwise its index.
+
+    same   distance below which two outlines are treated as equal (mm)
     """
     shapely = plane_geometry()
     lines = _tooth_lines(material, ring)
@@ -305,8 +301,9 @@ def _alike(material: Any, count: int, ring: bool, same: float) -> tuple[int, ...
 
 
 def _wedge(facing: float, half: float, reach: tuple[float, float]) -> Any:
-    """Return a sector with half angle `half` [rad] about the direction `facing` [rad], with margins above and below the
-    teeth.
+    """Return a sector of half angle `half` about the direction `facing` [rad].
+
+    reach   tip and root radii of the wheel, which the sector exceeds by margins (mm)
     """
     shapely = plane_geometry()
     height = abs(reach[0] - reach[1])
@@ -319,7 +316,7 @@ def _wedge(facing: float, half: float, reach: tuple[float, float]) -> Any:
 
 
 def _moved(material: Any, turns: Floats, away: float) -> Any:
-    """Return copies of a shape, each rotated about its axis and then shifted along the x axis."""
+    """Return copies of a shape, rotated by the angles `turns` [rad] and then shifted by `away` along x [mm]."""
     shapely = plane_geometry()
     x, y = shapely.get_coordinates(material).T
     c, s = np.cos(turns)[:, None], np.sin(turns)[:, None]
@@ -341,8 +338,7 @@ def plane_geometry() -> Any:
 
 
 def read_material(svg: str, pins: bool = False) -> Geometry:
-    """Return the material that remains when the CUT path of a drawing is cut [mm], with y upwards. For a lantern,
-    return its pins.
+    """Return the material that remains when the CUT path of a drawing is cut [mm], or the pins of a lantern.
 
     The largest closed line is the rim, and all other lines are holes. Raises `GearTrainError` for a drawing that cannot
     be cut: a line that crosses itself, or a hole that leaves the part.
@@ -391,16 +387,14 @@ def _commands(data: str) -> Iterator[tuple[str, Sequence[float]]]:
 
 
 def _arc(start: Point, end: Point, radius: float, flags: tuple[bool, bool], tolerance: float) -> list[Point]:
-    """Return the points of a circular arc after its start. The flags select the larger arc and a left turn.
-
-    The centre is computed by the formulas for circles that follow from appendix B.2.4 of SVG 2.
-    """
+    """Return the points of a circular arc after its start. The flags select the larger arc and a left turn."""
     large, left = flags
     (x, y), (u, v) = start, end
     half = sqrt((u - x) ** 2 + (v - y) ** 2) / 2
     if not half:
         return []
     radius = max(radius, half)  # rounded coordinates may be farther apart than the diameter
+    # centre by the formulas for circles that follow from appendix B.2.4 of SVG 2
     aside = sqrt(radius**2 - half**2) / (2 * half) * (1 if left != large else -1)
     cx, cy = (x + u) / 2 - aside * (v - y), (y + v) / 2 + aside * (u - x)
     first, last = atan2(y - cy, x - cx), atan2(v - cy, u - cx)
@@ -411,10 +405,5 @@ def _arc(start: Point, end: Point, radius: float, flags: tuple[bool, bool], tole
 
 
 def _uncuttable(what: str, why: str) -> GearTrainError:
-    return GearTrainError(
-        Problem(
-            f"the wheel cannot be cut from this drawing: {what}",
-            why,
-            "change the teeth, the bore or the rim of the wheel",
-        )
-    )
+    fix = "change the teeth, the bore or the rim of the wheel"
+    return GearTrainError(Problem(f"the wheel cannot be cut from this drawing: {what}", why, fix))

@@ -17,7 +17,7 @@ from scipy.optimize import brentq
 
 from geartrain.teeth import Cycloidal, Involute, LeastFriction, UniformStress, UniformTemperature
 from geartrain.teeth.conjugate import ConjugatePair, PathLosses, PathOfContact, WheelPair, measure
-from geartrain.teeth.conjugate.admissibility import tip_thickness
+from geartrain.teeth.conjugate.admissibility import tooth_thickness
 
 TABLES = json.loads((DATA / "tooth_shapes.json").read_text(encoding="utf-8"))
 Wheels = tuple[int, int, float | None]
@@ -302,7 +302,9 @@ def test_the_tip_of_an_involute_is_as_wide_as_the_textbook_says(
         radius = hypot(d * cos(alpha), R + d * pitch.S(1.0) * (1 - cos(alpha) ** 2) ** 0.5)
         tip = acos(R * cos(alpha) / radius)
         half = pi / (2 * z) + (tan(alpha) - alpha) - (tan(tip) - tip)
-        assert tip_thickness(pair.path, gear, pair.halves) == pytest.approx(2 * half, abs=1e-12)
+        assert tooth_thickness(pair.path, gear, pair.halves, pair.path.ends(gear)[1]) == pytest.approx(
+            2 * half, abs=1e-12
+        )
         assert any(fault.kind == "pointed" and fault.gear == gear for fault in pair.faults) == (half < 0)
 
 

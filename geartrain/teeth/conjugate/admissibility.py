@@ -84,46 +84,31 @@ def _dwell(path: PathOfContact, d: Floats, U: Floats, gear: int, recess: bool) -
 def _pointed(path: PathOfContact, halves: Halves) -> Iterator[ToothFault]:
     """Yield a fault for each gear whose two tooth flanks would intersect below the tip."""
     for gear, X in ((1, path.arcs[1]), (2, -path.arcs[0])):
-        if X and (thickness := tip_thickness(path, gear, halves)) < 0:
-            z = path.pitch.teeth_of(gear)
-            name = "recess" if X > 0 else "approach"
-            # a tip of gear 1 works in recess, a tip of gear 2 in approach
-            point = _flank_crossing(path, gear, X, halves)
-            end = "end" if (X > 0) == (gear == 1) else "begin"
-            shorter = (
-                f"{end} the {name} before {abs(point) / path.pitch.p:.6g} pitches, or use a smaller pressure angle"
-            )
-            yield ToothFault(
-                "pointed",
-                gear,
-                X,
-                f"the teeth of gear {gear} come to a point before their tips",
-                f"the flanks of a tooth would cross by {-degrees(thickness):.4g} deg; the pitch is {360 / z:.4g} deg",
-                shorter if point else "give thicker teeth by less backlash or by a profile shift outwards",
-            )
+        thickness = partial(tooth_thickness, path, gear, halves)
+        if not X or (at_tip := thickness(X)) >= 0:
+            continue
+        # contact on one side only does not reach the pitch point
+        foot = path.ends(gear)[0] if path.ends(gear)[0] * X > 0 else 0.0
+        at_foot = thickness(foot)
+        # arc at which the flanks intersect; 0 if they intersect from the start
+        point = root(thickness, foot, X, at_foot, at_tip) if at_foot > 0 else 0.0
+        # a tip of gear 1 works in recess, a tip of gear 2 in approach
+        name, end = ("recess" if X > 0 else "approach"), ("end" if (X > 0) == (gear == 1) else "begin")
+        shorter = f"{end} the {name} before {abs(point) / path.pitch.p:.6g} pitches, or use a smaller pressure angle"
+        yield ToothFault(
+            "pointed",
+            gear,
+            X,
+            f"the teeth of gear {gear} come to a point before their tips",
+            f"the flanks of a tooth would cross by {-degrees(at_tip):.4g} deg; the pitch is "
+            f"{360 / path.pitch.teeth_of(gear):.4g} deg",
+            shorter if point else "give thicker teeth by less backlash or by a profile shift outwards",
+        )
 
 
-def _flank_crossing(path: PathOfContact, gear: int, X: float, halves: Halves) -> float:
-    """Return the arc X of the contact at which the two flanks of a tooth of `gear` intersect; 0 if they intersect from
-    the start.
-    """
-    foot, _ = path.ends(gear)
-    foot = foot if foot * X > 0 else 0.0  # contact on one side only does not reach the pitch point
-    thickness = partial(_thickness, path, gear, halves)
-    at_foot, at_tip = thickness(foot), thickness(X)
-    return root(thickness, foot, X, at_foot, at_tip) if at_foot > 0 else 0.0
-
-
-def tip_thickness(path: PathOfContact, gear: int, halves: Halves) -> float:
-    """Return the angular thickness of the top land of a gear's tooth [rad]; negative if the flanks intersect below the
-    tip.
-    """
-    return _thickness(path, gear, halves, path.ends(gear)[1])
-
-
-def _thickness(path: PathOfContact, gear: int, halves: Halves, X: float) -> float:
-    """Return the angular thickness of a tooth of `gear` [rad] at the profile point that is in contact at arc X of the
-    pitch surfaces.
+def tooth_thickness(path: PathOfContact, gear: int, halves: Halves, X: float) -> float:
+    """Return the angular thickness of a tooth of `gear` [rad] at the profile point that is in contact at the arc X;
+    negative if the two flanks have intersected before that point.
     """
     _, forwards = path.pitch.polar(gear, path.flank(gear, X))
     # a driver's tooth is behind its flank, a driven tooth ahead of it

@@ -384,7 +384,11 @@ def check_wheels(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle
     elif set(wheels.kinds) >= {"bevel", "contrate"}:
         why = "a bevel and a contrate wheel have no pair of pitch cones"
     elif "helical" in wheels.kinds:
-        if _are_skew(shaft_angle):
+        try:
+            skew = shaft_angle() is not None
+        except RangeError:
+            skew = True  # only helical wheels may have skew axes
+        if skew:
             why = "helical teeth on skew axes have point contact and slide along each other"
         elif form.form != "involute":
             why = "its wheels are helical, and only involute teeth are supported on helical wheels"
@@ -406,13 +410,6 @@ def check_order(form: ToothForm, pair: tuple[str, str]) -> None:
             f"the pair names its ring '{ring}' first, but this tooth form numbers the ring as its second wheel",
             f"name the pinion first: `pair: [{pinion}, {ring}]`",
         )
-
-
-def _are_skew(shaft_angle: ShaftAngle) -> bool:
-    try:
-        return shaft_angle() is not None
-    except RangeError:
-        return True  # the axes are skew, as helical wheels permit
 
 
 def shaft_angle_of(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> float | None:

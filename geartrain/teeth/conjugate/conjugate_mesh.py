@@ -16,7 +16,7 @@ import numpy as np
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.results import Key, Result, finite
-from geartrain.teeth.conjugate.admissibility import tip_thickness
+from geartrain.teeth.conjugate.admissibility import tooth_thickness
 from geartrain.teeth.conjugate.path_losses import SHARED, PathMeasures, measure, sliding
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.gear_mesh import GearMesh
@@ -28,7 +28,6 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.displaced_contact import DisplacedContact
     from geartrain.teeth.conjugate.off_design_transmission import OffDesignTransmission
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
-    from geartrain.teeth.meshing_wheels import MeshingWheels
     from geartrain.teeth.outlines.tooth_requirement import ToothRequirement
     from geartrain.teeth.outlines.wheel_outline import BlankSizes, WheelOutline
     from geartrain.teeth.outlines.wheel_requirement import LanternPins
@@ -179,8 +178,36 @@ class ConjugateMesh(GearMesh):
         """Return the report on the pair: arcs of approach and recess, contact ratio, transmission error, backlash and
         efficiency.
         """
-        figures = _figures(self)
-        return PairAccount(_WORDS, (AccountTable(_HEADER, _row(self, figures), wide=True),), figures)
+        transmission, path, wheels = self.transmission, self.transmission.path, self.wheels
+        runs, helix, overlap = bool(self.verdict), abs(wheels.helix[0]), None
+        if helix and wheels.width is not None and wheels.module is not None:
+            # b tan(helix angle) / p, where b is the face width and p the transverse pitch
+            overlap = wheels.width * tan(helix) / (pi * wheels.module)
+        figures = ConjugateFigures(
+            self.counts,
+            self.verdict,
+            # the motion of involutes is known even if the pair cannot run
+            *motion_figures(transmission, self.rigid or runs),
+            self.efficiency(self.driver) if runs else None,
+            arcs=path.pitches if transmission.driver == 1 else path.pitches[::-1],
+            contact_ratio=path.contact_ratio,
+            pressure_angle=float(path.at(0.0).psi),
+            shaft_angle=path.pitch.R1 + path.pitch.R2 if path.pitch.bevel else None,
+            helix_angle=helix or None,
+            overlap_ratio=overlap,
+        )
+        row = (
+            self.name,
+            f"{self.driver} -> {self.driven}",
+            self.tooth_form.words,
+            " + ".join(f"{round(arc, 9):.4g}" for arc in figures.arcs),
+            f"{figures.contact_ratio:.5g}",
+            figures.error_text,
+            f"{degrees(self.verdict.backlash):.4g}",
+            *self.efficiency_texts,
+            self.verdict.kind,
+        )
+        return PairAccount(_WORDS, (AccountTable(_HEADER, row, wide=True),), figures)
 
 
 # ----------------------------------------------------------------------------------------------------------- properties
@@ -192,12 +219,7 @@ class ConjugateFigures(PairFigures):
 
     KEYS = (
         *PairFigures.KEYS,
-        "arcs",
-        "contact_ratio",
-        "pressure_angle",
-        "shaft_angle",
-        "helix_angle",
-        "overlap_ratio",
+        *("arcs", "contact_ratio", "pressure_angle", "shaft_angle", "helix_angle", "overlap_ratio"),
     )
 
     arcs: tuple[float, float]
@@ -212,49 +234,6 @@ class ConjugateFigures(PairFigures):
     """Helix angle of helical wheels [rad]; None for straight teeth."""
     overlap_ratio: float | None = None
     """Overlap ratio of helical teeth; None for straight teeth, or if no face width is declared."""
-
-
-def _figures(mesh: ConjugateMesh) -> ConjugateFigures:
-    """Return the results of a pair with its actual driver. For involutes, the kinematic results are computed even if
-    the pair cannot run.
-    """
-    transmission, path = mesh.transmission, mesh.transmission.path
-    pitch, runs = path.pitch, bool(mesh.verdict)
-    return ConjugateFigures(
-        mesh.counts,
-        mesh.verdict,
-        *motion_figures(transmission, mesh.rigid or runs),
-        mesh.efficiency(mesh.driver) if runs else None,
-        arcs=path.pitches if transmission.driver == 1 else path.pitches[::-1],
-        contact_ratio=path.contact_ratio,
-        pressure_angle=float(path.at(0.0).psi),
-        shaft_angle=pitch.R1 + pitch.R2 if pitch.bevel else None,
-        helix_angle=abs(mesh.wheels.helix[0]) or None,
-        overlap_ratio=_overlap_ratio(mesh.wheels),
-    )
-
-
-def _overlap_ratio(wheels: MeshingWheels) -> float | None:
-    """Return the overlap ratio b tan(helix angle) / p, where b is the face width and p is the transverse pitch; None if
-    it is not defined.
-    """
-    if not wheels.helix[0] or wheels.width is None or wheels.module is None:
-        return None
-    return wheels.width * tan(abs(wheels.helix[0])) / (pi * wheels.module)
-
-
-def _row(mesh: ConjugateMesh, figures: ConjugateFigures) -> tuple[str, ...]:
-    return (
-        mesh.name,
-        f"{mesh.driver} -> {mesh.driven}",
-        mesh.tooth_form.words,
-        " + ".join(f"{round(arc, 9):.4g}" for arc in figures.arcs),
-        f"{figures.contact_ratio:.5g}",
-        figures.error_text,
-        f"{degrees(mesh.verdict.backlash):.4g}",
-        *mesh.efficiency_texts,
-        mesh.verdict.kind,
-    )
 
 
 # ----------------------------------------------------------------------------------------------------- design of a pair
@@ -300,14 +279,8 @@ class PairDesign(Result):
 
     KEYS = (
         *(Key("form", "mesh.form"), "teeth", Key("verdict", "mesh.verdict"), "pitch_radii", "flanks", "thickness"),
-        *(
-            "arcs",
-            Key("contact_ratio", "path.contact_ratio"),
-            "pressure_angles",
-            "losses_and_stresses",
-            "efficiency",
-            "outlines",
-        ),
+        *("arcs", Key("contact_ratio", "path.contact_ratio"), "pressure_angles", "losses_and_stresses"),
+        *("efficiency", "outlines"),
     )
 
     mesh: ConjugateMesh
@@ -353,7 +326,8 @@ class PairDesign(Result):
         """Angular thickness of the top land of a tooth, for gear 1 and gear 2 [rad]; None for round pins."""
         pair = self.mesh.transmission.pair
         first, second = (
-            tip_thickness(self.path, gear, pair.halves) if solid else None for gear, solid in enumerate(pair.solid, 1)
+            tooth_thickness(self.path, gear, pair.halves, self.path.ends(gear)[1]) if solid else None
+            for gear, solid in enumerate(pair.solid, 1)
         )
         return first, second
 

@@ -160,14 +160,9 @@ class ConjugateTransmission(ExactRatio, ToothTransmission):
         """Return the driver angles [rad] at which a tooth pair enters or leaves contact, or passes a kink of the path
         of contact.
         """
-        approach, recess = self.path.approach, self.path.recess
-        if self.driver == 2:
-            approach, recess = recess, approach
-        joints = {0.0}
-        for side, sign in ((approach, -1.0), (recess, 1.0)):
-            joints |= {sign * float(side.travel(np.array(d))) for d in side.joints}
-        first, last = -self._arcs[0], self._arcs[1]
-        cuts = {first, last, *(X for X in joints if first < X < last)}
+        sense, (approach, recess) = (1.0 if self.driver == 1 else -1.0), self._arcs
+        joints = (0.0, *(sense * X for X in self.path.joints))
+        cuts = {-approach, recess, *(X for X in joints if -approach < X < recess)}
         return sorted(self.direction * (X - self._half_tooth) / self._reach for X in cuts)
 
     # ------------------------------------------------------------------------------------------------------- friction

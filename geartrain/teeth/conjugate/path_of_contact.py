@@ -279,6 +279,12 @@ class PathOfContact(Shown):
         approach, recess = self.arcs
         return approach / self.pitch.p, recess / self.pitch.p
 
+    @property
+    def joints(self) -> list[float]:
+        """Arcs X at which the pieces of both sides end [module]; negative in approach."""
+        sides = ((-1.0, self.approach), (1.0, self.recess))
+        return [sign * float(side.travel(np.array(d))) for sign, side in sides for d in side.joints]
+
     def span(self, recess: bool, low: float = -inf, high: float = inf) -> tuple[float, float] | None:
         """Return the range of distances d in which the teeth touch on one side; None if the teeth do not touch on that
         side.

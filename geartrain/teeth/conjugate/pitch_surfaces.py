@@ -121,9 +121,18 @@ class PitchSurfaces:
         """Transform points from the fixed frame to the frame that a gear has at X = 0, by a rotation about the gear's
         axle.
 
-        The angle of rotation is X / reach for gear 1 and -X / reach2 for gear 2.
+        The angle of rotation is X / reach for gear 1 and -X / reach2 for gear 2 (for cones, by Rodrigues' formula).
         """
-        return self._turned(points, X / self.reach if gear == 1 else -X / self.reach2, self.axle_of(gear))
+        angle, R = X / self.reach if gear == 1 else -X / self.reach2, self.axle_of(gear)
+        cosine, sine = np.cos(angle), np.sin(angle)
+        if not self.bevel:
+            x, y = points[..., 0], points[..., 1] - R
+            return np.stack([x * cosine - y * sine, x * sine + y * cosine + R], axis=-1)
+        axis, _ = self._axis_and_up(gear)
+        along = (points @ axis)[..., None] * axis
+        across = np.cross(np.broadcast_to(axis, points.shape), points)
+        turned: Floats = along + (points - along) * cosine[..., None] + across * sine[..., None]
+        return turned
 
     def polar(self, gear: int, points: Floats) -> tuple[Floats, Floats]:
         """Return radii and azimuths [rad] of points of the fixed frame about the axle of a gear.
@@ -164,19 +173,3 @@ class PitchSurfaces:
         """
         R, side = self.axle_of(gear), self._side(gear)
         return np.array([0.0, sin(R), cos(R)]), np.array([0.0, side * cos(R), -side * sin(R)])
-
-    def _turned(self, points: Floats, angle: Floats, R: float) -> Floats:
-        """Return points rotated by `angle` [rad] about an axle (for bevel gears, by Rodrigues' formula).
-
-        For bevel gears, the axle is at the angle `R` from the pitch point; for spur gears, it is at the height `R`
-        above the pitch point.
-        """
-        cosine, sine = np.cos(angle), np.sin(angle)
-        if not self.bevel:
-            x, y = points[..., 0], points[..., 1] - R
-            return np.stack([x * cosine - y * sine, x * sine + y * cosine + R], axis=-1)
-        axis = np.array([0.0, sin(R), cos(R)])
-        along = (points @ axis)[..., None] * axis
-        across = np.cross(np.broadcast_to(axis, points.shape), points)
-        turned: Floats = along + (points - along) * cosine[..., None] + across * sine[..., None]
-        return turned

@@ -10,7 +10,7 @@ constant.
 from __future__ import annotations
 
 from functools import lru_cache
-from math import radians
+from math import inf, radians
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -120,12 +120,15 @@ def displaced_outlines(gears: OutlineGears, driver: int) -> DisplacedContact:
     nx, ny = found.normal
     # reciprocal of the moment arm about the driven axle
     normal = 1 / np.abs((px - axles[0, 1]) * ny - py * nx)
-    working = _leading_places(found, first.pitch)
+    # the contacts at which this tooth pair drives, rather than the pair one pitch ahead or behind
+    others = [np.interp(found.x + way * first.pitch, found.x, found.lag, left=inf, right=inf) for way in (-1, 1)]
+    working = np.flatnonzero(found.lag <= np.minimum(*others))
+    tables = search.pair.touch_search.first, search.pair.touch_search.second
     sizes, levers, longer = [], [], []
     for gear, wheel in enumerate((first, second)):
         radius = np.hypot(px - axles[0, gear], py)
-        tip = (search.pair.touch_search.first if gear == 0 else search.pair.touch_search.second).reach[1]
-        sizes.append(_sizes(wheel, radius[working], tip, _half_widths(search, found, gear)[working]))
+        half = _half_widths(search, found, gear)[working]
+        sizes.append(_sizes(wheel, radius[working], tables[gear].reach[1], half))
         pitch_x, pitch_y = _pitch_points(search, found, gear)
         levers.append(normal * ((py - pitch_y) * nx - (px - pitch_x) * ny))
         rise = np.gradient(radius, found.x)[-1 if gear == 0 else 0] * (1 if gear == 0 else -1)
@@ -185,14 +188,6 @@ def _corner(search: ToothPairSearch, end: float, last: float) -> CornerLag:
     return CornerLag(abs(last - end) / (_CORNER_NODES - 1), lag - lag[0])
 
 
-def _leading_places(found: ToothPairContact, pitch: float) -> Indices:
-    """Return the indices of the driver angles at which the examined tooth pair drives, rather than the tooth pair one
-    pitch ahead or behind.
-    """
-    others = [np.interp(found.x + way * pitch, found.x, found.lag, left=np.inf, right=np.inf) for way in (-1, 1)]
-    return np.flatnonzero(found.lag <= np.minimum(*others))
-
-
 def _half_widths(search: ToothPairSearch, found: ToothPairContact, gear: int) -> Floats:
     """Return the half-thickness of the tooth of one wheel at each contact [module]."""
     if gear == 0:
@@ -211,10 +206,8 @@ def _pitch_points(search: ToothPairSearch, found: ToothPairContact, gear: int) -
     """Return the coordinates x and y [module] of the points at which the flank in contact intersects the pitch circle
     of one wheel.
     """
-    wheel, table = ((search.first, search.pair.touch_search.first), (search.second, search.pair.touch_search.second))[
-        gear
-    ]
-    radius = wheel.z / 2
+    table = (search.pair.touch_search.first, search.pair.touch_search.second)[gear]
+    radius = (search.first, search.second)[gear].z / 2
     piece = np.flatnonzero((table.ends[0] <= radius) & (radius <= table.ends[1]) & ~table.flat)[:1]
     azimuth = float(value(table.azimuth, piece, table.inverse(piece, np.array([radius])))[0][0])
     turned = (found.angle if gear else found.x) + azimuth

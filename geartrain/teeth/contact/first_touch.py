@@ -20,7 +20,7 @@ from geartrain.numerics.polynomial_pieces import value
 from geartrain.numerics.roots import roots_by_false_position
 
 if TYPE_CHECKING:
-    from geartrain.numerics.arrays import Bools, Floats, Indices
+    from geartrain.numerics.arrays import Floats, Indices
     from geartrain.teeth.contact.gear_outline import FlankTable
 
 _ASIDE = 1e-5  # fraction of a segment: offset at which a slope is evaluated if it is undefined at the end
@@ -116,9 +116,8 @@ class DrivenFrame:
         along = along + e * far * fall
         up = self.tilt * fall - s * e * far * across
         h = np.hypot(self.side, self.along)
-        return (self.up * (self.side * side + self.along * along) / h - h * up), (
-            self.along * side - self.side * along
-        ) / (h * h)
+        radius = self.up * (self.side * side + self.along * along) / h - h * up
+        return radius, (self.along * side - self.side * along) / (h * h)
 
 
 # ----------------------------------------------------------------------------------------- segments of the driving side
@@ -202,12 +201,7 @@ class FirstTouchSearch:
         """Return the intervals between search nodes that may be at radii of the driven flank. Their `piece2` is
         assigned later.
         """
-        nodes = self.first.nodes
-        pieces, us, begins = (
-            nodes[0][tooth_pairs.tooth1],
-            nodes[1][tooth_pairs.tooth1],
-            nodes[2][tooth_pairs.tooth1, :-1],
-        )
+        pieces, us, begins = (each[tooth_pairs.tooth1] for each in self.first.nodes)
         r, dr, a, da = (each[tooth_pairs.tooth1] for each in self.first.node_values)
         view = DrivenFrame(self.axles, r, a + tooth_pairs.x[:, None])
         change, swing = view.moved(dr, da)
@@ -217,7 +211,7 @@ class FirstTouchSearch:
         minimum, most = (each[tooth_pairs.tooth2][:, None] for each in self.second.span)
         here, there = view.radius[:, :-1], view.radius[:, 1:]
         low, high = np.minimum(here, there), np.maximum(here, there)
-        tooth_pair, at = np.nonzero(begins & (low - slack <= most) & (high + slack >= minimum))
+        tooth_pair, at = np.nonzero(begins[:, :-1] & (low - slack <= most) & (high + slack >= minimum))
         ends = tooth_pair, np.stack([at, at + 1])
         polar2 = np.stack([each[ends] for each in (view.radius, view.azimuth, change, swing)])
         piece = pieces[tooth_pair, at]
@@ -280,15 +274,6 @@ class FirstTouchSearch:
         a, da = value(self.first.azimuth, piece, u)
         return DrivenFrame(self.axles, r, a + x), dr, da
 
-    def _stalled(self, segments: FlankSegments) -> Bools:
-        """Return a mask, shape (2, n), of the segment ends at which one of the two curves is stationary, so that its
-        slope there is meaningless.
-        """
-        first, second = self.first.stalls[:, segments.piece1], self.second.stalls[:, segments.piece2]
-        at_end = (segments.u == np.array([[-1.0], [1.0]])) & first
-        found: Bools = at_end | ((segments.v == -1) & second[0]) | ((segments.v == 1) & second[1])
-        return found
-
     # ------------------------------------------------------------------------------------------------ exact contact
 
     def touch(self, tooth_pairs: CandidatePairs, segments: FlankSegments) -> FirstTouches:
@@ -312,7 +297,9 @@ class FirstTouchSearch:
         everything = np.arange(len(x))
         ends_u, slopes = segments.u.copy(), np.stack([rising(u, everything) for u in segments.u])
         step = _ASIDE * (ends_u[1] - ends_u[0])
-        stalled = self._stalled(segments)
+        first, second = self.first.stalls[:, segments.piece1], self.second.stalls[:, segments.piece2]
+        stalled = (segments.u == np.array([[-1.0], [1.0]])) & first
+        stalled |= ((segments.v == -1) & second[0]) | ((segments.v == 1) & second[1])
         for side, way in ((0, 1), (1, -1)):
             # where a curve is stationary at its end the slope there is 0 up to rounding error
             which = np.flatnonzero(stalled[side] | ~(way * slopes[side] > 0))

@@ -302,16 +302,12 @@ class GearOutline(Shown):
                     "give every tooth its own curves instead",
                 )
             )
-        offsets = self.turns or (0.0,) * self.z
-        return GearOutline(
-            tuple(self._displaced_tooth(k, offsets[k], x, y) for k in range(self.z)), self.z, (), self.ring
-        )
-
-    def _displaced_tooth(self, k: int, offset: float, x: float, y: float) -> ToothFlanks:
-        place = k * self.pitch
-        by = np.array([x, y])
-        tooth = self.teeth[k % len(self.teeth)]
-        return tooth.turned(place + offset).mapped(lambda points: points + by).turned(-place)
+        by, teeth = np.array([x, y]), []
+        for k, offset in enumerate(self.turns or (0.0,) * self.z):
+            place = k * self.pitch
+            tooth = self.teeth[k % len(self.teeth)].turned(place + offset)
+            teeth.append(tooth.mapped(lambda points: points + by).turned(-place))
+        return GearOutline(tuple(teeth), self.z, (), self.ring)
 
 
 def _check_side(side: tuple[OutlineCurve, ...]) -> None:
@@ -385,16 +381,15 @@ def _side(side: tuple[OutlineCurve, ...]) -> list[list[tuple[PolynomialPiece, bo
         [each for piece in fitted(curve.polar, curve.start, curve.end) for each in _monotonic_pieces(curve, piece)]
         for curve in side
     ]
-    corner = [True, *(_is_corner(a[-1], b[0]) for a, b in pairwise(found)), True]
+    corner = [True]
+    for one, following in pairwise(found):
+        before, after = _direction(one[-1], 1), _direction(following[0], -1)
+        corner.append(bool(abs(before[0] * after[1] - before[1] * after[0]) > _SMOOTH or before @ after < 0))
+    corner.append(True)
     return [
         [(piece, at == 0 and corner[i], at == len(pieces) - 1 and corner[i + 1]) for at, piece in enumerate(pieces)]
         for i, pieces in enumerate(found)
     ]
-
-
-def _is_corner(last: PolynomialPiece, new: PolynomialPiece) -> bool:
-    before, after = _direction(last, 1), _direction(new, -1)
-    return bool(abs(before[0] * after[1] - before[1] * after[0]) > _SMOOTH or before @ after < 0)
 
 
 def _direction(piece: PolynomialPiece, end: int) -> Floats:
@@ -514,11 +509,8 @@ class FlankTable:
     @cached_property
     def span(self) -> tuple[Floats, Floats]:
         """Minimum radius and maximum radius of each tooth, two arrays of shape (teeth,)."""
-        low, high = (
-            np.minimum.reduceat(self.ends[0], self.first[:-1]),
-            np.maximum.reduceat(self.ends[1], self.first[:-1]),
-        )
-        return low, high
+        first, (low, high) = self.first[:-1], self.ends
+        return np.minimum.reduceat(low, first), np.maximum.reduceat(high, first)
 
     # -------------------------------------------------------------------------------------------- flanks of a driver
 
@@ -529,7 +521,12 @@ class FlankTable:
         """
         # the quotient is rounded up, so that a side with few pieces still has the minimum number of cells
         cells = np.repeat(np.maximum(1, -(-_CELLS // np.diff(self.first))), np.diff(self.first))
-        each = [self._sample_points(piece, int(number)) for piece, number in enumerate(cells)]
+        each = []
+        for at, number in enumerate(cells.tolist()):
+            # geometric refinement at ends where the radius is stationary
+            ends = (end for end, stalls in zip((-1, 1), self.stalls[:, at], strict=True) if stalls)
+            finer = [end * (1 - 2 * _CLOSER ** np.arange(1, _CLOSE + 1)) for end in ends]
+            each.append(np.unique(np.concatenate([np.linspace(-1, 1, number + 1), *finer])))
         piece, u = np.repeat(np.arange(len(each)), [len(marks) for marks in each]), np.concatenate(each)
         begins = np.append(piece[1:] == piece[:-1], False)
         start = np.searchsorted(piece, self.first)
@@ -537,16 +534,6 @@ class FlankTable:
         # teeth with fewer nodes repeat their last node, at which a cell does not begin
         at = np.minimum(start[:-1, None] + np.arange(most), start[1:, None] - 1)
         return piece[at], u[at], begins[at]
-
-    def _sample_points(self, piece: int, cells: int) -> Floats:
-        """Return the values of u at which a piece is sampled. They are uniformly spaced, with geometric refinement at
-        ends where the radius is stationary.
-        """
-        marks: list[Floats] = [np.linspace(-1, 1, cells + 1)]
-        for end, stalls in zip((-1, 1), self.stalls[:, piece], strict=True):
-            if stalls:
-                marks.append(np.asarray(end * (1 - 2 * _CLOSER ** np.arange(1, _CLOSE + 1)), dtype=np.float64))
-        return np.unique(np.concatenate(marks))
 
     @cached_property
     def node_values(self) -> tuple[Floats, Floats, Floats, Floats]:

@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from math import ceil, lcm, pi
 from typing import TYPE_CHECKING, Any, Literal
@@ -69,17 +68,16 @@ class OutlinePair:
         # computed within one period; whole periods are added afterwards, so that their rounding does no harm
         turns = np.floor(self.sign * phi1 / period)
         rest = self.sign * phi1 - turns * period
-        parts = [self._block(part, within) for part in self._blocks(rest)]
+        # in blocks, which limit the memory for nodes
+        per_angle = ((self.window[1] - self.window[0]) / self.first.pitch + 1) * self.touch_search.first.nodes[0].shape[
+            1
+        ]
+        size = max(16, int(_BLOCK / per_angle))
+        parts = [self._block(rest[at : at + size], within) for at in range(0, max(len(rest), 1), size)]
         angle, speed, pair, *others = (np.concatenate(each, axis=-1) for each in zip(*parts, strict=True))
         angle = self.sign * (angle + turns * (self.cycle * self.second.pitch))
         pair = self.sign * (pair - turns.astype(int) * self.cycle)
         return angle, speed, pair, *others
-
-    def _blocks(self, rest: Floats) -> Iterator[Floats]:
-        wide = self.window[1] - self.window[0]
-        per_angle = (wide / self.first.pitch + 1) * self.touch_search.first.nodes[0].shape[1]
-        size = max(16, int(_BLOCK / per_angle))
-        return (rest[start : start + size] for start in range(0, max(len(rest), 1), size))
 
     def _tooth_pairs(self, rest: Floats) -> tuple[CandidatePairs, Indices]:
         """Return all tooth pairs within range, and the number of the driver's tooth in each pair.
@@ -96,10 +94,9 @@ class OutlinePair:
         # in the mirror image tooth j touches the tooth behind it, whose number counted backward is j + 1
         mate = j if self.sign > 0 else j + 1
         tooth1, tooth2 = (self.sign * j) % self.first.z, (self.sign * mate) % self.second.z
-        x = rest[position] + j * pitch + self.sign * _deviations(self.first.turns, tooth1)
-        place = np.asarray(
-            mate * self.second.pitch + self.sign * _deviations(self.second.turns, tooth2), dtype=np.float64
-        )
+        turns1, turns2 = (np.array(wheel.turns or (0.0,) * wheel.z) for wheel in (self.first, self.second))
+        x = rest[position] + j * pitch + self.sign * turns1[tooth1]
+        place = mate * self.second.pitch + self.sign * turns2[tooth2]
         shape1 = tooth1 if len(self.first.teeth) > 1 else np.zeros_like(j)
         shape2 = tooth2 if len(self.second.teeth) > 1 else np.zeros_like(j)
         near = (x >= self.window[0]) & (x <= self.window[1])
@@ -114,7 +111,8 @@ class OutlinePair:
         position = tooth_pairs.position[found.tooth_pair]
         best = np.full(count, -np.inf)
         np.maximum.at(best, position, found.angle)
-        sharing = self._sharing(found, best[position] - within, tooth_pairs, count)
+        touching = np.unique(found.tooth_pair[found.angle >= best[position] - within])
+        sharing = np.bincount(tooth_pairs.position[touching], minlength=count)
         kind = self.kinds(found)
         # order of ties: later tooth pair, then flank before corner, then maximum angle
         ties = np.flatnonzero(found.angle >= best[position] - _TIE)
@@ -137,17 +135,6 @@ class OutlinePair:
         ):
             kind += (1 + at) * ((u == -1) & table.corners[0][piece] | (u == 1) & table.corners[1][piece])
         return kind
-
-    def _sharing(self, found: FirstTouches, minimum: Floats, tooth_pairs: CandidatePairs, count: int) -> Indices:
-        """Return, at each driver position, the number of tooth pairs that touch at the driven angle `minimum` or
-        beyond.
-        """
-        touching = np.unique(found.tooth_pair[found.angle >= minimum])
-        return np.bincount(tooth_pairs.position[touching], minlength=count)
-
-
-def _deviations(turns: tuple[float, ...], tooth: Indices) -> Floats | float:
-    return np.array(turns)[tooth] if turns else 0.0
 
 
 def _no_contact(count: int) -> tuple[Any, ...]:
@@ -349,11 +336,12 @@ def contact(
     """
     phi1 = np.asarray(phi1, dtype=float)
     if not np.isfinite(phi1).all():
-        raise RangeError(
-            Problem(
-                "an angle of the driver is not finite", "positions must be finite", "remove infinite and NaN angles"
-            )
+        what, why, fix = (
+            "an angle of the driver is not finite",
+            "positions must be finite",
+            "remove infinite and NaN angles",
         )
+        raise RangeError(Problem(what, why, fix))
     pair_contact = OutlinePair(first, second, distance, side)
     flat = pair_contact.at(phi1.ravel(), within)
     shapes = (each.reshape((*each.shape[:-1], *phi1.shape)) for each in flat)

@@ -23,7 +23,7 @@ from geartrain.teeth.transmission import SpeedLeap
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-    from geartrain.numerics.arrays import Bools, Floats, Indices
+    from geartrain.numerics.arrays import Floats, Indices
     from geartrain.teeth.contact.gear_outline import GearOutline
 
 _JUMP = 1e-6  # fraction of the ratio: smaller steps at a kink are rounding error
@@ -236,25 +236,23 @@ class _Fitter:
         done, kinks = [], [np.empty(0)]
         while pending.shape[1]:
             stretches, labels = self._fitted(pending)
-            good = self._accepted(stretches, before)
+            thin = np.diff(stretches.ends, axis=0)[0] < _THIN * self.pitch
+            # bisection of a smooth stretch reduces the error by far more than 4; less at this size is rounding error
+            stuck = (stretches.off > before / 4) & (before < 1e-10)
+            good = (_SAFETY * stretches.off <= self.tolerance) | thin | stuck
             done.append(some(stretches, good))
             cuts = self._kinks(pending[:, ~good], labels[:, ~good])
             # a stretch with a kink cannot be fitted by one polynomial, whatever its length
             kinks += cuts
             pending, before = _divided(pending[:, ~good], cuts, stretches.off[~good])
             if sum(each.ends.shape[1] for each in done) + pending.shape[1] > _MOST * self.pair_contact.cycle:
-                raise _too_many_stretches(self.tolerance)
+                what = (
+                    f"the transmission function of these outlines cannot be tabulated within {self.tolerance:.3g} rad"
+                )
+                why = "the function has too many kinks for a piecewise polynomial fit"
+                fix = "pass a larger tolerance, or describe measured teeth with fewer points"
+                raise RangeError(Problem(what, why, fix))
         return self._ordered(done, np.concatenate(kinks))
-
-    def _accepted(self, stretches: _Stretches, before: Floats) -> Bools:
-        """Return a mask of the intervals that are within tolerance, too narrow to be divided, or limited by rounding
-        errors.
-        """
-        thin = np.diff(stretches.ends, axis=0)[0] < _THIN * self.pitch
-        # bisection of a smooth stretch reduces the error by far more than 4; less at this size is rounding error
-        stuck = (stretches.off > before / 4) & (before < 1e-10)
-        good: Bools = (_SAFETY * stretches.off <= self.tolerance) | thin | stuck
-        return good
 
     def _fitted(self, ends: Floats) -> tuple[_Stretches, Indices]:
         """Return the polynomials fitted in the intervals, and labels of the contact at the nodes of each interval,
@@ -347,13 +345,3 @@ def _divided(ends: Floats, cuts: list[Floats], off: Floats) -> tuple[Floats, Flo
         found += parts
         before += [np.inf if len(within) else last] * len(parts)
     return np.array(found).reshape(-1, 2).T, np.array(before)
-
-
-def _too_many_stretches(tolerance: float) -> RangeError:
-    return RangeError(
-        Problem(
-            f"the transmission function of these outlines cannot be tabulated within {tolerance:.3g} rad",
-            "the function has too many kinks for a piecewise polynomial fit",
-            "pass a larger tolerance, or describe measured teeth with fewer points",
-        )
-    )

@@ -115,41 +115,28 @@ class TriangularContact:
         """Verdict that reports the first failed check, or "runs" if no check fails. The order of checks is: valley,
         range of contact, overhang, coast flanks, entry, exit.
         """
-        sizes = self.sizes
-        if not sizes.has_valleys:
-            return self._failure("no valley", _no_valley(sizes))
+        if not self.sizes.has_valleys:
+            return PairVerdict("no valley", _no_valley(self.sizes), -inf)
         if not self.intervals:
-            return self._failure("apart", "the tips never touch: the wheels are too far apart")
-        return PairVerdict(*self._judgement(), self.backlash)
-
-    @staticmethod
-    def _failure(kind: MeshingKind, text: str) -> PairVerdict:
-        return PairVerdict(kind, text, -inf)
-
-    def _judgement(self) -> tuple[MeshingKind, str]:
+            return PairVerdict("apart", "the tips never touch: the wheels are too far apart", -inf)
+        kind: MeshingKind = "runs"
+        text = "the wheels turn"
         if self.overhang:
-            return "overhang", self.overhang
-        if self.backlash < -_ROUNDING * self.sizes.p2:
-            return "jam", (
-                f"the coast flanks jam: the teeth are {degrees(-self.backlash):.4g} deg of the driven wheel too thick "
-                "for the spaces at this clearance"
-            )
-        if self.dragged.clash > 0:
-            return "clash", (
-                f"an entering tooth meets a tip: the two overlap by {degrees(self.dragged.clash):.4g} deg of the "
-                "driven wheel"
-            )
-        if self.dragged.arrested:
-            return "dwell", (
-                "the driven wheel stops permanently: for a while no tooth is within range, and the next tooth does "
-                "not drive it"
-            )
-        if self.idle > 0:
-            return "dwell", (
-                f"the driven wheel dwells for {degrees(self.idle):.4g} deg of the driver in each pitch, and lags by "
-                f"{degrees(self.lost):.4g} deg when the next tooth arrives"
-            )
-        return "runs", "the wheels turn"
+            kind, text = "overhang", self.overhang
+        elif self.backlash < -_ROUNDING * self.sizes.p2:
+            thick = f"{degrees(-self.backlash):.4g} deg of the driven wheel too thick"
+            kind, text = "jam", f"the coast flanks jam: the teeth are {thick} for the spaces at this clearance"
+        elif self.dragged.clash > 0:
+            overlap = f"{degrees(self.dragged.clash):.4g} deg of the driven wheel"
+            kind, text = "clash", f"an entering tooth meets a tip: the two overlap by {overlap}"
+        elif self.dragged.arrested:
+            cause = "for a while no tooth is within range, and the next tooth does not drive it"
+            kind, text = "dwell", f"the driven wheel stops permanently: {cause}"
+        elif self.idle > 0:
+            rest = f"{degrees(self.idle):.4g} deg of the driver in each pitch"
+            lag = f"{degrees(self.lost):.4g} deg when the next tooth arrives"
+            kind, text = "dwell", f"the driven wheel dwells for {rest}, and lags by {lag}"
+        return PairVerdict(kind, text, self.backlash)
 
     @property
     def idle(self) -> float:
@@ -311,8 +298,9 @@ def _window(sizes: TriangularSizes) -> ClearanceWindow:
     # at the jam limit itself the backlash is 0 except for rounding
     overhang = _overhang_excess(sizes, max(jam * (1 + 1e-9), reach * _NEARLY_0))
     low = max(jam, overhang)
-    clash = _first_range(lambda excess: _entry(RealPath(sizes.at(excess))), low, reach)
-    dwell = _first_range(lambda excess: _exit(RealPath(sizes.at(excess))), low, reach)
+    # at the entry a negative margin is a clash of tips; at the exit, a dwell before the next tooth pair drives
+    clash = _first_range(lambda excess: _end_margin(RealPath(sizes.at(excess)), entry=True), low, reach)
+    dwell = _first_range(lambda excess: _end_margin(RealPath(sizes.at(excess)), entry=False), low, reach)
     # equal wheels reach both limits at once, and the dwelling driven wheel admits the next tooth
     run_kind: Literal["clash", "dwell"] = "clash" if clash[1] < dwell[1] * (1 - 1e-9) else "dwell"
     starts: dict[Literal["jam", "overhang", "clash", "dwell"], float]
@@ -358,20 +346,13 @@ def _first_range(margin: Callable[[float], float], low: float, reach: float) -> 
     return start, _first_sign_change(margin, start + 1e-9 * reach, reach)
 
 
-def _entry(path: RealPath) -> float:
-    """Return the margin at entry [rad of the driven wheel]: the maximum lag permitted by the entering tooth pair minus
-    the maximum lag permitted by the other tooth pairs. If the margin is negative, tips clash.
+def _end_margin(path: RealPath, entry: bool) -> float:
+    """Return the maximum lag [rad of the driven wheel] that the tooth pair at the entry, or else at the exit, permits,
+    minus the maximum lag that all other tooth pairs permit.
     """
-    last = path.pieces[-1]
-    return path.g(last.phase, last.high) - path.lowest(last.high, besides=0)
-
-
-def _exit(path: RealPath) -> float:
-    """Return the margin at exit [rad of the driven wheel]. If it is negative, a tooth pair leaves contact before
-    another pair can drive, so that the driven wheel dwells.
-    """
-    first = path.pieces[0]
-    return path.g(first.phase, first.low) - path.lowest(first.low, besides=0)
+    piece = path.pieces[-1 if entry else 0]
+    x = piece.high if entry else piece.low
+    return path.g(piece.phase, x) - path.lowest(x, besides=0)
 
 
 def _first_sign_change(value: Callable[[float], float], low: float, reach: float) -> float:

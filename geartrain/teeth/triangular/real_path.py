@@ -228,28 +228,15 @@ class RealPath:
         for at, one in enumerate(active):
             for other in active[at + 1 :]:
                 marks |= set(self._crossings(one, other, low, high))
-        chosen = None
+        chosen, noise = None, 4 * ulp(self.sizes.reach2 + self.ratio * self.sizes.reach1)
         for upper, lower in pairwise(sorted(marks, reverse=True)):
-            chosen = self._lowest_at(lower + (upper - lower) / 2, active, chosen)
+            t = lower + (upper - lower) / 2
+            lags = [self.g(branch.phase, t + k * self.pitch) for branch, k in active]
+            # branches may coincide over a range, where rounding must not change from one to the other
+            if chosen is None or lags[active.index(chosen)] > min(lags) + noise:
+                chosen = active[lags.index(min(lags))]
             branch, k = chosen
             yield DriveInterval(branch.phase, upper + k * self.pitch, lower + k * self.pitch, k)
-
-    def _lowest_at(
-        self, t: float, active: list[tuple[MonotonePiece, int]], last: tuple[MonotonePiece, int] | None
-    ) -> tuple[MonotonePiece, int]:
-        """Return the branch with the minimum lag g at driver position t. If the previous branch `last` has the same lag
-        within rounding error, it is returned, because branches may coincide over a range.
-        """
-        heights = [self.g(branch.phase, t + k * self.pitch) for branch, k in active]
-        minimum = min(heights)
-        if last is not None and heights[active.index(last)] <= minimum + self._noise:
-            return last
-        return active[heights.index(minimum)]
-
-    @cached_property
-    def _noise(self) -> float:
-        """Rounding error of the lag g [rad], estimated from the magnitudes of its two terms."""
-        return 4 * ulp(self.sizes.reach2 + self.ratio * self.sizes.reach1)
 
     def _crossings(
         self, one: tuple[MonotonePiece, int], other: tuple[MonotonePiece, int], low: float, high: float

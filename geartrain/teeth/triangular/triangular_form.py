@@ -176,8 +176,11 @@ class Triangular(ToothForm):
         from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
 
         del shaft_angle
-        if why := refusal(wheels.kinds, any(wheels.internal)):
-            raise refused("these wheels cannot have triangular teeth", f"{why}; {TRIANGULAR_SCOPE}", IDEAL)
+        ring = any(wheels.internal)
+        if odd := [kind for kind in wheels.kinds if kind not in (("spur",) if ring else ("spur", "contrate"))]:
+            how = "with a ring as a spur wheel does" if ring else "as two spur wheels do"
+            why = f"a {odd[0]} wheel does not mesh {how}; {TRIANGULAR_SCOPE}"
+            raise refused("these wheels cannot have triangular teeth", why, IDEAL)
         transmission = self.transmission(
             *wheels.counts, wheels.friction or 0.0, pitch_distance=wheels.pitch_distance, ring=wheels.ring
         )
@@ -222,11 +225,8 @@ class Triangular(ToothForm):
         for z in (z1, z2):
             if z < FEWEST:
                 what = f"a wheel of {z} {'tooth' if z == 1 else 'teeth'} cannot have triangular teeth"
-                raise refused(
-                    what,
-                    "flanks of fewer teeth do not meet in valleys",
-                    f"give at least {FEWEST} teeth, or another tooth_form",
-                )
+                why, fix = "flanks of fewer teeth do not meet in valleys", f"give at least {FEWEST} teeth"
+                raise refused(what, why, f"{fix}, or another tooth_form")
         outer, inner = (z1, z2) if ring == 1 else (z2, z1)
         if ring and outer <= inner:
             what = f"a ring of {outer} teeth cannot contain a wheel of {inner} teeth"
@@ -344,15 +344,6 @@ class Triangular(ToothForm):
 
         sizes = self.sizes(z1, z2, pitch_distance, ring)
         return TriangularTransmission(sizes if driver == 1 else sizes.swapped(), friction, direction)
-
-
-def refusal(kinds: tuple[str, str], internal: bool) -> str:
-    """Return the reason why wheels of the given kinds cannot have triangular teeth; an empty string if they can."""
-    known = ("spur",) if internal else ("spur", "contrate")
-    odd = [kind for kind in kinds if kind not in known]
-    if odd and internal:
-        return f"a {odd[0]} wheel does not mesh with a ring as a spur wheel does"
-    return f"a {odd[0]} wheel does not mesh as two spur wheels do" if odd else ""
 
 
 def sizes_window(sizes: TriangularSizes) -> ClearanceWindow:

@@ -161,11 +161,16 @@ class TriangularMesh(GearMesh):
     def account(self) -> PairAccount:
         """Return a report on the clearance, the transmission function and the impacts of the pair."""
         figures = triangular_figures(self.transmission, self.window, losses=self.efficiency(self.driver))
-        tables = (
-            AccountTable(_CLEARANCE_HEADER, _clearance_row(self)),
-            AccountTable(_TRANSMISSION_HEADER, _transmission_row(self, figures)),
-        )
-        return PairAccount(_WORDS, tables, figures)
+        window, where, row = self.window, "-", ("-",) * 4
+        if window is not None:
+            where = f"{window.jam_factor:.5f} {window.jam_kind} .. {window.run_factor:.5f} {window.run_kind}"
+        if figures.speed_ratio is not None and figures.efficiency is not None:
+            speeds = "{:.5f}..{:.5f}".format(*figures.speed_ratio.relative)
+            lost = figures.efficiency.text if self.computes_losses else "-"
+            row = speeds, figures.error_text, lost, ", ".join(f"{jump.value:.4f}" for jump in figures.jumps)
+        factor, kind = f"{figures.sizes.clearance_factor:.6g}", self.transmission.verdict.kind
+        clearance = AccountTable(_CLEARANCE_HEADER, (self.name, f"{self.driver} -> {self.driven}", factor, where, kind))
+        return PairAccount(_WORDS, (clearance, AccountTable(_TRANSMISSION_HEADER, (self.name, *row))), figures)
 
     def own_faults(self) -> Iterator[Problem]:
         """Yield all faults of the teeth of the pair, each with its remedy."""
@@ -195,32 +200,6 @@ class TriangularFigures(PairFigures):
     """Intervals of the real path of contact over one pitch of the driver, in order of time."""
     jumps: tuple[SpeedJump, ...]
     """Impacts within one pitch."""
-
-
-def _clearance_row(mesh: TriangularMesh) -> tuple[str, ...]:
-    transmission, window = mesh.transmission, mesh.window
-    where = (
-        "-"
-        if window is None
-        else f"{window.jam_factor:.5f} {window.jam_kind} .. {window.run_factor:.5f} {window.run_kind}"
-    )
-    return (
-        mesh.name,
-        f"{mesh.driver} -> {mesh.driven}",
-        f"{transmission.sizes.clearance_factor:.6g}",
-        where,
-        transmission.verdict.kind,
-    )
-
-
-def _transmission_row(mesh: TriangularMesh, figures: TriangularFigures) -> tuple[str, ...]:
-    speed, efficiency = figures.speed_ratio, figures.efficiency
-    if speed is None or efficiency is None:
-        return (mesh.name, "-", "-", "-", "-")
-    minimum, most = speed.relative
-    lost = efficiency.text if mesh.computes_losses else "-"
-    jumps = ", ".join(f"{jump.value:.4f}" for jump in figures.jumps)
-    return (mesh.name, f"{minimum:.5f}..{most:.5f}", figures.error_text, lost, jumps)
 
 
 def triangular_figures(

@@ -4,7 +4,7 @@ one pitch.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache, partial
@@ -182,26 +182,20 @@ class TriangularTransmission(ToothTransmission):
         """Return, for each driver angle in S, the values of the `count` functions that `what` computes from the drive
         interval and alpha_1.
         """
-        S = np.asarray(S, dtype=float)
+        S, edges = np.asarray(S, dtype=float), self._edges
         flat = S.ravel()
         found = [np.empty_like(flat) for _ in range(count)]
         for block in blocks(len(flat)):
-            self._map_block(flat[block], what, [each[block] for each in found])
+            gone = remainder(self.direction * flat[block], self.period) + self._start
+            # both terms are within one period, so one subtraction is sufficient
+            gone -= np.where(gone < self.period, 0.0, self.period)
+            which = np.searchsorted(edges[1:-1], gone, side="right")
+            for at, interval in enumerate(self.intervals):
+                chosen = np.flatnonzero(which == at) if len(self.intervals) > 1 else slice(None)
+                x = interval.start - (gone[chosen] - edges[at])
+                for each, value in zip(found, what(interval, x), strict=True):
+                    each[block][chosen] = value
         return [each.reshape(S.shape) for each in found]
-
-    def _map_block(
-        self, S: Floats, what: Callable[[DriveInterval, Floats], tuple[Any, ...]], found: Sequence[Floats]
-    ) -> None:
-        edges = self._edges
-        gone = remainder(self.direction * S, self.period) + self._start
-        # both terms are within one period, so one subtraction is sufficient
-        gone -= np.where(gone < self.period, 0.0, self.period)
-        which = np.searchsorted(edges[1:-1], gone, side="right")
-        for at, interval in enumerate(self.intervals):
-            chosen = np.flatnonzero(which == at) if len(self.intervals) > 1 else slice(None)
-            x = interval.start - (gone[chosen] - edges[at])
-            for each, value in zip(found, what(interval, x), strict=True):
-                each[chosen] = value
 
     @cached_property
     def _drive_intervals(self) -> tuple[DriveInterval, ...]:
@@ -332,15 +326,12 @@ class TriangularTransmission(ToothTransmission):
     def jumps(self) -> list[SpeedJump]:
         """Impacts within one pitch, in order of time."""
         found = []
-        for last, new in zip(
-            self._drive_intervals, (*self._drive_intervals[1:], self._drive_intervals[0]), strict=True
-        ):
-            if new.held is not None:
-                continue
-            before, after = self.contact.speed(last, last.end), self.contact.speed(new, new.start)
-            found.append(
-                SpeedJump("matching" if matches(last, new, self.period) else new.phase, new.start, before, after)
-            )
+        intervals = self._drive_intervals
+        for last, new in zip(intervals, (*intervals[1:], intervals[0]), strict=True):
+            if new.held is None:
+                kind = "matching" if matches(last, new, self.period) else new.phase
+                before, after = self.contact.speed(last, last.end), self.contact.speed(new, new.start)
+                found.append(SpeedJump(kind, new.start, before, after))
         return found
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...]:
@@ -404,18 +395,15 @@ def contact_course(
         values = [what(each.phase, x) if each.held is None else np.full_like(x, held(each)) for each, x in at]
         return np.concatenate([np.empty(0), *values])
 
-    def arm(wheel: int) -> Floats:
-        return column(
-            lambda phase, x: tooth_pair.moment_arms(phase, x, transmission.coefficient(phase, x, friction), np)[wheel],
-            lambda _: nan,
-        )
+    def f(phase: str, x: Floats) -> float | Floats:
+        return transmission.coefficient(phase, x, friction)
 
-    # the efficiency is defined only where the force acts with a positive arm on both wheels
-    eta = column(
-        lambda phase, x: tooth_pair.efficiency(phase, x, transmission.coefficient(phase, x, friction), np),
-        lambda _: nan,
+    first, second = (
+        column(lambda phase, x, wheel=wheel: tooth_pair.moment_arms(phase, x, f(phase, x), np)[wheel], lambda _: nan)  # type: ignore[misc]
+        for wheel in (0, 1)
     )
-    first, second = arm(0), arm(1)
+    # the efficiency is defined only where the force acts with a positive arm on both wheels
+    eta = column(lambda phase, x: tooth_pair.efficiency(phase, x, f(phase, x), np), lambda _: nan)
     return ContactCourse(
         tuple(each.phase for each, x in at for _ in x),
         np.concatenate([np.empty(0), *(x for _, x in at)]),

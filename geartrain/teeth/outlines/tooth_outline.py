@@ -265,7 +265,14 @@ def _spaced_displacements(path: PathOfContact, gear: int, X: Floats, tolerance: 
     # 20 % more points than estimated, for curvature that varies within a piece
     count = max(_FEWEST, ceil(1.2 * cost[-1])) + 1
     found = np.interp(np.linspace(0, cost[-1], count), cost, X)
-    return _with_vertices(found, np.append(X[_inflections(path, gear, X)], _corner(path, gear, found, tolerance)))
+    bends = np.append(X[_inflections(path, gear, X)], _corner(path, gear, found, tolerance))
+    if not bends.size:
+        return found
+    near = _NEAR * abs(found[-1] - found[0])
+    inner = [x for x in found[1:-1].tolist() if np.abs(bends - x).min() > near]
+    ends = [b for b in bends.tolist() if min(abs(b - found[0]), abs(b - found[-1])) > near]
+    whole = np.unique([found[0], *inner, *ends, found[-1]])
+    return whole if found[0] < found[-1] else whole[::-1]
 
 
 def _corner(path: PathOfContact, gear: int, X: Floats, tolerance: float) -> list[float]:
@@ -289,16 +296,6 @@ def _inflections(path: PathOfContact, gear: int, X: Floats) -> Floats:
     bending = np.flatnonzero(sense)
     turns = sense[bending[1:]] != sense[bending[:-1]]
     return np.asarray(bending[:-1][turns] + 1)
-
-
-def _with_vertices(found: Floats, bends: Floats) -> Floats:
-    if not bends.size:
-        return np.asarray(found)
-    near = _NEAR * abs(found[-1] - found[0])
-    inner = [x for x in found[1:-1].tolist() if np.abs(bends - x).min() > near]
-    ends = [b for b in bends.tolist() if min(abs(b - found[0]), abs(b - found[-1])) > near]
-    whole = np.unique([found[0], *inner, *ends, found[-1]])
-    return whole if found[0] < found[-1] else whole[::-1]
 
 
 def _inner_polyline(path: PathOfContact, gear: int, X: Floats, outward: int) -> tuple[Floats, Floats]:

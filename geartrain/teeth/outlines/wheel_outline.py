@@ -69,10 +69,6 @@ class BlankSizes:
             raise QuestionError(problems)
 
 
-def _diameter(radius: float) -> float:
-    return 2 * radius
-
-
 @dataclass(frozen=True, slots=True)
 class WheelOutline(Result):
     """Outline and sizes of a wheel at full scale (1:1). Lengths are in mm.
@@ -84,7 +80,7 @@ class WheelOutline(Result):
 
     KEYS = (
         *("gear", "z", "kind", "module", "thickness", "fillet", "relief", "clearance", "backlash"),
-        *(Key(f"{name}_diameter", f"{name}_radius", _diameter) for name in ("pitch", "tip", "root")),
+        *(Key(f"{name}_diameter", f"{name}_radius", lambda radius: 2 * radius) for name in ("pitch", "tip", "root")),
         *("centre_distance", "tolerance"),
     )
 
@@ -233,14 +229,9 @@ def blank_contours(teeth: Contour, kind: str, root: float, cut: BlankSizes) -> l
     teeth = teeth.scaled(cut.module)
     if kind != "ring":
         if cut.rim is not None:
-            raise QuestionError(
-                Problem(
-                    "--blank rim does not apply to an external wheel with teeth",
-                    "only rings and lanterns have a rim of declared width",
-                    "omit --blank rim",
-                    "--blank rim",
-                )
-            )
+            what = "--blank rim does not apply to an external wheel with teeth"
+            why = "only rings and lanterns have a rim of declared width"
+            raise QuestionError(Problem(what, why, "omit --blank rim", "--blank rim"))
         return [teeth, *bore(cut, root * cut.module)]
     if cut.bore is not None:
         raise QuestionError(Problem("a ring has no bore", "its middle is open", "omit --blank bore", "--blank bore"))
@@ -255,12 +246,7 @@ def bore(cut: BlankSizes, root: float) -> list[Contour]:
         return []
     most = 2 * (root - _THIN * cut.module)
     if cut.bore >= most:
-        raise QuestionError(
-            Problem(
-                f"a bore of {cut.bore:g} mm does not fit",
-                f"the wheel's root circle has a diameter of {2 * root:.4g} mm",
-                f"give a bore below {most:.4g} mm",
-                "--blank bore",
-            )
-        )
+        what = f"a bore of {cut.bore:g} mm does not fit"
+        why = f"the wheel's root circle has a diameter of {2 * root:.4g} mm"
+        raise QuestionError(Problem(what, why, f"give a bore below {most:.4g} mm", "--blank bore"))
     return [Contour.circle(cut.bore / 2)]

@@ -77,26 +77,19 @@ class Cycloidal(ConjugateToothForm):
                 "give a fraction below 1 (1/2 makes radial flanks, and a larger fraction undercut flanks)",
             )
         if self.thickness is not None:
-            self._check_thickness(self.thickness)
+            check_one_of(self, "backlash", "thickness", "backlash")
+            check_above_0(self, "length", "thickness")
+            if (both := sum(float(each.value) for each in self.thickness)) > pi:
+                fix = f"give thicknesses with a sum of at most {pi:.6g} modules"
+                raise bad("length", f"thicknesses of {both:.6g} modules in total exceed the pitch", fix)
         check_one_of(self, "arcs", "arcs", "addendum")
         if self.arcs is not None:
             check_arcs(self.arcs)
-        elif self.addendum is not None and (
-            min(height.value for height in self.addendum) < 0 or not sum(height.value for height in self.addendum)
-        ):
-            raise bad(
-                "height",
-                "an addendum is negative, or both are 0",
-                "give addenda of 0 or more modules, not 0 for both wheels",
-            )
+        heights = [height.value for height in self.addendum or ()]
+        if heights and (min(heights) < 0 or not any(heights)):
+            fix = "give addenda of 0 or more modules, not 0 for both wheels"
+            raise bad("height", "an addendum is negative, or both are 0", fix)
         return self
-
-    def _check_thickness(self, thickness: TwoFigures) -> None:
-        check_one_of(self, "backlash", "thickness", "backlash")
-        check_above_0(self, "length", "thickness")
-        if (both := sum(float(each.value) for each in thickness)) > pi:
-            fix = f"give thicknesses with a sum of at most {pi:.6g} modules"
-            raise bad("length", f"thicknesses of {both:.6g} modules in total exceed the pitch", fix)
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
         """Return the pair at its design centre distance."""

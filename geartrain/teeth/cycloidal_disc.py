@@ -329,10 +329,6 @@ class DiscTransmission(ExactRatio, ToothTransmission):
 # ------------------------------------------------------------------------------------------------------ pair of a train
 
 
-def _range_text(fewest: int, most: int) -> str:
-    return str(most) if fewest == most else f"{fewest} to {most}"
-
-
 @dataclass(frozen=True)
 class DiscFigures(PairFigures):
     """Results of a lobed disc in its ring of pins: the results that exist for every pair, the sizes of the pins, and
@@ -383,6 +379,7 @@ class DiscMesh(GearMesh):
     def account(self) -> PairAccount:
         """Return the report on the pair: sizes, maximum pin load, backlash and efficiency."""
         disc = self.transmission.disc
+        fewest, most = disc.bearing_pins
         figures = DiscFigures(
             self.counts,
             self.verdict,
@@ -395,7 +392,7 @@ class DiscMesh(GearMesh):
         )
         row = (
             *(self.name, f"{self.driver} -> {self.driven}", str(disc.lobes), str(disc.pins)),
-            *(f"{disc.shortening:.4g}", f"{disc.pin:.4g}", _range_text(*disc.bearing_pins)),
+            *(f"{disc.shortening:.4g}", f"{disc.pin:.4g}", str(most) if fewest == most else f"{fewest} to {most}"),
             f"{disc.maximum_load:.4g}",
             *(f"{degrees(self.verdict.backlash):.4g}", *self.efficiency_texts),
         )

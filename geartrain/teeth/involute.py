@@ -23,7 +23,6 @@ if TYPE_CHECKING:
 
 _MOST_MODULES = 1_000_000  # larger than any wheel; squares of much larger lengths overflow
 _PROPORTIONS = {"full": ("1", "1.25"), "deep": ("1", "1.4"), "stub": ("0.8", "1")}
-_PAIR = "give a sum of 0, such as `shift: [0.3, -0.3]`"
 
 
 class Involute(ConjugateToothForm):
@@ -81,9 +80,8 @@ class Involute(ConjugateToothForm):
         if heights is None or not isinstance(given, dict):
             return given
         if twice := {"addendum", "dedendum"} & given.keys():
-            raise bad(
-                "height", f"{min(twice)} and proportions are both given", f"remove `{min(twice)}` or `proportions`"
-            )
+            name = min(twice)
+            raise bad("height", f"{name} and proportions are both given", f"remove `{name}` or `proportions`")
         rest = {name: value for name, value in given.items() if name != "proportions"}
         return {**rest, "addendum": heights[0], "dedendum": heights[1]}
 
@@ -94,9 +92,8 @@ class Involute(ConjugateToothForm):
         for name in ("shift", "addendum", "dedendum"):
             for length in getattr(self, name):
                 if abs(length.value) > _MOST_MODULES:
-                    raise bad(
-                        "height", f"{name} {length.text} is out of range", f"give at most {_MOST_MODULES:g} modules"
-                    )
+                    fix = f"give at most {_MOST_MODULES:g} modules"
+                    raise bad("height", f"{name} {length.text} is out of range", fix)
         return self
 
     def misplaced(self, wheels: WheelPair) -> float | None:
@@ -105,8 +102,15 @@ class Involute(ConjugateToothForm):
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
         """Return the pair at its declared centre distance; by default, at the distance without backlash."""
+        from geartrain.teeth.conjugate.admissibility import involute_faults
+        from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
+
         wheels.check()
-        return self._bevel(wheels) if wheels.bevel else self._spur(wheels)
+        if wheels.bevel:
+            return self._bevel(wheels)
+        found = self.involutes(wheels)
+        path = _straight_path(found.pitch, found.psi, found.arcs)
+        return ConjugatePair(path, found.halves, involute_faults(found, path))
 
     @classmethod
     def pair_of_arcs(cls, wheels: WheelPair, arcs: tuple[float, float], given: Mapping[str, object]) -> ConjugatePair:
@@ -201,14 +205,6 @@ class Involute(ConjugateToothForm):
         # the flank of the rack is straight as deep as the addendum of the mate; its fillet is below
         return InvoluteWheel(z, psi, shift, add, ded, min(mate, ded), ring)
 
-    def _spur(self, wheels: WheelPair) -> ConjugatePair:
-        from geartrain.teeth.conjugate.admissibility import involute_faults
-        from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
-
-        found = self.involutes(wheels)
-        path = _straight_path(found.pitch, found.psi, found.arcs)
-        return ConjugatePair(path, found.halves, involute_faults(found, path))
-
     # ----------------------------------------------------------------------------------------------- axes that meet
 
     def _bevel(self, wheels: WheelPair) -> ConjugatePair:
@@ -216,11 +212,11 @@ class Involute(ConjugateToothForm):
         from geartrain.teeth.conjugate.involute_geometry import cone_height, spherical_arc
 
         if sum(figure.value for figure in self.shift):
-            raise refused(
+            what, why = (
                 "the shifts of a bevel pair do not sum to 0",
                 "the shaft angle fixes the pitch cones of both wheels",
-                _PAIR,
             )
+            raise refused(what, why, "give a sum of 0, such as `shift: [0.3, -0.3]`")
         if self.centre_distance is not None:
             raise refused("bevel wheels have no centre distance", "their axes intersect", "remove `centre_distance`")
         pitch, psi = wheels.pitch, self.pressure_angle.si

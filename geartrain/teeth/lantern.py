@@ -73,14 +73,10 @@ class Lantern(ConjugateToothForm):
     def misplaced(self, wheels: WheelPair) -> float | None:
         """Return None, or raise `RangeError` if a centre distance other than the design distance is declared."""
         if (distance := super().misplaced(wheels)) is not None:
-            raise RangeError(
-                Problem(
-                    f"the centre distance of this lantern is {distance - wheels.distance:+.6g} modules off the design "
-                    "distance",
-                    "the ratio is constant only at the design distance, and other distances are not modelled",
-                    "remove `centre_distance`, or give another tooth_form",
-                )
-            )
+            off = f"{distance - wheels.distance:+.6g} modules off the design distance"
+            why = "the ratio is constant only at the design distance, and other distances are not modelled"
+            fix = "remove `centre_distance`, or give another tooth_form"
+            raise RangeError(Problem(f"the centre distance of this lantern is {off}", why, fix))
         return None
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
@@ -111,10 +107,8 @@ class Lantern(ConjugateToothForm):
         tooth = pitch.p / 2 - pin - self._backlash(pitch, wheels) / 2
         halves = (pin, tooth) if self.pins == 1 else (tooth, pin)
         (approach, recess), arcs = (sides, real) if self.pins == 1 else (sides[::-1], real[::-1])
-        path, cut = (
-            PathOfContact(pitch, approach, recess, (arcs[0], arcs[1])),
-            self._undercut(pitch, start, outside, inside),
-        )
+        path = PathOfContact(pitch, approach, recess, (arcs[0], arcs[1]))
+        cut = self._undercut(pitch, start, outside, inside)
         return ConjugatePair(path, halves, extra=cut, solid=(self.pins != 1, self.pins != 2))
 
     @classmethod

@@ -101,13 +101,11 @@ class MeshingWheels:
     @property
     def pitch_distance(self) -> float | None:
         """Centre distance at which the declared pitch circles touch [m]; None if no lengths are declared."""
-        z1, z2 = self.counts
+        if self.distance is None or not any(self.internal):
+            return self.distance
         # `distance` belongs to the sum of the tooth numbers, also for a ring
-        return (
-            self.distance
-            if self.distance is None or not any(self.internal)
-            else self.distance * abs(z1 - z2) / (z1 + z2)
-        )
+        z1, z2 = self.counts
+        return self.distance * abs(z1 - z2) / (z1 + z2)
 
     @property
     def ring(self) -> Literal[0, 1, 2]:

@@ -130,11 +130,6 @@ class SlidingEfficiency(Result):
         return "locks" if self.mean is None else f"{self.mean:.6f}"
 
 
-def _gear_or_none(gear: int) -> int | None:
-    """Return the number of the faulty gear; None if `gear` is 0, which denotes the pair as a whole."""
-    return gear or None
-
-
 # -------------------------------------------------------------------------------------------------------------- verdict
 
 
@@ -142,7 +137,7 @@ def _gear_or_none(gear: int) -> int | None:
 class ToothFault(Result):
     """Fault that prevents the teeth of a pair from running, with its cause and remedy. Faults are part of a verdict."""
 
-    KEYS = ("kind", Key("gear", to=_gear_or_none), "what", "why", "fix")
+    KEYS = ("kind", Key("gear", to=lambda gear: gear or None), "what", "why", "fix")
 
     kind: str
     """Kind of fault, such as `jam`, `clash` or `undercut`."""
@@ -253,15 +248,9 @@ class PinFigures(Result):
 
 def pin_figures(transmission: PinTransmission) -> PinFigures:
     """Return the results of one pin coupling."""
-    error = TransmissionError.of(transmission)
-    return PinFigures(
-        transmission.r,
-        transmission.e,
-        SpeedRatio.of(transmission),
-        transmission.amplitude,
-        error,
-        SlidingEfficiency(transmission),
-    )
+    speed, error = SpeedRatio.of(transmission), TransmissionError.of(transmission)
+    efficiency = SlidingEfficiency(transmission)
+    return PinFigures(transmission.r, transmission.e, speed, transmission.amplitude, error, efficiency)
 
 
 @dataclass(frozen=True)

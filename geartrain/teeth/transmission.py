@@ -50,13 +50,8 @@ def check_friction(friction: float) -> float:
     Raise `RangeError` if the coefficient is negative, infinite or NaN.
     """
     if not 0 <= friction < inf:
-        raise RangeError(
-            Problem(
-                f"a coefficient of friction of {friction:g} is out of range",
-                "it must be finite and not negative",
-                "give 0 or more, such as 0.1",
-            )
-        )
+        what = f"a coefficient of friction of {friction:g} is out of range"
+        raise RangeError(Problem(what, "it must be finite and not negative", "give 0 or more, such as 0.1"))
     return friction
 
 

@@ -72,11 +72,8 @@ class UniformTemperature(ConjugateToothForm):
             check_above_0(self, name, name)
         if self.minimum_angle is not None:
             if self.reading != "c":
-                raise bad(
-                    "pressure_angle",
-                    "minimum_angle applies only to reading c",
-                    "give `reading: c`, or remove `minimum_angle`",
-                )
+                fix = "give `reading: c`, or remove `minimum_angle`"
+                raise bad("pressure_angle", "minimum_angle applies only to reading c", fix)
             check_angle("minimum_angle", self.minimum_angle)
         check_arcs(self.arcs)
         return self
@@ -129,8 +126,7 @@ class UniformTemperature(ConjugateToothForm):
         else:
             wanted = depth(PathOfContact(pitch, involute(arcs[0], _INVOLUTE), involute(arcs[1], _INVOLUTE)))
         # near the pitch point a side is a cycloid of rolling radius 1 / (b + gamma) and height X^2 (b + gamma) / 2
-        start = max(
-            2 * wanted / (arcs[0] * arcs[0] + arcs[1] * arcs[1]) - (pitch.A + pitch.B) / 2, (pitch.A + pitch.B) / 2
-        )
+        half = (pitch.A + pitch.B) / 2
+        start = max(2 * wanted / (arcs[0] * arcs[0] + arcs[1] * arcs[1]) - half, half)
         gamma = to_depth(lambda g: depth(PathOfContact(pitch, *self._sides(pitch, g))), wanted, start, sum(arcs))
         return self._sides(pitch, gamma)

@@ -47,13 +47,9 @@ def cycloid(pitch: PitchSurfaces, X: float, rho: float) -> PathSide:
     longest = pi * sin(rho) if pitch.bevel else pi * rho
     # at exactly half the circle the pressure angle is a right angle, with cosine 0
     if longest * (1 - 1e-9) <= X:
-        raise RangeError(
-            Problem(
-                f"an arc of {X / pitch.p:.6g} pitches is longer than half the rolling circle",
-                f"after half of that circle, {longest / pitch.p:.6g} pitches, the pressure angle is 90 degrees",
-                "use a shorter arc or a larger rolling circle",
-            )
-        )
+        what = f"an arc of {X / pitch.p:.6g} pitches is longer than half the rolling circle"
+        why = f"after half of that circle, {longest / pitch.p:.6g} pitches, the pressure angle is 90 degrees"
+        raise RangeError(Problem(what, why, "use a shorter arc or a larger rolling circle"))
     if not pitch.bevel:
         piece = PathPiece(
             0.0,
@@ -149,13 +145,8 @@ def lantern(R: float, A: float, B: float, X: float, inside: bool = False) -> Pat
     # slightly less than half a turn, where the arc sine in `travel` would lose half its digits
     if not 0 <= beta <= 3.14:
         side, limit = ("dedendum", "the undercut") if inside else ("addendum", "half a turn of the lantern")
-        raise RangeError(
-            Problem(
-                f"an arc of {degrees(X / R):.6g} deg of the lantern on the mate's {side} is too long",
-                f"it must end before {limit}, at {degrees(most):.6g} deg",
-                "use a shorter arc",
-            )
-        )
+        what = f"an arc of {degrees(X / R):.6g} deg of the lantern on the mate's {side} is too long"
+        raise RangeError(Problem(what, f"it must end before {limit}, at {degrees(most):.6g} deg", "use a shorter arc"))
     L = sqrt((A - R) ** 2 + 4 * A * R * sin(beta / 2) ** 2)
     return PathSide((pin_piece(R, A, B, B - L if inside else L - B, inside),))
 
@@ -176,13 +167,9 @@ def pin_reach(R: float, A: float, B: float, mate: float, tip: float) -> float:
     sine = pin_piece(R, A, B, most).sin_psi
     at_pitch, at_most = off(0.0), off(most)
     if (at_pitch > 0) == (at_most > 0):
-        raise RangeError(
-            Problem(
-                f"the path of contact does not reach the tip radius of the mate, {tip:.6g} modules",
-                "the pins reach the far side of the lantern before they would touch this radius",
-                "give the mate a shorter addendum",
-            )
-        )
+        what = f"the path of contact does not reach the tip radius of the mate, {tip:.6g} modules"
+        why = "the pins reach the far side of the lantern before they would touch this radius"
+        raise RangeError(Problem(what, why, "give the mate a shorter addendum"))
     return root(off, 0.0, most, at_pitch, at_most)
 
 

@@ -358,22 +358,16 @@ def check_arcs(arcs: tuple[Figure, Figure]) -> None:
     """Raise a validation error if an arc of contact is negative or if both arcs are 0."""
     if min(arc.value for arc in arcs) < 0 or sum(arc.value for arc in arcs) <= 0:
         text = ", ".join(arc.text for arc in arcs)
-        raise bad(
-            "arcs",
-            f"arcs [{text}] are out of range",
-            "give arcs of approach and recess in pitches, with a sum of at least 1",
-        )
+        fix = "give arcs of approach and recess in pitches, with a sum of at least 1"
+        raise bad("arcs", f"arcs [{text}] are out of range", fix)
 
 
 def check_angle(name: str, angle: Angle, below: float = 0.25) -> None:
     """Raise a validation error if a pressure angle is not between 0 and `below` turns."""
     turns = angle.si / tau
     if not 0 < turns < below:
-        raise bad(
-            "pressure_angle",
-            f"{name} {angle.text} is outside 0 to {360 * below:g} deg",
-            f"give a pressure angle between 0 and {360 * below:g} deg; 20 deg is usual",
-        )
+        fix = f"give a pressure angle between 0 and {360 * below:g} deg; 20 deg is usual"
+        raise bad("pressure_angle", f"{name} {angle.text} is outside 0 to {360 * below:g} deg", fix)
 
 
 def check_wheels(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> None:

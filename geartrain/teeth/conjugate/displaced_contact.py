@@ -224,13 +224,8 @@ def displaced_contact(pair: ConjugatePair, driver: int, gap: float = 0.0) -> Dis
     """
     path, pitch, gears = pair.path, pair.path.pitch, (driver, 3 - driver)
     if sum(path.arcs) <= 0:
-        raise RangeError(
-            Problem(
-                "these teeth do not reach each other",
-                "their arcs of approach and recess sum to 0 or less",
-                "use longer arcs",
-            )
-        )
+        what, why = "these teeth do not reach each other", "their arcs of approach and recess sum to 0 or less"
+        raise RangeError(Problem(what, why, "use longer arcs"))
     # with gear 2 driving, the same contacts occur in reverse order
     sense = 1.0 if driver == 1 else -1.0
     first, last = path.ends(driver)

@@ -239,13 +239,9 @@ class GearOutline(Shown):
     def __post_init__(self) -> None:
         for name, number, few in (("teeth", len(self.teeth), (1, self.z)), ("turns", len(self.turns), (0, self.z))):
             if self.z < 1 or number not in few:
-                raise QuestionError(
-                    Problem(
-                        f"`{name}` has {number} entries for a wheel with z = {self.z}",
-                        f"z must be at least 1, and `{name}` needs {few[0]} or z entries",
-                        f"give {few[0]} or {max(self.z, 1)} entries",
-                    )
-                )
+                what = f"`{name}` has {number} entries for a wheel with z = {self.z}"
+                why = f"z must be at least 1, and `{name}` needs {few[0]} or z entries"
+                raise QuestionError(Problem(what, why, f"give {few[0]} or {max(self.z, 1)} entries"))
         for tooth in self.teeth:
             for side in (tooth.ahead, tooth.behind):
                 _check_side(side)
@@ -295,13 +291,9 @@ class GearOutline(Shown):
             If the wheel is a bevel.
         """
         if self.bevel:
-            raise QuestionError(
-                Problem(
-                    "a bevel wheel cannot be displaced in its plane",
-                    "its teeth are on a sphere about the apex, which a displacement leaves",
-                    "give every tooth its own curves instead",
-                )
-            )
+            what = "a bevel wheel cannot be displaced in its plane"
+            why = "its teeth are on a sphere about the apex, which a displacement leaves"
+            raise QuestionError(Problem(what, why, "give every tooth its own curves instead"))
         by, teeth = np.array([x, y]), []
         for k, offset in enumerate(self.turns or (0.0,) * self.z):
             place = k * self.pitch
@@ -315,33 +307,21 @@ def _check_side(side: tuple[OutlineCurve, ...]) -> None:
     the axle.
     """
     if not side:
-        raise QuestionError(
-            Problem(
-                "a tooth has a flank without curves",
-                "each flank can touch a mate and needs a profile",
-                "give at least one curve for each flank",
-            )
-        )
+        what, why = "a tooth has a flank without curves", "each flank can touch a mate and needs a profile"
+        raise QuestionError(Problem(what, why, "give at least one curve for each flank"))
     last = None
     for curve in side:
         ends = curve.at(np.array([curve.start, curve.end]))
         if not np.isfinite(ends).all() or curve.start == curve.end or not np.hypot(ends[:, 0], ends[:, 1]).all():
-            raise QuestionError(
-                Problem(
-                    f"a curve from parameter {curve.start:.6g} to {curve.end:.6g} cannot be part of a tooth",
-                    "an end is not finite or is on the axle, or both ends have the same parameter",
-                    "give two parameters at which the curve has points off the axle",
-                )
-            )
+            what = f"a curve from parameter {curve.start:.6g} to {curve.end:.6g} cannot be part of a tooth"
+            why = "an end is not finite or is on the axle, or both ends have the same parameter"
+            fix = "give two parameters at which the curve has points off the axle"
+            raise QuestionError(Problem(what, why, fix))
         # relative to the size of the tooth, because coordinates are rounded
         if last is not None and np.abs(ends[0] - last).max() > _MEETS * np.abs(ends).max():
-            raise QuestionError(
-                Problem(
-                    "two curves of a tooth do not meet",
-                    f"one ends at {last}, the next begins at {ends[0]}",
-                    "give the curves of a flank in order, each beginning at the end of the previous one",
-                )
-            )
+            why = f"one ends at {last}, the next begins at {ends[0]}"
+            fix = "give the curves of a flank in order, each beginning at the end of the previous one"
+            raise QuestionError(Problem("two curves of a tooth do not meet", why, fix))
         last = ends[1]
 
 

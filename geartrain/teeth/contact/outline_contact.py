@@ -149,22 +149,15 @@ def _check_pair(first: GearOutline, second: GearOutline, distance: float) -> Non
     range.
     """
     if first.bevel != second.bevel or (first.ring and second.ring):
-        raise QuestionError(
-            Problem(
-                "these two wheels cannot mesh",
-                "one is a spur wheel and the other a bevel wheel, or both are rings",
-                "give two spur wheels, two bevel wheels, or a wheel and a ring",
-            )
-        )
-    limit = pi if first.bevel else np.inf
-    if not 0 < distance < limit:
-        raise RangeError(
-            Problem(
-                f"the {'shaft angle' if first.bevel else 'centre distance'} {distance:.6g} is out of range",
-                f"it must be above 0 and {'below pi rad' if first.bevel else 'finite'}",
-                f"give the {'shaft angle in rad' if first.bevel else 'distance between the axles'}",
-            )
-        )
+        why = "one is a spur wheel and the other a bevel wheel, or both are rings"
+        fix = "give two spur wheels, two bevel wheels, or a wheel and a ring"
+        raise QuestionError(Problem("these two wheels cannot mesh", why, fix))
+    if not 0 < distance < (pi if first.bevel else np.inf):
+        what, limit, wanted = "centre distance", "finite", "distance between the axles"
+        if first.bevel:
+            what, limit, wanted = "shaft angle", "below pi rad", "shaft angle in rad"
+        why = f"it must be above 0 and {limit}"
+        raise RangeError(Problem(f"the {what} {distance:.6g} is out of range", why, f"give the {wanted}"))
 
 
 # ---------------------------------------------------------------------------------------------- contact at given angles

@@ -40,8 +40,17 @@ class PinTransmission(SeriesTransmission):
     """Name of the driving side, "pin" or "slot"."""
 
     def __init__(self, pin_radius: float, offset: float, friction: float = 0.0) -> None:
-        self.r, self.e, self.friction = pin_radius, offset, friction
-        _check(pin_radius, offset, friction)
+        self.r, self.e, self.friction = pin_radius, offset, check_friction(friction)
+        if not (_MINIMUM < pin_radius < 1 / _MINIMUM and (offset == 0 or _MINIMUM < offset < 1 / _MINIMUM)):
+            what = f"a pin radius of {pin_radius:g} and an offset of {offset:g} are out of range"
+            why = f"both must be between {_MINIMUM:g} and {1 / _MINIMUM:g}, except that the offset may be 0"
+            fix = "give an offset of 0 or more and a pin radius above 0, both within these limits"
+            raise RangeError(Problem(what, why, fix))
+        if pin_radius == offset:
+            what = f"a pin radius of {pin_radius:g} equals the offset: the pin would pass through the slot's axis"
+            ratios = "the mean ratio is 1 for a larger radius and 0 for a smaller one"
+            why = f"the slot's direction is undetermined there; {ratios}"
+            raise RangeError(Problem(what, why, "give a larger or a smaller pin radius"))
         less, more = min(pin_radius, offset), max(pin_radius, offset)
         ratio, factor = (Fraction(1), 1.0) if pin_radius > offset else (Fraction(0), -1.0)
         super().__init__(ratio, factor, 1, less / more, (more - less) / more)
@@ -52,29 +61,6 @@ class PinTransmission(SeriesTransmission):
         the angle between pin radius and slot, r is the pin radius, and e is the axis offset.
         """
         return self.e / sqrt((self.r - self.e) * (self.r + self.e))
-
-
-def _check(pin_radius: float, offset: float, friction: float) -> None:
-    """Raise `RangeError` if a value is out of range, or if the pin would pass through the slot's axis."""
-    if not (_MINIMUM < pin_radius < 1 / _MINIMUM and (offset == 0 or _MINIMUM < offset < 1 / _MINIMUM)):
-        raise RangeError(
-            Problem(
-                f"a pin radius of {pin_radius:g} and an offset of {offset:g} are out of range",
-                f"both must be between {_MINIMUM:g} and {1 / _MINIMUM:g}, except that the offset may be 0",
-                "give an offset of 0 or more and a pin radius above 0, both within these limits",
-            )
-        )
-    # with equal lengths the pin meets the axis of the slot
-    if pin_radius == offset:
-        raise RangeError(
-            Problem(
-                f"a pin radius of {pin_radius:g} equals the offset: the pin would pass through the slot's axis",
-                "the slot's direction is undetermined there; the mean ratio is 1 for a larger radius and 0 for a "
-                "smaller one",
-                "give a larger or a smaller pin radius",
-            )
-        )
-    check_friction(friction)
 
 
 class PinToSlotTransmission(PinTransmission):
@@ -187,14 +173,9 @@ class SlotToPinTransmission(PinTransmission):
     def __init__(self, pin_radius: float, offset: float, friction: float = 0.0) -> None:
         super().__init__(pin_radius, offset, friction)
         if pin_radius < offset:
-            raise RangeError(
-                Problem(
-                    f"an oscillating slot cannot drive a pin at radius {pin_radius:g} with an offset of {offset:g}",
-                    "its pin radius is below the offset, so the slot is at rest at its dead points while the pin moves",
-                    "let the pin drive",
-                    "driver",
-                )
-            )
+            what = f"an oscillating slot cannot drive a pin at radius {pin_radius:g} with an offset of {offset:g}"
+            why = "its pin radius is below the offset, so the slot is at rest at its dead points while the pin moves"
+            raise RangeError(Problem(what, why, "let the pin drive", "driver"))
 
     def error(self, S: ArrayLike) -> Floats:
         """Return the transmission error [rad of the pin]: pin angle minus mean motion."""

@@ -278,9 +278,7 @@ class CircularArc(ToothForm):
 
 @lru_cache(maxsize=256)
 def _gears(first: ArcTooth, second: ArcTooth, distance: float) -> OutlineGears:
-    """Return the outlines of a pair at its centre distance [module]. The result is cached so that equal pairs of a
-    train are computed only once.
-    """
+    """Return the outlines of a pair at its centre distance [module], computed once for equal pairs of a train."""
     from geartrain.teeth.contact.outline_transmission import OutlineGears
 
     # sum of half the thicknesses of both wheels; what remains of a pitch of pi modules is the backlash
@@ -293,9 +291,7 @@ def _gears(first: ArcTooth, second: ArcTooth, distance: float) -> OutlineGears:
 
 @dataclass(frozen=True, slots=True)
 class ArcTooth:
-    """Sizes of one circular-arc tooth with radial flanks and a tip that consists of two equal arcs. Lengths are in
-    modules.
-    """
+    """Sizes of one circular-arc tooth [module] with radial flanks and a tip that consists of two equal arcs."""
 
     z: int
     """Number of teeth of the wheel."""
@@ -349,9 +345,7 @@ class ArcTooth:
 
     @property
     def flank(self) -> tuple[float, float]:
-        """Radius at which the radial flank ends and the arc begins [module], and angle of the flank from the tooth's
-        centre line [rad].
-        """
+        """Radius at which the radial flank ends [module], and angle of the flank from the tooth's centre line [rad]."""
         x, y = self.centre
         far = hypot(x, y)
         # length and direction of the tangent from the axis of the wheel to the arc

@@ -1,6 +1,4 @@
-"""Cycloidal teeth: epicycloids outside the pitch circles, hypocycloids inside, and one rolling circle for each side of
-the pitch point.
-"""
+"""Cycloidal teeth: epicycloids outside and hypocycloids inside the pitch circles, by two rolling circles."""
 
 from __future__ import annotations
 
@@ -108,9 +106,7 @@ class Cycloidal(ConjugateToothForm):
         return ConjugatePair(path, (first, second))
 
     def _circles(self, pitch: PitchSurfaces, wheels: WheelPair) -> tuple[float, float]:
-        """Return the radii of the rolling circles of approach and recess [module]; for bevel gears, the half-angles of
-        the rolling cones [rad].
-        """
+        """Return the radii of both rolling circles [module]; for bevel gears, half-angles of rolling cones [rad]."""
         if self.rolling is not None:
             if wheels.bevel:
                 raise refused(

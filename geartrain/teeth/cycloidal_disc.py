@@ -93,9 +93,7 @@ class CycloidalDisc:
         return found
 
     def _inward_normals(self, turn: Floats) -> Floats:
-        """Return the unit normals of the outline that point from the centres of the pins inwards, as complex numbers x
-        + iy.
-        """
+        """Return the unit normals of the outline from the centres of the pins inwards, as complex numbers x + iy."""
         to_pitch_point = self.pins / 2 * np.exp(1j * turn) - self.circle
         found: Floats = np.exp(1j * turn / self.lobes) * to_pitch_point / np.abs(to_pitch_point)
         return found
@@ -193,9 +191,7 @@ class CycloidalDisc:
         return int(number.min()), int(number.max())
 
     def angles(self, phase: Floats) -> Floats:
-        """Return the angles of all pins from the pitch point [rad], as an array (pins, ...), if one pin is at the angle
-        `phase`.
-        """
+        """Return the angles of all pins from the pitch point [rad], shape (pins, ...), with one pin at `phase`."""
         each = 2 * pi / self.pins * np.arange(self.pins)
         found: Floats = each.reshape(-1, *[1] * np.ndim(phase)) + phase
         return found
@@ -299,9 +295,7 @@ class DiscTransmission(ExactRatio, ToothTransmission):
 
     @property
     def verdict(self) -> PairVerdict:
-        """Verdict on the pair. It is always "runs", because discs that cannot run are rejected when they
-        are declared.
-        """
+        """Verdict on the pair: always "runs", because impossible discs are rejected when they are declared."""
         return PairVerdict("runs", "the teeth run", self._backlash, ())
 
     def _driven(self, driver: int, direction: int) -> DiscTransmission:
@@ -331,9 +325,7 @@ class DiscTransmission(ExactRatio, ToothTransmission):
 
 @dataclass(frozen=True)
 class DiscFigures(PairFigures):
-    """Results of a lobed disc in its ring of pins: the results that exist for every pair, the sizes of the pins, and
-    their loads.
-    """
+    """Results of a lobed disc in its ring of pins: those of every pair, and sizes and loads of the pins."""
 
     KEYS = (*PairFigures.KEYS, "shortening", "pin_radius", "maximum_load", "bearing")
 
@@ -361,9 +353,7 @@ class DiscMesh(GearMesh):
 
     @property
     def tooth_phase(self) -> float:
-        """Distance [pitch] by which a lobe is past the line of centres when the angle of the disc is 0: midway between
-        two pins, less half the backlash.
-        """
+        """Distance [pitch] of a lobe past the line of centres at disc angle 0: half a pitch less half the backlash."""
         return (1 - self.backlash) / 2
 
     def size(self, tips: Mapping[str, float]) -> PairSize:

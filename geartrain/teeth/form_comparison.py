@@ -26,18 +26,14 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.wheel_pair import WheelPair
 
 USUAL = ("involute", "uniform_stress", "uniform_temperature_b", "least_friction", "cycloidal", "lantern")
-"""Names of the tooth forms that are compared by default. Forms with several variants (readings) are included with one
-variant.
-"""
+"""Names of the tooth forms compared by default, with one variant (reading) of each form."""
 _MOST_PITCHES = 100.0  # upper limit of an arc of contact
 _EIGHTH = 0.125  # turn: from 45 deg on, the pressure angle does not determine teeth of uniform stress
 
 
 @dataclass(frozen=True)
 class MeasuredForm(Result):
-    """Result for one compared tooth form: its path of contact, losses and loads, or the faults of teeth that cannot
-    run.
-    """
+    """Result for one compared tooth form: path of contact, losses and loads, or the faults of its teeth."""
 
     KEYS = (*(Key("form", "name"), "runs", Key("arcs", "pitches"), "ratios", "faults"),)
 
@@ -50,9 +46,7 @@ class MeasuredForm(Result):
     ratios: PathRatios | None = None
     """Losses and loads relative to the involute; None for the involute itself and if the teeth cannot run."""
     faults: tuple[ToothFault, ...] = ()
-    """Faults that prevent the teeth from running. The kind of a fault is "refused" if the tooth form rejects the
-    wheels.
-    """
+    """Faults that prevent the teeth from running; of kind "refused" if the tooth form rejects the wheels."""
 
     @property
     def runs(self) -> bool:
@@ -90,9 +84,7 @@ class FormComparison(Pictured, Result):
     base: MeasuredForm
     """Result for the involute, with which the tooth forms are compared."""
     forms: tuple[MeasuredForm, ...]
-    """Results for the compared tooth forms. If a form has contact in recess only, they include an involute with such
-    contact.
-    """
+    """Results for the compared forms, and for an involute with contact in recess only if a form has such contact."""
 
     @property
     def path(self) -> PathOfContact:

@@ -30,13 +30,9 @@ if TYPE_CHECKING:
 FOOT_A_MINUTE = 0.3048 / 60
 """Speed of one foot per minute, in m/s."""
 BUCKINGHAM = ((0.0, 0.0517), (150.0, 0.0112), (2100.0, 0.0385))
-"""Pairs of pitch-line speed [ft/min] and friction coefficient of lubricated cast-iron spur gears, from Buckingham, p.
-404, cited by Smith.
-"""
+"""Pairs of pitch-line speed [ft/min] and friction coefficient of lubricated cast iron (Buckingham, p. 404)."""
 DOKOS = (0.53, 0.18, 1e7)
-"""Friction coefficients of dry steel at the lowest and at the highest speed, and the ratio of these two speeds, from
-Dokos, cited by Smith.
-"""
+"""Friction coefficients of dry steel at the lowest and the highest speed, and the ratio of these speeds (Dokos)."""
 SLOWEST_OF_DOKOS = Quantity.parse("0.0001 in/s", "velocity", False)
 
 

@@ -112,9 +112,7 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def note(self) -> str:
-        """Note on a wheel that is treated as a wheel of another kind, such as a contrate wheel; an empty string if
-        there is none.
-        """
+        """Note on a wheel that is treated as a wheel of another kind, such as a contrate wheel; may be empty."""
         return self.wheels.note
 
     @property
@@ -191,9 +189,7 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def unit_tips(self) -> Mapping[str, float]:
-        """Tip radii of wheels whose size is known only up to a scale factor, in the length unit of the teeth, keyed by
-        wheel; may be empty.
-        """
+        """Tip radii of wheels of unknown scale in the length unit of the teeth, keyed by wheel; may be empty."""
         return {}
 
     @abstractmethod
@@ -289,17 +285,13 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def cut_sizes(self) -> Any:
-        """Nominal `TriangularSizes`, about which random manufacturing errors vary. Raises `RangeError` for other tooth
-        forms.
-        """
+        """Nominal `TriangularSizes` of the pair. Raises `RangeError` for other tooth forms."""
         why, fix = "cutting errors are modelled for triangular teeth only", "declare `tooth_form: {form: triangular}`"
         raise RangeError(Problem(f"{self.label} has no triangular teeth", why, fix))
 
     @property
     def displaced_contact(self) -> DisplacedContact | None:
-        """Model of the contact of displaced flanks for the given driving wheel; None if the tooth form has no such
-        model.
-        """
+        """Contact of displaced flanks for the given driving wheel; None if the tooth form has no such model."""
         return None
 
     @abstractmethod
@@ -331,9 +323,7 @@ class GearMesh(Pictured, Shown, ABC):
 
     @cached_property
     def faults(self) -> tuple[Problem, ...]:
-        """All faults that prevent the teeth of the pair from running, each with its remedy; an empty tuple if the teeth
-        can run.
-        """
+        """All faults that prevent the teeth from running, each with its remedy; empty if the teeth can run."""
         return tuple(replace(each, what=f"{self.label}: {each.what}", place=self.place) for each in self.own_faults())
 
     @property
@@ -354,9 +344,7 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def tooth_phase(self) -> float:
-        """Distance [pitch] by which a tooth of the driven wheel is past the line of centres when the driven angle
-        is 0.
-        """
+        """Distance [pitch] of a driven tooth past the line of centres when the driven angle is 0."""
         return 0.0
 
     @property
@@ -437,9 +425,7 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def ways(self) -> tuple[Self, ...]:
-        """Meshes to examine: only this mesh if the driver is determined, or one mesh for each of the two possible
-        drivers if it is not.
-        """
+        """Meshes to examine: only this mesh, or one for each of the two wheels if the driver is not determined."""
         return (self,) if self.who.known else (self, self.driven_by(replace(self.who, wheel=self.driven)))
 
 

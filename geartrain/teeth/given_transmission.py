@@ -1,6 +1,4 @@
-"""Gear pairs whose transmission function is given instead of the shape of their teeth: as a table of transmission
-errors, or as a Python object.
-"""
+"""Gear pairs whose transmission function is given, by a table of errors or a Python object, instead of teeth."""
 
 from __future__ import annotations
 

@@ -139,15 +139,11 @@ class Involute(ConjugateToothForm):
     # ------------------------------------------------------------------------------------------------ parallel axes
 
     def bottom_clearance(self, wheels: WheelPair, gear: int) -> float:
-        """Return the bottom clearance between the root of one wheel and the tip of its mate [module], negative if
-        they overlap.
-        """
+        """Return the bottom clearance at the root of one wheel [module]; negative if it overlaps the mate's tip."""
         return self.involutes(wheels).bottom_clearance(gear)
 
     def backlash_apart(self, wheels: WheelPair, gap: float) -> float | None:
-        """Return the backlash [module] if the wheels are `gap` modules farther apart than declared; None if the base
-        circles do not allow this distance.
-        """
+        """Return the backlash [module] with wheels `gap` modules farther apart; None below the base circles."""
         found = self.involutes(wheels)
         # in a ring the teeth separate as the centre distance decreases
         moved = replace(found, distance=found.distance + (-gap if wheels.internal else gap))
@@ -257,9 +253,7 @@ class Involute(ConjugateToothForm):
 
 
 def _straight_path(pitch: PitchSurfaces, psi: float, arcs: tuple[float, float]) -> PathOfContact:
-    """Return the path of contact with a constant pressure angle `psi` [rad] and the given arcs X of approach and
-    recess.
-    """
+    """Return the path of contact with a constant pressure angle `psi` [rad] and the given arcs X."""
     from geartrain.teeth.conjugate.optimal_sides import involute
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 

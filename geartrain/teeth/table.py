@@ -66,9 +66,7 @@ class PeriodicPoints(BaseModel):
     )
 
     def period(self, counts: tuple[int, int]) -> float:
-        """Return the period as an angle of the driver [rad]. `counts` contains the tooth counts of the driver and of
-        the driven wheel.
-        """
+        """Return the period [rad of the driver]. `counts` are the tooth counts of driver and driven wheel."""
         z1, z2 = counts
         pitches = {"driver_pitch": 1, "driver_turn": z1, "driven_turn": z2, "cycle": lcm(z1, z2)}[self.over]
         return 2 * pi * pitches / z1
@@ -91,9 +89,7 @@ class PeriodicPoints(BaseModel):
         return PeriodicTable([share * period for share in shares], values, period, self.interpolation)
 
     def _check_closed(self, values: Sequence[float], counts: tuple[int, int]) -> None:
-        """Raise `GearTrainError` if the value of the last point, at the end of the period, differs from the value of
-        the first point.
-        """
+        """Raise `GearTrainError` if a last point at the end of the period differs from the first point in value."""
         gap, turned = values[-1] - values[0], self.period(counts) * counts[0] / counts[1]
         if abs(gap) <= 1e-12 * max(map(abs, values)):
             return
@@ -349,9 +345,7 @@ class GivenError(ToothForm):
         return GivenTransmission(function, counts, self.driver, self.backlash.si, efficiencies, self.driver)
 
     def _efficiencies(self, counts: tuple[int, int]) -> Efficiencies | None:
-        """Return the efficiencies for the case that the wheel `driver` drives and for the case that the other wheel
-        drives; None if there are no losses.
-        """
+        """Return the efficiencies with the wheel `driver` driving and with its mate driving; None without losses."""
         from geartrain.numerics.periodic_function import HarmonicSeries
         from geartrain.teeth.given_transmission import checked_efficiency
 

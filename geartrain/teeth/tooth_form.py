@@ -1,6 +1,4 @@
-"""Base class of tooth forms, whose method `mesh` returns the gear mesh of two wheels, and field types
-for declarations.
-"""
+"""Base class of tooth forms, whose method `mesh` returns the mesh of two wheels, and types of their fields."""
 
 from __future__ import annotations
 
@@ -125,9 +123,7 @@ class ToothForm(BaseModel, ABC):
 
     @classmethod
     def _problem(cls, item: Any) -> Problem:
-        """Return a validation error of pydantic as a problem. If the tooth form provides a remedy for this error, the
-        problem contains it.
-        """
+        """Return a validation error of pydantic as a problem, with the remedy if the tooth form provides one."""
         context = item.get("ctx") or {}
         # errors of a whole model have no location; their type may be the name of the field
         place = item["loc"][0] if item["loc"] else item["type"] if item["type"] in cls.model_fields else ""

@@ -63,9 +63,7 @@ class CellTable:
 
     @property
     def breaks(self) -> Floats:
-        """Boundaries of the cells in ascending order [rad]. They are multiples of the uniform cell width, and the kinks
-        of the function.
-        """
+        """Boundaries of the cells [rad] in ascending order: multiples of the cell width, and the kinks."""
         uniform = np.arange(self.cells + 1) * (self.period / self.cells)
         return np.sort(np.concatenate((uniform, self.kinks)))
 

@@ -1,6 +1,4 @@
-"""Teeth of uniform temperature: the frictional heat per area of the profile is uniform, and the lubricant removes it
-locally.
-"""
+"""Teeth of uniform temperature: uniform frictional heat per area of the profile, removed locally by the lubricant."""
 
 from __future__ import annotations
 
@@ -90,9 +88,7 @@ class UniformTemperature(ConjugateToothForm):
         return self._standard(PathOfContact(pitch, approach, recess), wheels)
 
     def _sides(self, pitch: PitchSurfaces, gamma: float) -> tuple[PathSide, PathSide]:
-        """Return the approach side and the recess side for a given gamma, which is the sum A + B of the pitch-surface
-        curvatures divided by the heat.
-        """
+        """Return the approach and recess sides for gamma, the sum A + B of the pitch curvatures divided by the heat."""
         from geartrain.teeth.conjugate.optimal_sides import bounded_heat, involute, uniform_heat
 
         psi = (self.minimum_angle or _USUAL).si

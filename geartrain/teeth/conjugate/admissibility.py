@@ -32,9 +32,7 @@ _ROUNDING = 1e-12  # modules: a smaller overlap is not a fault
 
 
 def faults(path: PathOfContact, halves: Halves) -> tuple[ToothFault, ...]:
-    """Return all faults that prevent teeth with this path of contact from running; an empty tuple if the teeth
-    can run.
-    """
+    """Return all faults that prevent teeth with this path of contact from running; empty if there are none."""
     return (*_undercuts(path), *_pointed(path, halves), *_contact_ratio_fault(path))
 
 
@@ -65,9 +63,7 @@ def _undercuts(path: PathOfContact) -> Iterator[ToothFault]:
 
 
 def _dwell(path: PathOfContact, d: Floats, U: Floats, gear: int, recess: bool) -> float:
-    """Return the arc X of the first sampled contact at which the speed along the profile of `gear` is 0, refined by
-    root finding.
-    """
+    """Return the arc X at which the speed along the profile of `gear` is first 0, refined from the samples."""
     at = int(np.argmax(U <= 0))
     if at == 0:
         return 0.0
@@ -184,9 +180,7 @@ def _jam(pair: InvolutePair) -> Iterator[ToothFault]:
 
 
 def _interference(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFault]:
-    """Yield a fault for each wheel whose tip extends beyond the point at which the line of action touches the mate's
-    base circle.
-    """
+    """Yield a fault for each wheel whose tip passes the end of the line of action on the mate's base circle."""
     across = pair.distance * sin(pair.psi)
     for gear, mate, own, X in ((1, pair.second, pair.first, -path.arcs[0]), (2, pair.first, pair.second, path.arcs[1])):
         # radius of the mate at the point where the line of action touches the base circle of this gear
@@ -211,9 +205,7 @@ def _interference(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFaul
 
 
 def _undercut(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFault]:
-    """Yield a fault for each wheel on which the rack's corner has removed a part of the flank that the mate's tip would
-    touch.
-    """
+    """Yield a fault for each wheel whose flank the rack's corner has cut away where the mate's tip touches it."""
     for gear, wheel, arc in ((1, pair.first, path.arcs[0]), (2, pair.second, path.arcs[1])):
         cut_radius = wheel.undercut()
         R = path.pitch.R1 if gear == 1 else path.pitch.R2
@@ -235,9 +227,7 @@ def _undercut(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFault]:
 
 
 def _bottom(pair: InvolutePair) -> Iterator[ToothFault]:
-    """Yield a fault for each wheel whose tips touch the bottom of the mate's tooth spaces (bottom clearance
-    below 0).
-    """
+    """Yield a fault for each wheel whose tips touch the bottom of the mate's tooth spaces."""
     for gear in (1, 2):
         gap = pair.bottom_clearance(3 - gear)
         if gap < -_ROUNDING:
@@ -252,9 +242,7 @@ def _bottom(pair: InvolutePair) -> Iterator[ToothFault]:
 
 
 def ring_tips(path: PathOfContact) -> Iterator[ToothFault]:
-    """Yield a fault if the tips of a pinion collide with the tips of its ring gear after the teeth have
-    left contact.
-    """
+    """Yield a fault if the tips of a pinion and of its ring gear collide after their teeth have left contact."""
     gap = tip_gap(path)
     if gap < 0:
         pitch = path.pitch

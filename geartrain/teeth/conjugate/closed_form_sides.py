@@ -125,9 +125,7 @@ def pin_piece(R: float, A: float, B: float, end: float, inside: bool = False) ->
 
 
 def pin_angle(R: float, A: float, B: float) -> float:
-    """Return the angle [rad] of a pin's centre from the line of centres at the instant when the pin touches the pitch
-    point.
-    """
+    """Return the angle [rad] between a pin's centre and the line of centres when the pin touches the pitch point."""
     return 2 * asin(sqrt((B - A + R) * (B + A - R) / (4 * A * R)))
 
 
@@ -174,9 +172,7 @@ def pin_reach(R: float, A: float, B: float, mate: float, tip: float) -> float:
 
 
 def pin_arc(R: float, A: float, B: float, d: float) -> float:
-    """Return the arc X [module] from the pitch point to the contact on the mate's addendum at the distance `d` from the
-    pitch point.
-    """
+    """Return the arc X [module] from the pitch point to the contact on the mate's addendum at the distance `d`."""
     return float(pin_piece(R, A, B, d).travel(np.array(d)))
 
 
@@ -208,9 +204,7 @@ def _extremal_piece(pitch: PitchSurfaces, D: float, start: float, end: float) ->
 
 
 def extremal(pitch: PitchSurfaces, X: float, first: float, last: float) -> PathSide:
-    """Return the extremal of minimum friction with an arc of length X, along which the pressure angle decreases from
-    `first` to `last` [rad].
-    """
+    """Return the extremal of minimum friction with an arc X and pressure angles from `first` to `last` [rad]."""
     if not pitch.bevel:
         D = X / log(cos(last) / cos(first))
         return PathSide((_extremal_piece(pitch, D, D * cos(first), D * cos(last)),))
@@ -287,24 +281,18 @@ def _cusp(R: float, A: float, B: float, mate: float, far: float) -> float | None
 
 
 def _flank(R: float, A: float, B: float, mate: float, beta: float) -> complex:
-    """Return the point at which a pin at the angle `beta` touches the mate, as a complex number x + iy relative to the
-    mate's axis.
-    """
+    """Return the point of contact of a pin at the angle `beta`, as x + iy [module] from the mate's axis."""
     G = _centre(R, A, np.array(beta))
     return complex((G * (1 - B / np.abs(G)) + 1j * mate) * np.exp(1j * R / mate * beta))
 
 
 def _nearest(R: float, A: float, mate: float, point: complex, low: float, high: float) -> float:
-    """Return the minimum distance [module] between a fixed point of the mate and the pin's centre, for pin angles from
-    `low` to `high`.
-    """
+    """Return the minimum distance [module] of a pin's centre from a point of the mate, at angles `low` to `high`."""
     # the mate's frame turns by R / mate t while the lantern turns by t
     return -peak(lambda t: -np.abs((_centre(R, A, t) + 1j * mate) * np.exp(1j * R / mate * t) - point), low, high)
 
 
 def _centre(R: float, A: float, beta: Floats) -> Points:
-    """Return the centre of a pin at the angle `beta` from the line of centres, as a complex number x + iy [module]
-    relative to the pitch point.
-    """
+    """Return the centre of a pin at the angle `beta` from the line of centres, as x + iy from the pitch point."""
     found: Points = 1j * R - 1j * A * np.exp(1j * beta)
     return found

@@ -44,9 +44,7 @@ class ConjugateToothForm(ToothForm):
     conjugate: ClassVar[bool] = True
     own_play: ClassVar[tuple[str, ...]] = ("backlash",)
     matched: ClassVar[str] = ""
-    """Description of the quantities, apart from the arcs of contact, that are made equal for all forms in a comparison
-    of tooth forms.
-    """
+    """Names of the quantities, other than the arcs of contact, that are equal in a comparison of tooth forms."""
 
     backlash: Length = Field(
         "0",
@@ -72,9 +70,7 @@ class ConjugateToothForm(ToothForm):
         return ConjugateFigures
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
-        """Return the mesh of a pair in which the first wheel drives. A ring gear is always gear 2 of the tooth form,
-        even if the pair names it first.
-        """
+        """Return the mesh of a pair with its first wheel driving. A ring gear is always gear 2 of the form."""
         from geartrain.teeth.conjugate.conjugate_mesh import ConjugateMesh
 
         check_wheels(self, wheels, shaft_angle)
@@ -320,9 +316,7 @@ class ConjugateToothForm(ToothForm):
         return given if abs(given - design) > _DESIGN * design else None
 
     def _standard(self, path: PathOfContact, wheels: WheelPair) -> ConjugatePair:
-        """Return a pair in which the teeth of both gears have the same thickness: half a pitch less half
-        the backlash.
-        """
+        """Return a pair whose teeth are equally thick on both gears: half a pitch less half the backlash."""
         from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
 
         half = path.pitch.p / 4 - self._backlash(path.pitch, wheels) / 4
@@ -338,9 +332,7 @@ class ConjugateToothForm(ToothForm):
 
 @lru_cache(maxsize=1024)
 def conjugate_pair_of(form: ConjugateToothForm, wheels: WheelPair) -> ConjugatePair:
-    """Return the conjugate pair of a tooth form and two wheels. The pair is computed at the first call and
-    then cached.
-    """
+    """Return the conjugate pair of a tooth form and two wheels, which is computed once and then cached."""
     return form.pair(wheels)
 
 
@@ -348,9 +340,7 @@ def conjugate_pair_of(form: ConjugateToothForm, wheels: WheelPair) -> ConjugateP
 
 
 def arcs_of(figures: tuple[Figure, Figure], pitch: PitchSurfaces) -> tuple[float, float]:
-    """Convert arcs of approach and recess given in pitches to arcs X on the pitch surfaces [module; rad for bevel
-    gears].
-    """
+    """Convert arcs of approach and recess from pitches to arcs X on the pitch surfaces [module; bevel gears: rad]."""
     return float(figures[0].value) * pitch.p, float(figures[1].value) * pitch.p
 
 
@@ -392,9 +382,7 @@ def check_wheels(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle
 
 
 def check_order(form: ToothForm, pair: tuple[str, str]) -> None:
-    """Raise `GearTrainError` if a pair names its ring gear first and either the two wheels have different tooth
-    parameters or `pins` is declared.
-    """
+    """Raise `GearTrainError` if a pair names its ring gear first but declares `pins` or unequal parameters."""
     given = {name: getattr(form, name) for name in type(form).model_fields}
     uneven = [name for name, value in given.items() if isinstance(value, tuple) and value[0].value != value[1].value]
     if uneven := uneven + [name for name in ("pins",) if name in form.model_fields_set]:

@@ -52,14 +52,10 @@ class ConjugateDetails(NamedForm, Protocol):
     """Text that advises how to increase the contact ratio."""
 
     def bottom_clearance(self, wheels: WheelPair, gear: int) -> float | None:
-        """Return the bottom clearance between the root of `gear` and the tip of its mate [module]; None if the tooth
-        form does not define it.
-        """
+        """Return the bottom clearance between the root of `gear` and its mate's tip [module]; None if undefined."""
 
     def backlash_apart(self, wheels: WheelPair, gap: float) -> float | None:
-        """Return the backlash [module] at the design centre distance increased by `gap` [module]; None if the tooth
-        form does not define it.
-        """
+        """Return the backlash [module] if the design centre distance is increased by `gap`; None if undefined."""
 
     def lantern_pins(self, wheels: WheelPair) -> LanternPins | None:
         """Return the round pins that form the teeth of one wheel; None if both wheels have teeth."""
@@ -116,9 +112,7 @@ class ConjugateMesh(GearMesh):
         return PairSize(1.0, self.transmission.distance, self.transmission.distance / self.wheels.touching)
 
     def requirement(self, wheel: str, scale: float, tolerance: float) -> ToothRequirement:
-        """Return the requirements on a tooth of `wheel`: its designed flank, and a root that clears the tip of the
-        mate.
-        """
+        """Return the required tooth of `wheel`: its designed flank, and a root that clears the tip of the mate."""
         from geartrain.teeth.outlines.tooth_requirement import CLEARANCE, ToothRequirement
 
         del scale
@@ -152,9 +146,7 @@ class ConjugateMesh(GearMesh):
         return outline(self.transmission.pair, own, cut, self.tooth_form.lantern_pins(wheels))
 
     def backlash_apart(self, gap: float) -> float | None:
-        """Return the backlash [module] at the centre distance increased by `gap` [module]; None if the tooth form does
-        not define it.
-        """
+        """Return the backlash [module] if the centre distance is increased by `gap` [module]; None if undefined."""
         return self.tooth_form.backlash_apart(self.wheel_pair, gap)
 
     @property
@@ -165,9 +157,7 @@ class ConjugateMesh(GearMesh):
 
     @property
     def displaced_contact(self) -> DisplacedContact:
-        """Contact of flanks that are slightly displaced from their designed positions. A change of the centre distance
-        displaces all flanks equally.
-        """
+        """Contact of slightly displaced flanks, for example at a centre distance other than the designed one."""
         from geartrain.teeth.conjugate.displaced_contact import displaced_contact
 
         pitch, transmission = self.transmission.path.pitch, self.transmission
@@ -175,9 +165,7 @@ class ConjugateMesh(GearMesh):
         return displaced_contact(transmission.pair, transmission.driver, gap)
 
     def account(self) -> PairAccount:
-        """Return the report on the pair: arcs of approach and recess, contact ratio, transmission error, backlash and
-        efficiency.
-        """
+        """Return the report on the pair: arcs, contact ratio, transmission error, backlash and efficiency."""
         transmission, path, wheels = self.transmission, self.transmission.path, self.wheels
         runs, helix, overlap = bool(self.verdict), abs(wheels.helix[0]), None
         if helix and wheels.width is not None and wheels.module is not None:
@@ -246,9 +234,7 @@ class DesignLosses(Result):
     KEYS = (Key("", "measures"), "sliding", Key("specific_sliding", to=finite))
 
     measures: PathMeasures
-    """Loss, contact stress, heat, flash temperature and working depth. They are normalised by friction coefficient and
-    load.
-    """
+    """Loss, contact stress, heat, flash temperature and working depth, normalised by friction and load."""
     sliding: float
     """Maximum sliding speed divided by the pitch-line speed."""
     specific_sliding: float
@@ -259,9 +245,7 @@ class DesignLosses(Result):
 
 @dataclass(frozen=True)
 class SharedEfficiency(Result):
-    """Efficiency of a gear pair whose tooth pairs in contact share the load, and the assumption on this
-    load sharing.
-    """
+    """Efficiency of a gear pair whose tooth pairs in contact share the load, and the assumed load sharing."""
 
     KEYS = ("assumption", Key("", "sliding"))
 
@@ -310,9 +294,7 @@ class PairDesign(Result):
 
     @cached_property
     def flanks(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Radii of gear 1 and gear 2 at which the active flanks begin (root) and end (tip) [module; rad for bevel
-        gears].
-        """
+        """Radii at which the active flanks of gears 1 and 2 begin and end [module; rad for bevel gears]."""
         return self.path.radii(1), self.path.radii(2)
 
     @property

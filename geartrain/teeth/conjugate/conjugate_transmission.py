@@ -40,9 +40,7 @@ class ConjugatePair(Shown):
     path: PathOfContact
     """Path of contact of the pair."""
     halves: Halves
-    """Half-thicknesses of the teeth of gear 1 and gear 2, as arcs X on the pitch surface [module; rad for
-    bevel gears].
-    """
+    """Half-thicknesses of the teeth of gears 1 and 2, as arcs X on the pitch surface [module; rad for bevel gears]."""
     given: tuple[ToothFault, ...] | None = None
     """Complete list of design faults, if the tooth form determines this list; None if the faults follow from the path
     of contact and the tooth thickness.
@@ -67,9 +65,7 @@ class ConjugatePair(Shown):
 
     @property
     def backlash(self) -> float:
-        """Circumferential backlash on the pitch surface [module; rad for bevel gears]. Values within rounding errors
-        are replaced by 0.
-        """
+        """Circumferential backlash on the pitch surface [module; rad for bevel gears]; 0 within rounding error."""
         p = self.path.pitch.p
         found = p - 2 * sum(self.halves)
         return found if abs(found) > _TOUCH * p else 0.0
@@ -157,9 +153,7 @@ class ConjugateTransmission(ExactRatio, ToothTransmission):
         return np.where(recess + slack >= X, np.minimum(X, recess), nan)
 
     def kinks(self) -> list[float]:
-        """Return the driver angles [rad] at which a tooth pair enters or leaves contact, or passes a kink of the path
-        of contact.
-        """
+        """Return the driver angles [rad] at which tooth pairs enter or leave contact, or pass a kink of their path."""
         sense, (approach, recess) = (1.0 if self.driver == 1 else -1.0), self._arcs
         joints = (0.0, *(sense * X for X in self.path.joints))
         cuts = {-approach, recess, *(X for X in joints if -approach < X < recess)}

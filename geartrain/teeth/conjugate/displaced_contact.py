@@ -72,9 +72,7 @@ def corner_contact(path: PathOfContact, gear: int, radius: Floats, azimuth: Floa
 
 
 def _touched_flank(pair: ConjugatePair, gear: int) -> tuple[Floats, Floats]:
-    """Return radii, and azimuths [rad], of the part of the mate's flank that the tip of `gear` touches beyond the end
-    of the path of contact.
-    """
+    """Return radii and azimuths [rad] of the mate's flank that the tip of `gear` touches beyond the path of contact."""
     path, pitch, mate = pair.path, pair.path.pitch, 3 - gear
     last, first = path.ends(gear)
     # quadratic spacing, as the corner leaves the path along a parabola
@@ -111,16 +109,12 @@ def flank_levers(path: PathOfContact, gear: int, X: Floats) -> Floats:
 
 @dataclass(frozen=True)
 class CornerLag:
-    """Lag of the driven wheel [rad] while the corner of a tip is in contact beyond an end of the path of contact,
-    tabulated at equal steps.
-    """
+    """Lag of the driven wheel [rad] while the corner of a tip is in contact beyond an end of the path of contact."""
 
     step: float
     """Increment of the driver's angle between tabulated lags [rad]."""
     lags: Floats
-    """Lags of the driven wheel at equal increments of the driver's angle [rad], starting with 0 at the end of the path
-    of contact.
-    """
+    """Lags of the driven wheel [rad] at equal steps of the driver's angle, beginning with 0 at the end of the path."""
 
     def __call__(self, beyond: Floats) -> Floats:
         """Return the lag of the driven wheel [rad] at driver angles `beyond` the end of the path of contact [rad]; 0
@@ -136,9 +130,7 @@ class CornerLag:
 
 @dataclass(frozen=True)
 class DisplacedWheelSizes:
-    """Sizes of one wheel by which its manufacturing errors are converted to displacements [module; rad for bevel
-    gears].
-    """
+    """Sizes of a wheel that convert its manufacturing errors to displacements [module; rad for bevel gears]."""
 
     z: int
     """Number of teeth."""
@@ -180,9 +172,7 @@ class DisplacedContact:
     apart: Floats
     """Lag [rad] per unit increase of the centre distance or shaft angle."""
     normal: Floats
-    """Lag [rad] per unit of material removed along the normal of a flank. It is the reciprocal of the moment arm of the
-    normal.
-    """
+    """Lag [rad] per unit of material removed along the normal of a flank: 1 divided by the arm of the normal."""
     entering: CornerLag
     """Lag [rad] while the corner of a tip is in contact before the start of the path of contact."""
     leaving: CornerLag

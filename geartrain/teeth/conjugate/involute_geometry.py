@@ -31,9 +31,7 @@ def inv_angle(value: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class InvoluteWheel:
-    """Involute wheel that is cut by a rack: tooth count, profile shift [module], addendum [module], dedendum [module],
-    pressure angle [rad].
-    """
+    """Involute wheel that is cut by a rack with the pressure angle psi [rad]. Lengths are in modules."""
 
     z: float
     psi: float
@@ -71,9 +69,7 @@ class InvoluteWheel:
         return (pi / 2 + sign * 2 * self.shift * tan(self.psi)) / self.z + sign * (inv(self.psi) - inv(psi))
 
     def undercut(self) -> float:
-        """Return the radius up to which the rack's corner cuts away the involute [module]; 0 if it cuts nothing away,
-        and for ring gears.
-        """
+        """Return the radius up to which the rack's corner cuts the involute away [module]; 0 if it cuts none away."""
         u = self.cut - self.shift
         if self.ring or u <= self.r * sin(self.psi) ** 2:
             return 0.0
@@ -97,17 +93,13 @@ class InvoluteWheel:
 
 @dataclass(frozen=True, slots=True)
 class InvolutePair:
-    """Pair of involute wheels at a centre distance [module]. The first wheel drives, and the second may be a
-    ring gear.
-    """
+    """Pair of involute wheels at a centre distance [module]. The second wheel may be a ring gear."""
 
     first: InvoluteWheel
     second: InvoluteWheel
     distance: float
     thinned: float = 0.0
-    """Total reduction of the tooth thicknesses of both wheels relative to a pair without backlash, as an arc X
-    [module].
-    """
+    """Sum by which the teeth of both wheels are thinner than without backlash, as an arc X [module]."""
 
     @property
     def psi(self) -> float:
@@ -135,9 +127,7 @@ class InvolutePair:
         return self.pitch.p - 2 * sum(self.halves)
 
     def bottom_clearance(self, gear: int) -> float:
-        """Return the distance between the root circle of one wheel and the tip circle of its mate [module]; negative if
-        the circles overlap.
-        """
+        """Return the gap from a wheel's root circle to its mate's tip circle [module]; negative if they overlap."""
         own, mate = (self.first, self.second) if gear == 1 else (self.second, self.first)
         if not self.second.ring:
             return self.distance - mate.tip - own.root
@@ -206,7 +196,5 @@ def spherical_arc(R: float, psi: float, tip: float) -> float:
 
 
 def cone_height(R: float, z: float, height: float) -> float:
-    """Return the angle [rad] above the pitch cone with half-angle `R` that corresponds to a height in modules of the
-    large end.
-    """
+    """Return the angle [rad] above the pitch cone, of half-angle `R` [rad], of a height in modules of the large end."""
     return atan(height * 2 * sin(R) / z)

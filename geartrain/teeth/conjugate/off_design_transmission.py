@@ -53,9 +53,7 @@ class OffDesignTransmission(OutlineTransmission):
 
 @lru_cache(maxsize=64)
 def _outline_gears(pair: ConjugatePair, distance: float) -> OutlineGears:
-    """Return the outlines of a pair at a centre distance [module]. The result is cached, together with its contact
-    results.
-    """
+    """Return the outlines of a pair at a centre distance [module], cached together with their contact."""
     return OutlineGears(*pair_outlines(pair), distance, sum(pair.halves), pair.backlash, pair.faults)
 
 
@@ -106,9 +104,7 @@ def _outline(pair: ConjugatePair, gear: int, z: int, R: float) -> GearOutline:
 
 
 def _root_line(flank: Callable[[Floats], Floats], foot: float, tip: float) -> OutlineCurve:
-    """Return the root flank of a tooth: a straight line that continues the lower end of the active
-    flank tangentially.
-    """
+    """Return the root flank of a tooth: the tangent at the lower end of the active flank."""
     # small enough for the tangent, large enough that the difference exceeds rounding
     start, near = flank(np.array([foot, foot + 1e-4 * (tip - foot)]))
     way = start - near

@@ -185,9 +185,7 @@ def heat_law(pitch: PitchSurfaces, beta: float, gamma: float) -> ValueAndSlope:
 
 
 def _quotient_piece(pitch: PitchSurfaces, f: ValueAndSlope, g: Chebyshev, end: float) -> PathPiece:
-    """Return the piece of a path of contact that corresponds to a solution g = sin psi / S of 2 S' g + S g' = beta +
-    gamma / cos psi.
-    """
+    """Return the piece of a path of contact for a solution g = sin psi / S, where psi is the pressure angle."""
     steep = _slope(pitch, f, g)
     return sampled(
         lambda d: pitch.S(d) * g(d),
@@ -421,9 +419,7 @@ def check_pieces(pitch: PitchSurfaces, piece: PathPiece, weight: Weight) -> None
 
 
 def other_shape_error(why: str) -> RangeError:
-    """Return the error that reports a friction law for which a constant pressure angle and a minimum contact speed do
-    not minimise the loss.
-    """
+    """Return the error for a friction law under which teeth of minimum loss have another shape."""
     return RangeError(
         Problem(
             "with this friction law, teeth of minimum loss do not consist of a constant pressure angle and a minimum "

@@ -84,9 +84,7 @@ class PathLosses(Result):
     point; 0 if there are no such contacts.
     """
     heat: float
-    """Maximum frictional heat per area of either profile, divided by the product of friction coefficient and tangential
-    force.
-    """
+    """Maximum frictional heat per area of a profile, divided by friction coefficient and tangential force."""
     flash: float
     """Maximum of F_n^(3/4) kr^(1/4) |sqrt U1 - sqrt U2| along the path of contact. Blok's flash temperature is
     proportional to this quantity. F_n is the normal force, kr is the relative curvature, and U1 and U2 are the contact
@@ -180,9 +178,7 @@ def measure(path: PathOfContact) -> PathMeasures:
 
 
 Stretch = tuple[float, float, int]
-"""Interval of the arc X: its first value, its last value, and the number of tooth pairs in contact within
-the interval.
-"""
+"""Interval of the arc X: first value, last value, and number of tooth pairs in contact within the interval."""
 
 
 def sharing(path: PathOfContact) -> list[Stretch]:
@@ -203,9 +199,7 @@ def sharing(path: PathOfContact) -> list[Stretch]:
 
 
 def _losses_of(path: PathOfContact, assumption: str, stretches: list[Stretch]) -> PathLosses:
-    """Return the losses and loads for the case that the tooth pairs in contact in each interval share the
-    load equally.
-    """
+    """Return the losses and loads if the tooth pairs in contact in each interval share the load equally."""
     pitch = path.pitch
     # the pressure is unbounded at the pitch point of some forms, so it is also computed beyond a tenth of a pitch; less
     # rounding, so that a change of the number of tooth pairs exactly there counts for every form
@@ -304,9 +298,7 @@ def peak(f: Callable[[Floats], Floats], first: float, last: float) -> float:
 
 
 def powers(pitch: PitchSurfaces, contact: PathContact, friction: float, driver: int = 1) -> tuple[Floats, Floats]:
-    """Return the input power and the output power of a contact, each divided by normal force and pitch-line speed, if
-    gear `driver` drives.
-    """
+    """Return the input and the output power of a contact, divided by normal force and pitch-line speed."""
     rising, S = pitch.S_slope(contact.d) * contact.sin_psi, pitch.S(contact.d)
     rub = np.sign(contact.d) * (friction if driver == 1 else -friction)
     first = contact.cos_psi + rub * (rising + pitch.A * S)

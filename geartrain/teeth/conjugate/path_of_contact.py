@@ -104,9 +104,7 @@ class PathSide:
 
     @property
     def start(self) -> float:
-        """Distance of the contact closest to the pitch point from this point [module]; 0 if the side begins at the
-        pitch point.
-        """
+        """Distance of the innermost contact from the pitch point [module]; 0 if the side begins at the pitch point."""
         return self.pieces[0].start
 
     @property
@@ -129,15 +127,11 @@ class PathSide:
         return self._by_piece(d, [piece.sin_psi for piece in self.pieces])
 
     def slope(self, d: Floats) -> Floats:
-        """Return the derivative of the sine of the pressure angle with respect to the distance d from the
-        pitch point.
-        """
+        """Return the derivative of the sine of the pressure angle with respect to the distance d [1/module]."""
         return self._by_piece(d, [piece.slope for piece in self.pieces])
 
     def travel(self, d: Floats) -> Floats:
-        """Return the arc X along the pitch surfaces [module] that corresponds to the motion of the contact from `start`
-        to the distance d.
-        """
+        """Return the arc X along the pitch surfaces [module] while the contact moves from `start` to the distance d."""
         found: Floats = self._offsets[self._which(d)] + self._by_piece(d, [piece.travel for piece in self.pieces])
         return found
 
@@ -147,9 +141,7 @@ class PathSide:
         return np.cumsum([0.0, *(float(piece.travel(np.array(piece.end))) for piece in self.pieces[:-1])])
 
     def _which(self, d: Floats) -> Indices:
-        """Return the index of the piece that contains each distance d. A distance at which two pieces meet belongs to
-        the outer piece.
-        """
+        """Return the index of the piece that contains each distance d; the outer piece where two pieces meet."""
         return np.searchsorted(self.joints[:-1], d, side="right")
 
     def distance(self, X: Floats) -> Floats:
@@ -210,17 +202,11 @@ class PathContact(Shown):
     kr: Floats
     """Relative curvature k1 - k2 of the two profiles [1/module]."""
     H: Floats
-    """Relative curvature `kr` of the profiles divided by cos psi. The Hertzian pressure is proportional to the square
-    root of this quotient.
-    """
+    """Relative curvature `kr` divided by cos psi; the Hertzian pressure is proportional to its square root."""
     Q1: Floats
-    """Frictional heat per area of the profile of gear 1, divided by the product of friction coefficient and tangential
-    force.
-    """
+    """Frictional heat per area of the profile of gear 1, divided by friction coefficient and tangential force."""
     Q2: Floats
-    """Frictional heat per area of the profile of gear 2, divided by the product of friction coefficient and tangential
-    force.
-    """
+    """Frictional heat per area of the profile of gear 2, divided by friction coefficient and tangential force."""
     flash: Floats
     """Quantity F_n^(3/4) kr^(1/4) |sqrt U1 - sqrt U2|, where F_n is the normal force at unit tangential force. Blok's
     flash temperature of equal materials is proportional to this quantity.

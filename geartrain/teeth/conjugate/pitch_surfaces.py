@@ -33,9 +33,7 @@ class PitchSurfaces:
 
     @classmethod
     def spur(cls, z1: float, z2: float, internal: bool = False) -> PitchSurfaces:
-        """Return the pitch cylinders of gears on parallel axes with module 1. If `internal` is True, gear 2 is a ring
-        gear.
-        """
+        """Return the pitch cylinders of gears on parallel axes with module 1. An `internal` gear 2 is a ring gear."""
         return cls(z1, z2, z1 / 2, -z2 / 2 if internal else z2 / 2)
 
     @classmethod
@@ -54,9 +52,7 @@ class PitchSurfaces:
 
     @property
     def B(self) -> float:
-        """Curvature of the pitch surface of gear 2: 1/R2 [1/module], or cot R2 on cones; negative for ring gears, 0 for
-        crown gears.
-        """
+        """Curvature of the pitch surface of gear 2: 1/R2 [1/module], or cot R2 on cones; negative for ring gears."""
         return 1 / tan(self.R2) if self.bevel else 1 / self.R2
 
     @property
@@ -66,9 +62,7 @@ class PitchSurfaces:
 
     @property
     def reach2(self) -> float:
-        """Arc X along the pitch surfaces per radian of rotation of gear 2: R2 (negative for a ring gear), or sin R2 on
-        cones.
-        """
+        """Arc X along the pitch surfaces per radian of gear 2: R2 (negative for ring gears), or sin R2 on cones."""
         return sin(self.R2) if self.bevel else self.R2
 
     def teeth_of(self, gear: int) -> float:
@@ -109,9 +103,7 @@ class PitchSurfaces:
         return found
 
     def point(self, d: Floats, sin_psi: Floats, cos_psi: Floats) -> Floats:
-        """Return contact points in the fixed frame: arrays (..., 2) relative to the pitch point, or (..., 3) on the
-        unit sphere for bevel gears.
-        """
+        """Return contact points in the fixed frame, (..., 2) from the pitch point or (..., 3) on the unit sphere."""
         S = self.S(d)
         if not self.bevel:
             return np.stack([S * cos_psi, S * sin_psi], axis=-1)
@@ -152,9 +144,7 @@ class PitchSurfaces:
         return np.arctan2(np.hypot(x, outwards), points @ axis), np.arctan2(x, outwards)
 
     def from_polar(self, gear: int, radius: float, azimuth: Floats) -> Floats:
-        """Return points of the fixed frame that have the given radius and azimuths about the axle of a gear. This is
-        the inverse function of `polar`.
-        """
+        """Return points of the fixed frame from radius and azimuths about a gear's axle, the inverse of `polar`."""
         if not self.bevel:
             up = self.axle_of(gear) + self._side(gear) * radius * np.cos(azimuth)
             return np.stack([radius * np.sin(azimuth), up], axis=-1)

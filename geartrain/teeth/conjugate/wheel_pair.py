@@ -81,9 +81,7 @@ class WheelPair(Shown):
 
     @property
     def pitch(self) -> PitchSurfaces:
-        """Pitch surfaces of both wheels at the design distance. Raises `GearTrainError` if the wheels cannot form a
-        pair.
-        """
+        """Pitch surfaces of both wheels at the design distance. Raises `GearTrainError` for an impossible pair."""
         from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
         self.check()

@@ -154,9 +154,7 @@ def displaced_outlines(gears: OutlineGears, driver: int) -> DisplacedContact:
 
 
 def _ends(search: ToothPairSearch) -> tuple[float, float, float, float]:
-    """Return four driver angles [rad]: the ends of the range in which flanks touch, and the ends of the larger range
-    that includes tip contact.
-    """
+    """Return four driver angles [rad]: the ends of flank contact, and the ends of contact with tips included."""
     found = search.at(np.linspace(*search.pair.window, _SEARCHED))
     near = (found.corner >= 0) & (found.lag < _FARTHEST * search.second.pitch + np.nanmin(found.lag))
     whole = _around(near, int(np.nanargmin(found.lag)))
@@ -203,9 +201,7 @@ def _sizes(wheel: GearOutline, radius: Floats, tip: float, half: Floats) -> Disp
 
 
 def _pitch_points(search: ToothPairSearch, found: ToothPairContact, gear: int) -> tuple[Floats, Floats]:
-    """Return the coordinates x and y [module] of the points at which the flank in contact intersects the pitch circle
-    of one wheel.
-    """
+    """Return x and y [module] of the points where the flank in contact intersects the pitch circle of a wheel."""
     table = (search.pair.touch_search.first, search.pair.touch_search.second)[gear]
     radius = (search.first, search.second)[gear].z / 2
     piece = np.flatnonzero((table.ends[0] <= radius) & (radius <= table.ends[1]) & ~table.flat)[:1]

@@ -136,9 +136,7 @@ class CandidatePairs(NamedTuple):
 
 
 class FlankSegments(NamedTuple):
-    """Segments of the driver's flanks on which the required driven angle G is a smooth function; n is the number of
-    segments.
-    """
+    """Segments, n in number, of the driver's flanks on which the required driven angle G is smooth."""
 
     tooth_pair: Indices
     """Index of the tooth pair of each segment, shape (n,)."""
@@ -159,9 +157,7 @@ class FlankSegments(NamedTuple):
 
 
 class FirstTouches(NamedTuple):
-    """Contacts, one for each segment: driven angle [rad], speed ratio, parameters on both flanks, and radii about both
-    axles.
-    """
+    """Contacts, one for each segment: driven angle [rad], speed ratio, flank parameters, radii about both axles."""
 
     angle: Floats
     speed: Floats
@@ -198,9 +194,7 @@ class FirstTouchSearch:
         return self._clipped_to_pieces(tooth_pairs, joined(found))
 
     def _cells(self, tooth_pairs: CandidatePairs) -> FlankSegments:
-        """Return the intervals between search nodes that may be at radii of the driven flank. Their `piece2` is
-        assigned later.
-        """
+        """Return the intervals between search nodes that may be at radii of the driven flank, without `piece2`."""
         pieces, us, begins = (each[tooth_pairs.tooth1] for each in self.first.nodes)
         r, dr, a, da = (each[tooth_pairs.tooth1] for each in self.first.node_values)
         view = DrivenFrame(self.axles, r, a + tooth_pairs.x[:, None])
@@ -277,9 +271,7 @@ class FirstTouchSearch:
     # ------------------------------------------------------------------------------------------------ exact contact
 
     def touch(self, tooth_pairs: CandidatePairs, segments: FlankSegments) -> FirstTouches:
-        """Return the contacts of all segments, exact to rounding error, at both ends and at an interior maximum of the
-        required driven angle G.
-        """
+        """Return the contacts of all segments at both ends and at an interior maximum of the driven angle G."""
         x = tooth_pairs.x[segments.tooth_pair]
         low, high = self.second.ends[:, segments.piece2]
 
@@ -315,9 +307,7 @@ class FirstTouchSearch:
         return joined([*ends, within])
 
     def _touch_at(self, tooth_pairs: CandidatePairs, segments: FlankSegments, u: Floats, v: Floats) -> FirstTouches:
-        """Return the contact at the parameter `u` of the driver's piece. `v` is NaN unless an end of the driven piece
-        is in contact.
-        """
+        """Return the contact at the parameter `u` of the driver's piece; `v` is NaN inside the driven piece."""
         piece1, piece2 = segments.piece1, segments.piece2
         view, dr, da = self.view(tooth_pairs.x[segments.tooth_pair], piece1, u)
         at_end = ~np.isnan(v)

@@ -303,9 +303,7 @@ class GearOutline(Shown):
 
 
 def _check_side(side: tuple[OutlineCurve, ...]) -> None:
-    """Raise `QuestionError` unless `side` is a chain of connected curves whose points are finite and not on
-    the axle.
-    """
+    """Raise `QuestionError` unless `side` is a chain of connected curves with finite points off the axle."""
     if not side:
         what, why = "a tooth has a flank without curves", "each flank can touch a mate and needs a profile"
         raise QuestionError(Problem(what, why, "give at least one curve for each flank"))
@@ -373,9 +371,7 @@ def _side(side: tuple[OutlineCurve, ...]) -> list[list[tuple[PolynomialPiece, bo
 
 
 def _direction(piece: PolynomialPiece, end: int) -> Floats:
-    """Return the unit tangent of a curve at its end u = -1 or u = 1 (`end`), from the first derivative that is
-    not 0.
-    """
+    """Return the unit tangent at the end u = -1 or u = 1 of a piece, from its first derivative that is not 0."""
     powers = np.arange(COUNT)
     signs = np.where(powers % 2, 1.0, end)
     first = powers * signs @ piece.coefficients
@@ -444,13 +440,9 @@ class FlankTable:
     first: Indices
     """Index of the first piece of each tooth, shape (teeth + 1,). The last entry is the number of pieces."""
     curve: Indices
-    """Number of the curve to which each piece belongs, shape (pieces,). Curves are numbered consecutively over all
-    teeth.
-    """
+    """Number of the curve to which each piece belongs, shape (pieces,), consecutive over all teeth."""
     error: tuple[float, float]
-    """Maximum differences between the polynomial pieces and the curves: of the radius [unit of the outline] and of the
-    azimuth [rad].
-    """
+    """Maximum difference between pieces and curves, of the radius [unit of the outline] and of the azimuth [rad]."""
 
     @cached_property
     def mirrored(self) -> FlankTable:
@@ -464,9 +456,7 @@ class FlankTable:
 
     @cached_property
     def stalls(self) -> Bools:
-        """Mask, shape (2, pieces), of the pieces whose radius is stationary in u at the start (row 0) or at the end
-        (row 1).
-        """
+        """Mask, shape (2, pieces), of the pieces whose radius is stationary in u at the start or at the end."""
         powers = np.arange(COUNT)
         slopes = np.stack([np.where(powers % 2, powers, -powers) @ self.radius, powers @ self.radius])
         found: Bools = slopes < _STALLED * (self.ends[1] - self.ends[0])
@@ -496,9 +486,7 @@ class FlankTable:
 
     @cached_property
     def nodes(self) -> tuple[Indices, Floats, Bools]:
-        """Search nodes of each tooth, three arrays of shape (teeth, nodes): index of the piece, parameter u, and
-        whether a search interval begins at the node.
-        """
+        """Search nodes, shape (teeth, nodes): index of the piece, parameter u, and whether a search interval begins."""
         # the quotient is rounded up, so that a side with few pieces still has the minimum number of cells
         cells = np.repeat(np.maximum(1, -(-_CELLS // np.diff(self.first))), np.diff(self.first))
         each = []
@@ -517,9 +505,7 @@ class FlankTable:
 
     @cached_property
     def node_values(self) -> tuple[Floats, Floats, Floats, Floats]:
-        """Values at the search nodes: radius, its derivative with respect to the parameter u, azimuth [rad], and its
-        derivative with respect to u.
-        """
+        """Radius, its derivative by the parameter u, azimuth [rad], and its derivative by u at the search nodes."""
         piece, u, _ = self.nodes
         r, dr = value(self.radius, piece, u)
         a, da = value(self.azimuth, piece, u)

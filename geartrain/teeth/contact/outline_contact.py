@@ -28,9 +28,7 @@ KINDS = ("flank", "corner of first", "corner of second", "corner on corner")
 
 
 class OutlinePair:
-    """Contact of the front or back flanks of two wheels at one centre distance. Back flanks are treated as mirror
-    images.
-    """
+    """Contact of the front or back flanks of two wheels at one centre distance; back flanks as mirror images."""
 
     def __init__(
         self, first: GearOutline, second: GearOutline, distance: float, side: Literal["front", "back"]
@@ -145,9 +143,7 @@ def _no_contact(count: int) -> tuple[Any, ...]:
 
 
 def _check_pair(first: GearOutline, second: GearOutline, distance: float) -> None:
-    """Raise an error for a spur wheel paired with a bevel wheel, for two ring gears, or for a centre distance out of
-    range.
-    """
+    """Raise an error for a spur and a bevel wheel, two ring gears, or a centre distance out of range."""
     if first.bevel != second.bevel or (first.ring and second.ring):
         why = "one is a spur wheel and the other a bevel wheel, or both are rings"
         fix = "give two spur wheels, two bevel wheels, or a wheel and a ring"
@@ -176,17 +172,13 @@ class FlankContact(Shown):
     angle: Floats
     """Angle of the driven wheel at which the flanks are in contact [rad]; NaN where no tooth is within reach."""
     speed: Floats
-    """Speed ratio: derivative of the driven angle with respect to the driver angle; NaN where the teeth do
-    not touch.
-    """
+    """Speed ratio: derivative of the driven angle by the driver angle; NaN where the teeth do not touch."""
     pair: Indices
     """Number of the driver's tooth that is in contact; 0 where the teeth do not touch. Teeth are counted forward from
     tooth 0, and the count continues beyond z after a revolution.
     """
     kind: Indices
-    """Kind of contact (between two flanks, or at a corner), as an index into `KINDS`; -1 where the teeth do
-    not touch.
-    """
+    """Kind of contact, two flanks or a corner, as an index into `KINDS`; -1 where the teeth do not touch."""
     radius1: Floats
     """Distance of the contact from the driver's axle, in the unit of the outlines; for bevel wheels, polar angle [rad].
     """

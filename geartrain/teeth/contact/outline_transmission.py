@@ -44,9 +44,7 @@ class OutlineGears:
     distance: float
     """Centre distance of the wheels [module]."""
     half_teeth: float
-    """Sum of the half-thicknesses of a tooth of each wheel on the pitch circles [module]. It determines the position at
-    which the driven angle is 0.
-    """
+    """Sum of half the tooth thicknesses of both wheels [module], which sets the position of driven angle 0."""
     backlash: float
     """Designed backlash on the pitch circles [module]."""
     faults: tuple[ToothFault, ...] = ()
@@ -83,9 +81,7 @@ class OutlineTransmission(ToothTransmission):
 
     @cached_property
     def verdict(self) -> PairVerdict:
-        """Verdict on whether the pair can run, which depends on faults of its teeth, backlash, and gaps in contact at
-        this centre distance.
-        """
+        """Verdict on whether the pair can run, from its tooth faults, backlash and gaps in contact."""
         backlashes = _backlashes(self.gears, self.driver)
         backlash = float(np.nanmin(backlashes, initial=inf))
         found, at = list(self.gears.faults), f"at a centre distance of {self.distance:.6g} modules"
@@ -106,16 +102,12 @@ class OutlineTransmission(ToothTransmission):
         return self.direction * np.asarray(S, dtype=float)
 
     def _in_direction(self, error: Floats | float) -> Floats:
-        """Convert transmission errors of the front flanks to the direction of motion. For reversed motion, errors are
-        mirrored.
-        """
+        """Convert transmission errors [rad] of the front flanks to the direction of motion."""
         ahead = np.asarray(error) - self._offset
         return ahead if self.direction > 0 else self._backlash - ahead
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the transmission error [rad of the driven wheel] at driver angles S [rad]; NaN where the teeth do not
-        touch.
-        """
+        """Return the transmission error [rad of the driven wheel] at driver angles S [rad]; NaN without contact."""
         return self._in_direction(self.table.error(self._forward(S)))
 
     def speed(self, S: ArrayLike) -> Floats:
@@ -123,15 +115,11 @@ class OutlineTransmission(ToothTransmission):
         return self.table.speed(self._forward(S))
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...]:
-        """Return the upward steps of the speed ratio at which the next tooth takes over. The steps are the same in
-        reversed motion.
-        """
+        """Return the upward steps of the speed ratio, at which the next tooth takes over."""
         return self.table.speed_leaps()
 
     def steepest_fall(self) -> float:
-        """Return the maximum rate at which the speed ratio decreases with the driver angle [1/rad]. The rate is the
-        same in reversed motion.
-        """
+        """Return the maximum rate at which the speed ratio decreases with the driver angle [1/rad]."""
         return self.table.steepest_fall()
 
     def kinks(self) -> list[float]:
@@ -179,9 +167,7 @@ class OutlineTransmission(ToothTransmission):
 
     @cached_property
     def locking_friction(self) -> float:
-        """Minimum friction coefficient at which a contact locks, evaluated at the quadrature nodes; infinite if no
-        contact can lock.
-        """
+        """Minimum friction coefficient at which a contact locks at a quadrature node; infinite if none locks."""
         steepest = float(np.nanmax(-self.rubbing(self.graded_nodes(self.speed)[0]).out))
         return 1 / steepest if steepest > _FLAT else inf
 
@@ -224,9 +210,7 @@ def _tabulated(gears: OutlineGears, driver: int) -> PiecewiseTransmission:
 
 @lru_cache(maxsize=64)
 def _backlashes(gears: OutlineGears, driver: int) -> Floats:
-    """Return the backlash [rad of the driven wheel] at equally spaced driver angles over one period; NaN without
-    contact.
-    """
+    """Return the backlash [rad of the driven wheel] at equally spaced driver angles; NaN without contact."""
     first, second = gears.of(driver)
     S = np.linspace(0, 2 * pi / first.z, _SAMPLES, endpoint=False)
     return solve(first, second, gears.distance, S).backlash

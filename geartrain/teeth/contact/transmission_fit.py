@@ -46,9 +46,7 @@ _MOST = 100_000  # maximum number of stretches per driver pitch
 
 @dataclass(frozen=True)
 class PiecewiseTransmission:
-    """Driven angle as a periodic function of the driver angle phi1: ratio phi1 + error [rad], where the error is a
-    piecewise polynomial.
-    """
+    """Driven angle [rad] as a function of the driver angle phi1: ratio phi1 plus a periodic piecewise polynomial."""
 
     ratio: Fraction
     """Mean speed ratio: absolute value of the driven speed divided by the driver speed."""
@@ -63,9 +61,7 @@ class PiecewiseTransmission:
     pair: Indices
     """Number of the driver's tooth in contact in each interval, shape (n,)."""
     kind: Indices
-    """Kind of contact in each interval, shape (n,), as an index into `outline_contact.KINDS`; -1 if no tooth is in
-    range.
-    """
+    """Kind of contact in each interval, shape (n,), as an index into `outline_contact.KINDS`; -1 for none."""
     kinks: Floats
     """Driver angles at which the contact changes to another tooth or curve [rad]."""
     uncertainty: float
@@ -78,15 +74,11 @@ class PiecewiseTransmission:
     """
 
     def error(self, phi1: ArrayLike) -> Floats:
-        """Return the transmission error [rad of the driven wheel] at driver angles phi1 [rad]; NaN where the teeth do
-        not touch.
-        """
+        """Return the transmission error [rad of the driven wheel] at driver angles phi1 [rad]; NaN without contact."""
         return self.errors(phi1)
 
     def speed(self, phi1: ArrayLike) -> Floats:
-        """Return the speed ratio, the derivative of the driven angle with respect to phi1, at driver angles
-        phi1 [rad].
-        """
+        """Return the speed ratio, the derivative of the driven angle, at driver angles phi1 [rad]."""
         return self.speeds(phi1)
 
     def angle(self, phi1: ArrayLike) -> Floats:
@@ -94,9 +86,7 @@ class PiecewiseTransmission:
         return self.error(phi1) + float(self.ratio) * np.asarray(phi1, dtype=float)
 
     def extremes(self) -> tuple[float, float]:
-        """Return the minimum and the maximum transmission error [rad], which occur at kinks or where the slope of the
-        error is 0.
-        """
+        """Return the minimum and the maximum transmission error [rad], at kinks or where its slope is 0."""
         return self.errors.extremes()
 
     def speed_range(self) -> tuple[float, float]:
@@ -113,15 +103,11 @@ class PiecewiseTransmission:
         return tuple(SpeedLeap(*each) for each in zip(before[leaps].tolist(), after[leaps].tolist(), strict=True))
 
     def steepest_fall(self) -> float:
-        """Return the maximum rate at which the speed ratio decreases with the driver angle [1/rad] within the
-        intervals; 0 if the speed ratio never decreases.
-        """
+        """Return the maximum decrease of the speed ratio per driver angle [1/rad]; 0 if it never decreases."""
         return max(0.0, -self.speeds.extremes(1)[0])
 
     def moments(self) -> tuple[float, float]:
-        """Return the mean of the transmission error over a period and its rms deviation from the mean [rad]; NaN if
-        contact is interrupted.
-        """
+        """Return the mean and the rms deviation from it of the transmission error [rad]; NaN if contact breaks."""
         return self.errors.moments()
 
 
@@ -255,9 +241,7 @@ class _Fitter:
         return self._ordered(done, np.concatenate(kinks))
 
     def _fitted(self, ends: Floats) -> tuple[_Stretches, Indices]:
-        """Return the polynomials fitted in the intervals, and labels of the contact at the nodes of each interval,
-        shape (4, n, nodes).
-        """
+        """Return the fitted polynomials of the intervals, and contact labels at their nodes, shape (4, n, nodes)."""
         half, middle = np.diff(ends, axis=0)[0] / 2, ends.mean(axis=0)
         phi1 = middle[:, None] + half[:, None] * _ALL
         angle, speed, labels = self._evaluated(phi1)
@@ -274,17 +258,13 @@ class _Fitter:
         return _Stretches(ends, fits[0], fits[1], pair, kind, off[0], off[1]), labels
 
     def _evaluated(self, phi1: Floats) -> tuple[Floats, Floats, Indices]:
-        """Return the driven angle [rad], the speed ratio, and labels that identify the contact, at driver angles phi1
-        [rad].
-        """
+        """Return driven angle [rad], speed ratio and labels of the contact at driver angles phi1 [rad]."""
         angle, speed, pair, kind, _, _, _, curves = self.pair_contact.at(phi1.ravel(), 0.0)
         labels = np.stack([pair, kind, *curves]).reshape(4, *phi1.shape)
         return angle.reshape(phi1.shape), speed.reshape(phi1.shape), labels
 
     def _kinks(self, ends: Floats, labels: Indices) -> list[Floats]:
-        """Return, for each interval, the driver angles at which the contact changes, exact except for
-        rounding errors.
-        """
+        """Return, for each interval, the driver angles [rad] at which the contact changes."""
         changed = (labels[:, :, 1:] != labels[:, :, :-1]).any(axis=0)
         stretch, at = np.nonzero(changed)
         half, middle = np.diff(ends, axis=0)[0] / 2, ends.mean(axis=0)
@@ -294,9 +274,7 @@ class _Fitter:
         return [np.unique(found[stretch == one]) for one in range(ends.shape[1])]
 
     def _located(self, low: Floats, high: Floats, left: Indices) -> Floats:
-        """Return the smallest angle between `low` and `high` at which the labels differ from `left`, found by
-        subdivision.
-        """
+        """Return the smallest angle [rad] from `low` to `high` at which the labels differ from `left`."""
         share = np.arange(1, _CUTS) / _CUTS
         for _ in range(20):  # 17^20 exceeds 2^53 by far, so the loop ends by the break below
             inner = low[:, None] + (high - low)[:, None] * share

@@ -183,9 +183,7 @@ class SlotToPinTransmission(PinTransmission):
         return np.asarray(-np.arctan2(across, along))
 
     def speed(self, S: ArrayLike) -> Floats:
-        """Return the speed ratio at driver angles S [rad]: 1 - e cos S/sqrt(r^2 - e^2 sin^2 S), with axis offset e and
-        pin radius r.
-        """
+        """Return the speed ratio 1 - e cos S/sqrt(r^2 - e^2 sin^2 S) for axis offset e, pin radius r, slot angle S."""
         _, along = self._sides(S)
         return np.asarray(1 - self.e * np.cos(np.asarray(S, dtype=float)) / along)
 
@@ -205,9 +203,7 @@ class SlotToPinTransmission(PinTransmission):
         return 1 - self.e / self.r, 1 + self.e / self.r
 
     def steepest_fall(self) -> float:
-        """Return the maximum rate at which the speed ratio decreases [1/rad], which occurs at 90 deg from the line of
-        centres.
-        """
+        """Return the maximum rate at which the speed ratio decreases [1/rad], at 90 deg from the line of centres."""
         return self._maximum_tangent
 
     def efficiency(self, S: ArrayLike) -> Floats:
@@ -228,7 +224,5 @@ class SlotToPinTransmission(PinTransmission):
 
     @property
     def locking_friction(self) -> float:
-        """Minimum coefficient of friction at which the pin locks at some angle, sqrt(r^2 - e^2)/e, with pin radius r
-        and axis offset e.
-        """
+        """Minimum friction coefficient at which the pin locks, sqrt(r^2 - e^2)/e, with pin radius r, axis offset e."""
         return 1 / self._maximum_tangent if self.e else inf

@@ -115,24 +115,18 @@ class DeviationTransmission(TransmissionFunction):
 
     @property
     def _breakpoints(self) -> Floats:
-        """Arguments of the deviation function [rad] at which the function or one of its derivatives
-        is discontinuous.
-        """
+        """Arguments of the deviation function [rad] at which it or one of its derivatives is discontinuous."""
         return self.deviation.breakpoints
 
     def kinks(self) -> list[float]:
-        """Return the driver angles [rad] at which the transmission function or one of its derivatives
-        is discontinuous.
-        """
+        """Return the driver angles [rad] at which the function or one of its derivatives is discontinuous."""
         at = self._breakpoints
         driver = self._mean * at + self.deviation(at) if self.inverse else self.way * (at - self.phase)
         found: list[float] = driver.tolist()
         return found
 
     def _jumps(self, order: int) -> Floats:
-        """Return the jumps at the breakpoints of the derivative of order `order` of the deviation. Jumps within
-        rounding error are replaced by 0.
-        """
+        """Return the jumps of the derivative of order `order` of the deviation at its breakpoints; 0 for rounding."""
         before, after = self.deviation.sides(order)
         low, high = self.deviation.extremes(order)
         return np.where(np.abs(after - before) > _SLIGHT * (high - low), after - before, 0.0)

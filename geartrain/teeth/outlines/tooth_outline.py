@@ -107,9 +107,7 @@ class ToothOutline:
         return self.widening + float(self.flank.angle[-1])
 
     def half_at(self, radius: Floats) -> Floats:
-        """Return half of the angular thickness of the cut tooth [rad], including its fillet, at radii from root to tip
-        [module].
-        """
+        """Return half the angular thickness of the cut tooth and its fillet [rad] at radii from root to tip."""
         x, y = np.array([point[:2] for point in self._half()[1:]]).T
         place = x + 1j * y
         r, s = np.abs(place), self.flank.outward
@@ -143,9 +141,7 @@ class ToothOutline:
         return Contour.of(repeated(self.vertices(), int(self.z)))
 
     def vertices(self) -> list[Vertex]:
-        """Return the vertices, from root to root, of one tooth that is symmetric about the x axis. The last edge is on
-        the root circle.
-        """
+        """Return the vertices of one tooth symmetric about the x axis; its last edge is on the root circle."""
         half = self._half()
         x, y, _ = half[-1]
         land = bulge_about(complex(x, -y), complex(x, y))
@@ -211,9 +207,7 @@ class FlankCurve:
     curve: Floats
     """Radii [module] and angles [rad] of densely spaced points on the true flank, shape (2, n)."""
     tangent: tuple[float, float]
-    """Unit tangent at the root end of the flank, directed towards the root: its radial component, and its component
-    towards the tooth space.
-    """
+    """Unit tangent at the root end of the flank towards the root: components along the radius and towards the space."""
     R: float
     """Pitch radius of the wheel [module]."""
     outward: int

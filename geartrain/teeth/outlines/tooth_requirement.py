@@ -209,9 +209,7 @@ def check_flat(pair: ConjugatePair) -> None:
 
 
 def alike(one: ToothRequirement, other: ToothRequirement) -> bool:
-    """Return True if one tooth satisfies both requirements, which needs equal flanks where both flanks are active, and
-    equal tip radii.
-    """
+    """Return True if one tooth satisfies both requirements: equal tip radii, and equal flanks where both are active."""
     first, second = one.flank, other.flank
     if first.outward != second.outward or abs(first.r[-1] - second.r[-1]) > _ALIKE:
         return False

@@ -69,6 +69,10 @@ class BlankSizes:
             raise QuestionError(problems)
 
 
+def _diameter(radius: float) -> float:
+    return 2 * radius
+
+
 @dataclass(frozen=True, slots=True)
 class WheelOutline(Result):
     """Outline and sizes of a wheel at full scale (1:1). Lengths are in mm.
@@ -80,7 +84,7 @@ class WheelOutline(Result):
 
     KEYS = (
         *("gear", "z", "kind", "module", "thickness", "fillet", "relief", "clearance", "backlash"),
-        *(Key(f"{name}_diameter", f"{name}_radius", lambda radius: 2 * radius) for name in ("pitch", "tip", "root")),
+        *(Key(f"{name}_diameter", f"{name}_radius", _diameter) for name in ("pitch", "tip", "root")),
         *("centre_distance", "tolerance"),
     )
 
@@ -239,9 +243,7 @@ def blank_contours(teeth: Contour, kind: str, root: float, cut: BlankSizes) -> l
 
 
 def bore(cut: BlankSizes, root: float) -> list[Contour]:
-    """Return a list with the contour of the bore of a wheel with the root radius `root` [mm]. The list is empty if the
-    wheel has no bore.
-    """
+    """Return a list with the contour of a wheel's bore, empty without a bore. `root` is the root radius [mm]."""
     if cut.bore is None:
         return []
     most = 2 * (root - _THIN * cut.module)

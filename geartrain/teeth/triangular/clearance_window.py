@@ -48,9 +48,7 @@ class TriangularContact:
         return _locate(self.intervals, t, self.sizes.p1)
 
     def lag(self, interval: DriveInterval, x: Any, m: ModuleType = math) -> Any:
-        """Return the lag of the driven wheel behind its mean motion [rad] at the angle x [rad] of the driver's apex
-        from the line of centres.
-        """
+        """Return the lag [rad] of the driven wheel behind its mean motion at the driver's apex angle x [rad]."""
         y = self.path.tooth_pair.angle(interval.phase, x, m) if interval.held is None else interval.held
         return y - self.sizes.ratio * x
 
@@ -60,9 +58,7 @@ class TriangularContact:
 
     @cached_property
     def _bounds(self) -> list[DriveInterval]:
-        """Intervals of driver position in which a contact limits the driven wheel, even if the contact cannot drive.
-        Intervals may be separated by gaps.
-        """
+        """Intervals of driver position in which a contact limits the driven wheel, even if it cannot drive."""
         sizes = self.sizes
         return RealPath(sizes, slips=True).envelope if any(sizes.lean) else self.path.envelope
 
@@ -87,9 +83,7 @@ class TriangularContact:
         yield from (piece.low for piece in self.path.pieces if interval.end < piece.low < interval.start)
 
     def _minimum_within(self, low: float, high: float) -> float:
-        """Return the minimum backlash between the two kinks `low` and `high` [rad]. It occurs at a kink, or where drive
-        and coast flanks have the same speed ratio.
-        """
+        """Return the minimum backlash between two kinks [rad], at a kink or where both flanks have one speed ratio."""
         pitch, middle = self.sizes.p1, (low + high) / 2
         ours, start = self.locate(middle)
         theirs, back = _locate(self._bounds, -middle, pitch)
@@ -150,9 +144,7 @@ class TriangularContact:
 
     @cached_property
     def overhang(self) -> str:
-        """Message about an overhanging flank that touches, or that would turn the driven wheel back; an empty string if
-        there is no such flank.
-        """
+        """Message about an overhanging flank that touches or would turn the driven wheel back; empty if none."""
         # tolerance for the rounding of the limits of contact, which are roots with a smaller error
         sizes, small = self.sizes, 1e-9 * self.sizes.p1
         for interval in self.intervals:
@@ -222,9 +214,7 @@ class ClearanceWindow(Shown):
     jam_kind: Literal["jam", "overhang", "clash", "dwell"] = "jam"
     """Kind of the verdict on the pair if the excess is below `jam`."""
     side: int = 1
-    """Sign of the pair: 1 for an external pair, -1 for an internal pair. The clearance factors of an internal pair are
-    below 1.
-    """
+    """Sign of the pair: 1 for external, -1 for internal pairs, whose clearance factors are below 1."""
 
     def factor(self, excess: float) -> float:
         """Return the clearance factor that corresponds to an excess.
@@ -310,9 +300,7 @@ def _window(sizes: TriangularSizes) -> ClearanceWindow:
 
 
 def _start_of_range(margin: Callable[[float], float], low: float, reach: float) -> float:
-    """Return the smallest excess above which the function `margin` is positive; 0 if it is already positive
-    at `low`.
-    """
+    """Return the smallest excess above which `margin` is positive; 0 if it is positive at `low`."""
     return 0.0 if margin(low) > 0 else _first_sign_change(margin, low, reach)
 
 
@@ -356,9 +344,7 @@ def _end_margin(path: RealPath, entry: bool) -> float:
 
 
 def _first_sign_change(value: Callable[[float], float], low: float, reach: float) -> float:
-    """Return the smallest excess above `low` at which the function `value` changes sign; `reach` if there is no sign
-    change.
-    """
+    """Return the smallest excess above `low` at which `value` changes sign; `reach` if it does not."""
     # scanned in 16 steps before `root`; a range shorter than one step may be missed
     steps, start = 16, low
     at_low = value(low)

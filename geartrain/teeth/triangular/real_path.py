@@ -55,9 +55,7 @@ class DriveInterval:
     """
 
     phase: str
-    """Phase of contact: approach, recess or dwell. A path that includes contacts that cannot drive also has the phases
-    slip and return.
-    """
+    """Phase of contact: approach, recess or dwell, or, for contacts that cannot drive, slip or return."""
     start: float
     """Angle alpha_1 [rad] between the driver's apex and the line of centres at the start of the interval."""
     end: float
@@ -65,9 +63,7 @@ class DriveInterval:
     tooth_pair: int
     """Number of the tooth pair that drives or, in a dwell, of the tooth pair that drove last."""
     held: float | None = None
-    """Angle alpha_2 [rad] between the driven apex and the line of centres during a dwell; None while a tooth pair
-    drives.
-    """
+    """Angle alpha_2 [rad] between the driven apex and the line of centres in a dwell; None while a pair drives."""
 
     @property
     def width(self) -> float:
@@ -76,14 +72,10 @@ class DriveInterval:
 
 
 class RealPath:
-    """Contact of all tooth pairs of two triangular wheels over one pitch of the driver, and the tooth pair that drives
-    at each position.
-    """
+    """Contact of all tooth pairs of two triangular wheels over one pitch, and the pair that drives at each position."""
 
     def __init__(self, sizes: TriangularSizes, slips: bool = False) -> None:
-        """Create the path of contact. If `slips` is True, the path includes contacts that limit the driven wheel but
-        cannot drive it.
-        """
+        """Create the path of contact; if `slips`, with contacts that limit the driven wheel but cannot drive it."""
         self.sizes, self.slips = sizes, slips
         self.tooth_pair = ToothPair(sizes)
         self.pitch, self.ratio = sizes.p1, sizes.ratio
@@ -131,9 +123,7 @@ class RealPath:
         return [MonotonePiece(phase, low, a, first), MonotonePiece(phase, a, high, last)]
 
     def extremes(self, phase: str, low: float, high: float) -> list[float]:
-        """Return a list with the extremum of the lag g [rad] between `low` and `high`, where the speed ratio is
-        monotonic. The list is empty if there is no extremum.
-        """
+        """Return a list with the extremum of the lag g [rad] from `low` to `high`; empty if there is none."""
         if (self.slope(phase, low) < 0) == (self.slope(phase, high) < 0):
             return []
         return [self.g(phase, bracketed_root(lambda x: self.slope(phase, x), low, high))]
@@ -142,9 +132,7 @@ class RealPath:
 
     @cached_property
     def branches(self) -> list[MonotonePiece]:
-        """Parts of `pieces`, at most one pitch long, in which a tooth pair can have the minimum lag of all tooth pairs
-        on the same piece.
-        """
+        """Parts of `pieces`, at most one pitch long, in which a tooth pair can have the minimum lag of its piece."""
         return [branch for piece in self.pieces for branch in self._branches_of(piece)]
 
     def _branches_of(self, piece: MonotonePiece) -> list[MonotonePiece]:
@@ -170,9 +158,7 @@ class RealPath:
         return float(self.tooth_pair.angle(phase, x + self.pitch) - self.tooth_pair.angle(phase, x)) - self.sizes.p2
 
     def lowest(self, t: float, besides: int | None = None) -> float:
-        """Return the minimum lag g [rad] over the tooth pairs at driver position t [rad], without the pair `besides`;
-        infinite if no tooth pair is in range.
-        """
+        """Return the minimum lag g [rad] of all tooth pairs but `besides` at driver position t; inf without pairs."""
         minimum = inf
         for piece in self.pieces:
             first, last = ceil((piece.low - t) / self.pitch), floor((piece.high - t) / self.pitch)
@@ -186,9 +172,7 @@ class RealPath:
 
     @cached_property
     def envelope(self) -> list[DriveInterval]:
-        """Drive intervals, without dwells, over one pitch in order of decreasing driver position t. Intervals may be
-        separated by gaps.
-        """
+        """Drive intervals over one pitch, by decreasing driver position t, without dwells; gaps are possible."""
         base = max((branch.high for branch in self.branches), default=0.0)
         cuts = {0.0, self.pitch}
         for branch in self.branches:
@@ -200,9 +184,7 @@ class RealPath:
         return self._with_whole_first(_join_neighbours(found))
 
     def _with_whole_first(self, found: list[DriveInterval]) -> list[DriveInterval]:
-        """Return the drive intervals of one period. The period is shifted so that it starts at the start of an interval
-        and no interval is divided.
-        """
+        """Return the drive intervals of one period, shifted so that the period divides no interval."""
         if not found:
             return found
         first, last = found[0], found[-1]
@@ -212,9 +194,7 @@ class RealPath:
         return [*found[1:-1], DriveInterval(last.phase, last.start, first.end, last.tooth_pair)]
 
     def _cell(self, high: float, low: float) -> Iterator[DriveInterval]:
-        """Yield the drive intervals in a range of driver positions t, from `high` down to `low`, in which no branch
-        begins or ends.
-        """
+        """Yield the drive intervals from driver position `high` to `low` [rad], where no branch begins or ends."""
         middle = low + (high - low) / 2
         found = {}  # the two ends of a concave piece may belong to the same tooth pair
         for branch in self.branches:
@@ -286,16 +266,12 @@ def _join_neighbours(cells: list[DriveInterval]) -> list[DriveInterval]:
 
 @dataclass(frozen=True, slots=True)
 class SpeedJump(Result):
-    """Impact of teeth: speed ratio before and after the impact, and the relative jump 1 - before/after of Eqs. (22),
-    (25), (26) and (27).
-    """
+    """Impact of teeth: speed ratios before and after, and the relative jump of Eqs. (22), (25), (26) and (27)."""
 
     KEYS = ("kind", "alpha1", "before", "after", "value")
 
     kind: str
-    """Phase of contact that begins, or "matching" if the flank of one tooth meets the whole flank of the
-    other tooth.
-    """
+    """Phase of contact that begins, or "matching" if the flank of a tooth meets the whole flank of the other tooth."""
     alpha1: float
     """Angle alpha_1 [rad] between the driver's apex and the line of centres at the impact."""
     before: float
@@ -310,9 +286,7 @@ class SpeedJump(Result):
 
 
 def matches(last: DriveInterval, new: DriveInterval, pitch: float) -> bool:
-    """Return True if one tooth pair continues from `last` to `new` through the matching position, at which its contact
-    changes flanks.
-    """
+    """Return True if one tooth pair continues from `last` to `new` through the matching position, changing flanks."""
     faces = last.held is None and new.held is None and last.phase != new.phase
     # both are the same root, computed from either side
     return faces and abs(last.end - new.start) < 1e-9 * pitch
@@ -378,15 +352,11 @@ def drag(path: RealPath) -> DraggedPath:
 
 
 def _minimum(path: RealPath, interval: DriveInterval) -> float:
-    """Return the minimum of the lag g over an interval [rad]. The driven wheel reaches this lag from any earlier
-    position.
-    """
+    """Return the minimum lag g over an interval [rad], which the driven wheel reaches from any earlier position."""
     phase, low, high = interval.phase, interval.end, interval.start
     return min(path.g(phase, low), path.g(phase, high), *path.extremes(phase, low, high))
 
 
 def _arrival(path: RealPath, interval: DriveInterval, y: float) -> float:
-    """Return the angle alpha_1 [rad] of the driver's apex at which a tooth pair reaches the driven wheel, which dwells
-    at alpha_2 = y [rad].
-    """
+    """Return the driver's apex angle alpha_1 [rad] at which a tooth pair meets the driven wheel at rest at y [rad]."""
     return bracketed_root(lambda x: path.tooth_pair.angle(interval.phase, x) - y, interval.end, interval.start)

@@ -44,9 +44,7 @@ the smaller root of Eq. (16).
 
 
 class ToothPair:
-    """Constants of one tooth pair, and functions that describe its contact at any angle alpha_1 = x [rad] of the
-    driver's apex from the line of centres.
-    """
+    """Constants of one tooth pair, and its contact as a function of the driver's apex angle alpha_1 = x [rad]."""
 
     __slots__ = ("D", "R1", "R2", "cos1", "cos2", "delta", "entry", "leans", "mirror", "side", "sign2", "sin1", "sin2")
 
@@ -133,9 +131,7 @@ class ToothPair:
         return self._arms(phase, self._contact(phase, x, m))
 
     def speed(self, phase: str, x: Any, m: ModuleType = math) -> Any:
-        """Return the speed ratio tau = d alpha_2 / d alpha_1, by Eqs. (12) and (19). It is negative in the return
-        phase.
-        """
+        """Return the speed ratio tau = d alpha_2 / d alpha_1, Eqs. (12) and (19); negative in the return phase."""
         if phase == RETURN:
             _, _, cos_psi, _, q, _ = self._flank_line(-x, m)
             return -1 - self.D * cos_psi / (self.R2 * q)
@@ -143,9 +139,7 @@ class ToothPair:
         return first / second
 
     def angle_and_speed(self, phase: str, x: Any, m: ModuleType = math) -> tuple[Any, Any]:
-        """Return `angle` and `speed` at the same x. The contact is evaluated only once, which halves the computing
-        time.
-        """
+        """Return `angle` and `speed` at the same x from one evaluation of the contact."""
         if phase == RETURN:
             return self.angle(phase, x, m), self.speed(phase, x, m)
         contact = self._contact(phase, x, m)

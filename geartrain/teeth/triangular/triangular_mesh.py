@@ -93,9 +93,7 @@ class TriangularMesh(GearMesh):
 
     @property
     def own_size(self) -> PairSize:
-        """Size of the pair. It follows from the declaration if the declared lengths are in metres, or from pitch
-        circles that touch if they are not.
-        """
+        """Size of the pair from its lengths, if these are in metres, or else from pitch circles that touch."""
         module = self.wheels.module
         if module is None or not self.tooth_form.in_metres(module):
             return self.size({})
@@ -103,17 +101,13 @@ class TriangularMesh(GearMesh):
 
     @property
     def pitch_radius(self) -> float | None:
-        """Pitch radius of the first wheel [m]. It follows from the declared centre distance if this distance is in
-        metres, or from the modules if it is not.
-        """
+        """Pitch radius of the first wheel [m], from a centre distance in metres, or else from the modules."""
         if not self.tooth_form.in_metres(self.wheels.module):
             return super().pitch_radius
         return self.transmission.sizes.D * self.wheels.counts[0] / self.transmission.sizes.pitch_sum
 
     def requirement(self, wheel: str, scale: float, tolerance: float) -> FixedTooth:
-        """Return the required tooth: straight lines from the middle of a tooth space to the apex, and from the apex to
-        the middle of the next tooth space.
-        """
+        """Return the required tooth: straight lines from one tooth space to the apex and on to the next space."""
         del tolerance
         sizes = self.transmission.sizes
         at = 0 if wheel == self.driver else 1
@@ -228,9 +222,7 @@ def triangular_figures(
 
 
 def explain_clearance(transmission: TriangularTransmission, window: ClearanceWindow | None) -> tuple[str, str]:
-    """Return the cause, and the remedy, for a pair that cannot turn. The cause states the clearance window and the
-    bound that is violated.
-    """
+    """Return cause and remedy for a pair that cannot turn: its clearance window, and the violated bound."""
     if window is None:
         return "", "use more teeth or a smaller half_angle"
     excess, jam, run = transmission.sizes.excess, window.jam_factor, window.run_factor

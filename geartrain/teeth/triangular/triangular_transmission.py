@@ -1,6 +1,4 @@
-"""Transmission function of triangular teeth, vectorised over driver angles, and a table of the contact over
-one pitch.
-"""
+"""Transmission function of triangular teeth over driver angles, and a table of their contact over one pitch."""
 
 from __future__ import annotations
 
@@ -100,9 +98,7 @@ class TriangularTransmission(ToothTransmission):
         return self.mapped(S, self._tau)
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """Return the sliding speed and the friction terms of the tooth pair in contact at driver angles S [rad]; NaN
-        during a dwell.
-        """
+        """Return sliding speed and friction terms of the contact at driver angles S [rad]; NaN during a dwell."""
         return ContactRubbing(*(each[None] for each in self._map_all(S, self._friction_terms, 3)))
 
     def sliding(self, phase: str, x: Floats) -> Floats:
@@ -179,9 +175,7 @@ class TriangularTransmission(ToothTransmission):
     def _map_all(
         self, S: ArrayLike, what: Callable[[DriveInterval, Floats], tuple[Any, ...]], count: int
     ) -> list[Floats]:
-        """Return, for each driver angle in S, the values of the `count` functions that `what` computes from the drive
-        interval and alpha_1.
-        """
+        """Return the `count` values that `what` computes from drive interval and alpha_1 at each driver angle in S."""
         S, edges = np.asarray(S, dtype=float), self._edges
         flat = S.ravel()
         found = [np.empty_like(flat) for _ in range(count)]
@@ -199,9 +193,7 @@ class TriangularTransmission(ToothTransmission):
 
     @cached_property
     def _drive_intervals(self) -> tuple[DriveInterval, ...]:
-        """Intervals of the real path of contact. Dwells are included. Raises `RangeError` for teeth that
-        never touch.
-        """
+        """Intervals of the real path of contact with its dwells. Raises `RangeError` if teeth never touch."""
         if not self.intervals:
             fix = "give a clearance within the clearance window of the pair, and teeth that meet in valleys"
             raise RangeError(Problem(self.verdict.text, "such teeth have no transmission function", fix))
@@ -209,9 +201,7 @@ class TriangularTransmission(ToothTransmission):
 
     @cached_property
     def _start(self) -> float:
-        """Angle [rad] between the driver's tooth and the line of centres at the start of the first interval, reduced to
-        one pitch.
-        """
+        """Angle [rad] from the line of centres to the driver's tooth at the first interval, modulo one pitch."""
         first = self._drive_intervals[0]
         return (first.start - first.tooth_pair * self.period) % self.period
 
@@ -290,9 +280,7 @@ class TriangularTransmission(ToothTransmission):
         return self.sizes.p2 + min(lags), self.sizes.p2 + max(lags)
 
     def _samples(self) -> Iterator[tuple[str, Floats]]:
-        """Yield the phase of contact and 101 angles alpha_1 of the driver's apex [rad] for each smooth interval in
-        which a tooth pair drives.
-        """
+        """Yield phase and 101 driver apex angles alpha_1 [rad] of each smooth interval in which a tooth pair drives."""
         for interval, high, low in self.stretches:
             if interval.held is None:
                 yield interval.phase, np.linspace(high, low, 101)
@@ -335,9 +323,7 @@ class TriangularTransmission(ToothTransmission):
         return found
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...]:
-        """Return the steps of the speed ratio at all impacts within one pitch: the ratio before and the ratio after
-        each impact.
-        """
+        """Return the steps of the speed ratio, before and after, at all impacts within one pitch."""
         return tuple(SpeedLeap(jump.before, jump.after) for jump in self.jumps)
 
 
@@ -346,9 +332,7 @@ class TriangularTransmission(ToothTransmission):
 
 @dataclass(frozen=True)
 class ContactCourse(Result):
-    """Table of the contact over one pitch in order of time. It has one row for each sample, including the ends of
-    intervals.
-    """
+    """Table of the contact over one pitch, by time, with one row for each sample and end of an interval."""
 
     KEYS = (
         *("phases", "alpha1", "alpha2", "speed_ratio", Key("instant_centre", to=finite)),
@@ -371,13 +355,9 @@ class ContactCourse(Result):
     driver_arm: Floats
     """Moment arm b1 of the contact force about the driver's axis, in the length unit of the sizes; NaN in a dwell."""
     driven_arm: Floats
-    """Moment arm b2 of the contact force about the driven wheel's axis, in the length unit of the sizes; NaN in a
-    dwell.
-    """
+    """Moment arm b2 of the contact force about the driven axis, in the unit of the sizes; NaN in a dwell."""
     efficiency: Floats
-    """Efficiency: speed ratio times `driven_arm` divided by `driver_arm`; NaN in a dwell and where friction locks the
-    pair.
-    """
+    """Speed ratio times `driven_arm` divided by `driver_arm`; NaN in a dwell or where friction locks the pair."""
 
 
 def contact_course(

@@ -258,9 +258,7 @@ class GivenError(ToothForm):
         None, description="Efficiency over a period, instead of `efficiency`"
     )
     backlash: Annotated[Angle, _POSITIVE] = Field(
-        "0",
-        validate_default=True,
-        description="Angle by which the driven wheel is ahead while the driver turns back",
+        "0", validate_default=True, description="Angle by which the driven wheel is ahead while the driver turns back"
     )
     function: SkipJsonSchema[LiveFunction | None] = Field(
         None, repr=False, description="Transmission function defined in Python, set by `GearTrain.with_tooth_form`"

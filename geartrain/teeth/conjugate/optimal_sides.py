@@ -291,12 +291,7 @@ def _first_variation(pitch: PitchSurfaces, piece: PathPiece, loss: Weight) -> fl
 
 
 def solved(
-    pitch: PitchSurfaces,
-    f: ValueAndSlope,
-    first: float,
-    end: float,
-    start: float = 0.0,
-    near: Chebyshev | None = None,
+    pitch: PitchSurfaces, f: ValueAndSlope, first: float, end: float, start: float = 0.0, near: Chebyshev | None = None
 ) -> Chebyshev:
     """Return the solution v(d) of S v' + f(d, v) = 0 on [start, end] with v = `first` at `start`, computed by Chebyshev
     collocation. S is d, or sin d for bevel gears.

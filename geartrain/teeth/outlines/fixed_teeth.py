@@ -91,12 +91,7 @@ def wave_tooth(z: int, backlash: float, ring: bool = False) -> FixedTooth:
     ends = [(root, half + DEDENDUM * tan(FLANK)), (tip, half - ADDENDUM * tan(FLANK))]
     (foot, x), (top, tip_x) = ((asin(y / r), sqrt(r**2 - y**2)) for r, y in ends)
     low, high = ends[0][1], ends[1][1]
-    tooth = (
-        (x, -low, 0.0),
-        (tip_x, -high, tan(top / 2)),
-        (tip_x, high, 0.0),
-        (x, low, tan((pitch - 2 * foot) / 4)),
-    )
+    tooth = ((x, -low, 0.0), (tip_x, -high, tan(top / 2)), (tip_x, high, 0.0), (x, low, tan((pitch - 2 * foot) / 4)))
     return FixedTooth("ring" if ring else "external", tip, root, tooth)
 
 

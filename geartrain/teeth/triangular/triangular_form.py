@@ -66,16 +66,14 @@ class Triangular(ToothForm):
         "below 1 with a ring",
     )
     excess: Figure | None = Field(
-        None,
-        description="Excess of the clearance factor over 1, above 0; in a ring, 1 minus the clearance factor",
+        None, description="Excess of the clearance factor over 1, above 0; in a ring, 1 minus the clearance factor"
     )
     backlash: Length | None = Field(
         None, description="Minimum backlash over a pitch, as an arc of the second wheel's pitch circle"
     )
     centre_distance: Length | None = Field(None, description="Centre distance of the pair")
     window: Figure | None = Field(
-        None,
-        description="Position in the clearance window, from jamming (0) to loss of contact (1)",
+        None, description="Position in the clearance window, from jamming (0) to loss of contact (1)"
     )
     radii: Literal["equal_depth", "pitch_true"] | tuple[Length, Length] | Figure | None = Field(
         None,

@@ -197,9 +197,7 @@ class TriangularFigures(PairFigures):
 
 
 def triangular_figures(
-    transmission: TriangularTransmission,
-    window: ClearanceWindow | None,
-    losses: SlidingEfficiency | None = None,
+    transmission: TriangularTransmission, window: ClearanceWindow | None, losses: SlidingEfficiency | None = None
 ) -> TriangularFigures:
     """Return the results of a pair with triangular teeth.
 

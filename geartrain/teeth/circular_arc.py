@@ -198,12 +198,10 @@ class CircularArc(ToothForm):
             deep = found[1 - at][1] + _BOTTOM
             tooth = ArcTooth(z, thickness, addendum, radius, deep if at + 1 == pinion else max(deep, pi / 2))
             if not tooth.fits:
-                raise refused(
-                    f"circular-arc teeth of a wheel of {z} cannot be {thickness:.4g} modules thick and {addendum:.4g} "
-                    f"high with arcs of radius {radius:.4g}",
-                    "the arc must rise from the pitch circle to the tip and leave a flank below it",
-                    "remove `addendum`, `radius` and `thickness`, or give a larger radius or a smaller thickness",
-                )
+                sizes_text = f"{thickness:.4g} modules thick and {addendum:.4g} high with arcs of radius {radius:.4g}"
+                why = "the arc must rise from the pitch circle to the tip and leave a flank below it"
+                fix = "remove `addendum`, `radius` and `thickness`, or give a larger radius or a smaller thickness"
+                raise refused(f"circular-arc teeth of a wheel of {z} cannot be {sizes_text}", why, fix)
             made.append(tooth)
         return made[0], made[1]
 

@@ -69,11 +69,9 @@ class Cycloidal(ConjugateToothForm):
         check_one_of(self, "rolling", "rolling", "rolling_fraction")
         check_above_0(self, "rolling", "rolling", "rolling_fraction")
         if any(figure.value >= 1 for figure in self.rolling_fraction or ()):
-            raise bad(
-                "rolling",
-                "a rolling circle as large as the pitch circle or larger generates no dedendum",
-                "give a fraction below 1 (1/2 makes radial flanks, and a larger fraction undercut flanks)",
-            )
+            what = "a rolling circle as large as the pitch circle or larger generates no dedendum"
+            fix = "give a fraction below 1 (1/2 makes radial flanks, and a larger fraction undercut flanks)"
+            raise bad("rolling", what, fix)
         if self.thickness is not None:
             check_one_of(self, "backlash", "thickness", "backlash")
             check_above_0(self, "length", "thickness")
@@ -109,11 +107,8 @@ class Cycloidal(ConjugateToothForm):
         """Return the radii of both rolling circles [module]; for bevel gears, half-angles of rolling cones [rad]."""
         if self.rolling is not None:
             if wheels.bevel:
-                raise refused(
-                    "`rolling` does not apply to bevel pairs",
-                    "their rolling circles are cones",
-                    "give `rolling_fraction` instead",
-                )
+                what, why = "`rolling` does not apply to bevel pairs", "their rolling circles are cones"
+                raise refused(what, why, "give `rolling_fraction` instead")
             first, second = (wheels.modules(length, "rolling circle") for length in self.rolling)
             return first, second
         first, second = (float(figure.value) for figure in self.rolling_fraction or (_HALF, _HALF))
@@ -150,9 +145,7 @@ def _arc_of_addendum(pitch: PitchSurfaces, R: float, z: float, rho: float, heigh
         # a ring's tips are inside its pitch circle
         chord = circle_reach(R, rho, abs(R) + (float(height) if R > 0 else -float(height))) / 2
     if chord >= size:
-        raise refused(
-            f"an addendum of {float(height):g} modules exceeds the height of these cycloids",
-            "a cycloid reaches its maximum height after half a turn of the rolling circle",
-            "give a lower addendum or a larger rolling circle",
-        )
+        what = f"an addendum of {float(height):g} modules exceeds the height of these cycloids"
+        why = "a cycloid reaches its maximum height after half a turn of the rolling circle"
+        raise refused(what, why, "give a lower addendum or a larger rolling circle")
     return 2 * size * asin(chord / size)

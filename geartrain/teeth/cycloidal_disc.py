@@ -141,9 +141,8 @@ class CycloidalDisc:
         return found
 
     def arms(self, angle: Floats) -> Floats:
-        """Return the lever arms [module] of the contact normals about the centre of the disc, docs/reducers.md (4).
-
-        A lever arm is 0 for pins that cannot push the disc forwards.
+        """Return the lever arms [module] of the contact normals about the centre of the disc, docs/reducers.md (4); 0
+        for pins that cannot push the disc forwards.
         """
         found: Floats = np.maximum(self.lobes / 2 * self.circle * np.sin(angle) / self.distance(angle), 0.0)
         return found
@@ -163,16 +162,14 @@ class CycloidalDisc:
 
     def _loaded_angle(self, arms: Floats) -> Floats:
         """Return the rotation [rad] of the disc under load at which the pins in contact carry the whole torque,
-        docs/reducers.md (7).
-
-        Pins with longer lever arms come into contact first. The number of loaded pins is the smallest for which the
-        next pin remains unloaded.
+        docs/reducers.md (7). Pins with longer lever arms come into contact first.
         """
         assert self.deflection is not None
         ordered = -np.sort(-arms, axis=0)
         torque = self.deflection * self.lobes / 2
         angles = (torque + self.clearance * np.cumsum(ordered, axis=0)) / np.cumsum(ordered**2, axis=0)
         following = np.concatenate([ordered[1:], np.zeros_like(ordered[:1])])
+        # the number of loaded pins is the smallest for which the next pin remains unloaded
         enough = angles * following <= self.clearance
         found: Floats = np.take_along_axis(angles, enough.argmax(axis=0)[None], axis=0)[0]
         return found
@@ -222,10 +219,8 @@ class CycloidalDisc:
     # ---------------------------------------------------------------------------------------------------------- teeth
 
     def lobe(self, tolerance: float) -> FixedTooth:
-        """Return one lobe, symmetric about the x axis, as a sequence of chords that stay inside the lobe, so that they
-        do not touch the pins.
-
-        `tolerance` is the maximum distance of a chord from the lobe [module]; at most 4096 chords are used.
+        """Return one lobe, symmetric about the x axis, as at most 4096 chords inside the lobe, so that they do not
+        touch the pins. `tolerance` is the maximum distance of a chord from the lobe [module].
         """
         # doubled, because the excess of a chord falls with the square of their number
         number = _MIN_CHORDS
@@ -243,10 +238,8 @@ class CycloidalDisc:
         return FixedTooth("external", tip, float(np.abs(points[0])), tooth)
 
     def _chord_excess(self, number: int) -> Floats:
-        """Return the distances by which the midpoints of `number` chords around the disc are outside its outline
-        [module].
-
-        The distance is negative where the chord is inside the outline.
+        """Return the distances [module] by which the midpoints of `number` chords around the disc are outside its
+        outline; negative inside.
         """
         turn = np.linspace(0, 2 * pi, 2 * number + 1)
         points = self.outline(turn)
@@ -302,10 +295,8 @@ class DiscTransmission(ExactRatio, ToothTransmission):
         return DiscTransmission(self.disc, self.friction, driver, direction)
 
     def _phase(self, S: ArrayLike) -> Floats:
-        """Return the angle of a pin from the line of centres [rad] at driver angles S [rad].
-
-        At S = 0 a pin is on the line of centres if the ring drives. If the disc drives, a lobe is on the line of
-        centres, between two pins.
+        """Return the angle of a pin from the line of centres [rad] at driver angles S [rad]. At S = 0 it is 0 if the
+        ring drives, and half a pin pitch if the disc drives.
         """
         S = self.direction * np.asarray(S, dtype=float)
         found: Floats = S if self.driver == 2 else S * self.disc.lobes / self.disc.pins + pi / self.disc.pins

@@ -180,12 +180,10 @@ class Involute(ConjugateToothForm):
             # at this distance the pressure angle would be 0
             minimum = second.base - first.base if wheels.internal else second.base + first.base
             if distance <= minimum:
-                raise refused(
-                    f"a centre distance of {distance:.6g} modules is too short for these involutes",
-                    f"their base circles require more than {minimum:.6g}; the distance without profile shift is "
-                    f"{wheels.distance:g}",
-                    "give a longer centre_distance or a larger pressure_angle",
-                )
+                what = f"a centre distance of {distance:.6g} modules is too short for these involutes"
+                plain = f"the distance without profile shift is {wheels.distance:g}"
+                why = f"their base circles require more than {minimum:.6g}; {plain}"
+                raise refused(what, why, "give a longer centre_distance or a larger pressure_angle")
         thinned = wheels.modules(self.backlash, "backlash")
         return InvolutePair(first, second, distance, thinned)
 
@@ -223,28 +221,22 @@ class Involute(ConjugateToothForm):
             tip = R + cone_height(R, z, height)
             # half-angle of the base cone of a spherical involute: its sine is sin R cos psi
             if not asin(sin(R) * cos(psi)) <= tip < pi:
-                raise refused(
-                    f"the tip cone of wheel {at + 1} is out of range",
-                    f"it is {height:g} modules above the pitch cone, but must be outside the base cone and below "
-                    "180 deg",
-                    "give the wheel an addendum near 1 and a shift near 0",
-                )
+                limits = "but must be outside the base cone and below 180 deg"
+                why = f"it is {height:g} modules above the pitch cone, {limits}"
+                fix = "give the wheel an addendum near 1 and a shift near 0"
+                raise refused(f"the tip cone of wheel {at + 1} is out of range", why, fix)
             arcs.append(spherical_arc(R, psi, tip))
         # one arc may be negative, if its contact ends on the other side of the pitch point
         if sum(arcs) <= 0:
-            raise refused(
-                "the teeth do not reach each other",
-                "the tips of one wheel leave the line of action before the tips of the other wheel reach it",
-                "give larger addenda, or smaller shifts",
-            )
+            why = "the tips of one wheel leave the line of action before the tips of the other wheel reach it"
+            raise refused("the teeth do not reach each other", why, "give larger addenda, or smaller shifts")
         return ConjugatePair(_straight_path(pitch, psi, (arcs[0], arcs[1])), self._bevel_halves(pitch, wheels))
 
     def _bevel_halves(self, pitch: PitchSurfaces, wheels: WheelPair) -> tuple[float, float]:
         """Return the half-thicknesses of the teeth of both wheels, as arcs X on the pitch cones [rad on the unit
         sphere].
-
-        A profile shift of x modules increases the whole thickness by 2 x tan psi modules.
         """
+        # a profile shift of x modules increases the whole thickness by 2 x tan psi modules
         module, thin = pitch.p / pi, self._backlash(pitch, wheels) / 4
         first, second = (
             pitch.p / 4 + float(figure.value) * tan(self.pressure_angle.si) * module - thin for figure in self.shift

@@ -160,21 +160,17 @@ class Lantern(ConjugateToothForm):
         z = wheels.z1 if self.pins == 1 else wheels.z2
         # such pins do not intersect the pitch circle
         if abs(A - R) >= B:
-            raise refused(
-                f"pins at {A:.6g} modules from the axis do not reach the pitch circle",
-                f"the pitch radius is {R:.6g} modules and the radius of a pin {B:.6g}, so no contact occurs at the "
-                "pitch point",
-                f"give a pin_radius (distance of the pin centres from the axis) between {R - B:.6g} and {R + B:.6g} "
-                "modules",
-            )
+            what = f"pins at {A:.6g} modules from the axis do not reach the pitch circle"
+            sizes = f"the pitch radius is {R:.6g} modules and the radius of a pin {B:.6g}"
+            limits = f"between {R - B:.6g} and {R + B:.6g} modules"
+            fix = f"give a pin_radius (distance of the pin centres from the axis) {limits}"
+            raise refused(what, f"{sizes}, so no contact occurs at the pitch point", fix)
         # chord between the centres of two adjacent pins
         most = 2 * A * sin(pi / z)
         if most <= 2 * B:
-            raise refused(
-                f"pins of {2 * B:.6g} modules touch each other",
-                f"the centres of {z} pins are {most:.6g} modules apart",
-                f"give a pin_diameter below {most:.6g} modules; half of that leaves space for the mate's teeth",
-            )
+            what = f"pins of {2 * B:.6g} modules touch each other"
+            fix = f"give a pin_diameter below {most:.6g} modules; half of that leaves space for the mate's teeth"
+            raise refused(what, f"the centres of {z} pins are {most:.6g} modules apart", fix)
         return A, B
 
     def _arcs(

@@ -130,10 +130,8 @@ class LeastFriction(ConjugateToothForm):
         return PathOfContact(pitch, approach, recess)
 
     def _weight(self, pitch: PitchSurfaces) -> Callable[[Floats], Floats] | None:
-        """Return the density of the friction loss, up to a constant factor, as a function of the distance d from the
-        pitch point. The density is mu S, where mu is the coefficient of friction and S is d, or sin d for bevel gears.
-
-        Return None if the coefficient of friction is the same at all contacts.
+        """Return the friction loss per distance d, up to a factor: mu S, where mu is the coefficient of friction, and S
+        is d, or sin d for bevel gears. Return None if mu is the same at all contacts.
         """
         if self.friction_law is None or self.pitch_line_speed is None or self.friction_law.of_pitch_line:
             return None

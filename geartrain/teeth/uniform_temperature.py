@@ -101,11 +101,9 @@ class UniformTemperature(ConjugateToothForm):
             elif self.reading == "c":
                 found.append(bounded_heat(pitch, b, gamma, X, psi))
             elif b + gamma <= 0:
-                raise refused(
-                    f"a heat of {(pitch.A + pitch.B) / gamma:.6g} exceeds the maximum of these teeth",
-                    "near the pitch point, the contact would come to rest on the profile",
-                    "give a smaller heat or a larger depth",
-                )
+                what = f"a heat of {(pitch.A + pitch.B) / gamma:.6g} exceeds the maximum of these teeth"
+                why = "near the pitch point, the contact would come to rest on the profile"
+                raise refused(what, why, "give a smaller heat or a larger depth")
             else:
                 found.append(uniform_heat(pitch, b, gamma, X))
         return found[0], found[1]

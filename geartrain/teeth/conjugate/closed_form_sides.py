@@ -180,11 +180,8 @@ def pin_arc(R: float, A: float, B: float, d: float) -> float:
 
 
 def _extremal_piece(pitch: PitchSurfaces, D: float, start: float, end: float) -> PathPiece:
-    """Return the path of contact with minimum friction loss, S = D cos psi. It is an extremal of the loss,
-    docs/shapes.md (10).
-
-    S is d on cylinders and sin d on cones, psi is the pressure angle, and D is a constant. The arc X is D ln d, or D ln
-    tan(d/2) on cones, counted from the first contact.
+    """Return the extremal of the friction loss, docs/shapes.md (10): S = D cos psi, with the arc X = D ln d, or D ln
+    tan(d/2) on cones, counted from the first contact. S is d, or sin d on cones.
     """
 
     def sine(d: Floats) -> Floats:

@@ -387,11 +387,9 @@ def check_order(form: ToothForm, pair: tuple[str, str]) -> None:
     uneven = [name for name, value in given.items() if isinstance(value, tuple) and value[0].value != value[1].value]
     if uneven := uneven + [name for name in ("pins",) if name in form.model_fields_set]:
         ring, pinion = pair
-        raise refused(
-            f"the assignment of {' and '.join(uneven)} to its wheels is ambiguous",
-            f"the pair names its ring '{ring}' first, but this tooth form numbers the ring as its second wheel",
-            f"name the pinion first: `pair: [{pinion}, {ring}]`",
-        )
+        what = f"the assignment of {' and '.join(uneven)} to its wheels is ambiguous"
+        why = f"the pair names its ring '{ring}' first, but this tooth form numbers the ring as its second wheel"
+        raise refused(what, why, f"name the pinion first: `pair: [{pinion}, {ring}]`")
 
 
 def shaft_angle_of(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> float | None:
@@ -404,9 +402,7 @@ def shaft_angle_of(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAng
         return None
     angle = shaft_angle()
     if angle is None and "bevel" in wheels.kinds:
-        raise refused(
-            f"these wheels cannot have {form.words} teeth",
-            "the shaft angle of its bevel wheels is not declared",
-            f"declare `axes` with the `direction` of both axes, or {IDEAL}",
-        )
+        why = "the shaft angle of its bevel wheels is not declared"
+        fix = f"declare `axes` with the `direction` of both axes, or {IDEAL}"
+        raise refused(f"these wheels cannot have {form.words} teeth", why, fix)
     return angle

@@ -256,10 +256,8 @@ def _for_both(gears: tuple[int, int], value: Callable[[int], Value]) -> tuple[Va
 
 
 def _corner_lag(pair: ConjugatePair, gear: int, driver: int) -> CornerLag:
-    """Return the lag of the driven wheel while the tip of `gear` is in contact beyond an end of the path of contact.
-
-    The driver's tip is in contact while teeth leave contact; the driven wheel's tip is in contact while teeth enter
-    contact.
+    """Return the lag of the driven wheel while the tip of `gear` is in contact beyond an end of the path of contact:
+    the driver's tip while teeth leave contact, or the driven tip while they enter it.
     """
     path, pitch = pair.path, pair.path.pitch
     _, first = path.ends(gear)

@@ -150,10 +150,9 @@ class InvolutePair:
             # an arc that is 0 except for rounding must not be negative
             found.append(0.0 if -_ROUNDING < over < 0 else over / cos(psi))
         if sum(found) <= 0:
-            why = (
-                f"at a centre distance of {self.distance:.6g} modules the tip circles, of radii {self.first.tip:.6g} "
-                f"and {self.second.tip:.6g}, leave no contact on the line of action"
-            )
+            tips = f"of radii {self.first.tip:.6g} and {self.second.tip:.6g}"
+            at = f"at a centre distance of {self.distance:.6g} modules"
+            why = f"{at} the tip circles, {tips}, leave no contact on the line of action"
             fix = "use larger addenda, a smaller centre distance, or profile shifts that bring the tips closer"
             raise RangeError(Problem("the teeth do not reach each other", why, fix))
         return found[0], found[1]

@@ -88,11 +88,8 @@ def stress_law(pitch: PitchSurfaces, a: float, b: float, psi: float) -> ValueAnd
 
 
 def _piece_over_arc(made: Callable[[float], PathPiece], guess: float, X: float, start: float = 0.0) -> PathPiece:
-    """Return the piece of a path of contact that ends at the arc X. Newton's method determines the distance d of this
-    end from the pitch point.
-
-    `made` returns the piece that ends at a given distance d. An end that cannot be reached is bisected towards the last
-    end that was reached.
+    """Return the piece of a path that ends at the arc X, by Newton's method for the distance d of its end. `made`
+    returns the piece up to a distance; an end out of reach is bisected towards the last end that was reached.
     """
     low, end, last = start, guess, inf
     for _ in range(_TRIES):
@@ -115,10 +112,8 @@ def _piece_over_arc(made: Callable[[float], PathPiece], guess: float, X: float, 
 def _solutions(
     pitch: PitchSurfaces, f: ValueAndSlope, first: float, start: float = 0.0, piece_maker: PieceMaker | None = None
 ) -> Callable[[float], PathPiece]:
-    """Return a function that solves S v' + f(d, v) = 0 up to a given distance d, and returns the solution as a piece of
-    a path of contact.
-
-    Each solution is the initial guess of the next one.
+    """Return a function that solves S v' + f(d, v) = 0 up to a distance d and returns the solution as a piece of a
+    path. Each solution is the initial guess of the next one.
     """
     last: Chebyshev | None = None
 
@@ -138,10 +133,8 @@ def _sine_piece(pitch: PitchSurfaces, f: ValueAndSlope, v: Chebyshev, end: float
 
 
 def _slope(pitch: PitchSurfaces, f: ValueAndSlope, v: Chebyshev) -> Callable[[Floats], Floats]:
-    """Return a function that computes the derivative v' of a solution v of S v' + f(d, v) = 0.
-
-    The function uses the differential equation, except close to the pitch point, where the equation gives 0/0 and a
-    series is used.
+    """Return a function for the derivative v' of a solution v of S v' + f(d, v) = 0, from the differential equation or,
+    close to the pitch point, where it gives 0/0, from the series.
     """
     steep = v.deriv()
 
@@ -264,23 +257,15 @@ def least_friction(
 
 
 def _too_long_error(pitch: PitchSurfaces, X: float, psi: float, u: float) -> RangeError:
-    return RangeError(
-        Problem(
-            f"an arc of {X / pitch.p:.6g} pitches is too long for a contact speed margin of {u:g} and a pressure "
-            f"angle of {degrees(psi):.6g} deg",
-            "even at the minimum contact speed, the pressure angle would exceed its maximum before the end of the arc",
-            "use a shorter arc, more teeth, a smaller margin or a larger pressure angle",
-        )
-    )
+    limits = f"a contact speed margin of {u:g} and a pressure angle of {degrees(psi):.6g} deg"
+    what = f"an arc of {X / pitch.p:.6g} pitches is too long for {limits}"
+    why = "even at the minimum contact speed, the pressure angle would exceed its maximum before the end of the arc"
+    return RangeError(Problem(what, why, "use a shorter arc, more teeth, a smaller margin or a larger pressure angle"))
 
 
 def _first_variation(pitch: PitchSurfaces, piece: PathPiece, loss: Weight) -> float:
-    """Return the first variation of the friction loss over the piece of minimum contact speed, docs/shapes.md (13)
-    or (19).
-
-    The first variation is the integral over d of eta / (S^2 cos psi) (2 S / cos^3 psi - lambda / cos^2 psi). Here psi
-    is the pressure angle, S is d or sin d, eta = S sin psi, and lambda is S / cos psi at the end of the piece. The S in
-    the last two terms is replaced by `loss` if friction depends on speed.
+    """Return the first variation of the friction loss over the piece of minimum contact speed, docs/shapes.md (13) or
+    (19): the integral of `variation_integrand` over d.
     """
     x, weights = _GAUSS
     d = piece.start + (piece.end - piece.start) * (x + 1) / 2
@@ -334,10 +319,8 @@ def fitted(
 
 
 def _collocated(pitch: PitchSurfaces, f: ValueAndSlope, first: float, d: Floats, v: Floats) -> Floats:
-    """Return the solution v of the differential equation in `solved` at the Chebyshev nodes d, with v = `first` at
-    the first node.
-
-    Damped Newton steps start at the guess `v` and stop when rounding errors prevent further improvement.
+    """Return the solution v of the differential equation in `solved` at the Chebyshev nodes d, with v = `first` at the
+    first node, by damped Newton steps from the guess `v`.
     """
     matrix = pitch.S(d)[:, None] * differentiation(len(d)) * (2 / (d[-1] - d[0]))
     # the condition v = first replaces the first row, which is degenerate: S is 0 at the pitch point
@@ -375,13 +358,9 @@ def _collocated(pitch: PitchSurfaces, f: ValueAndSlope, first: float, d: Floats,
 
 def unreachable_end(end: float) -> RangeError:
     """Return the error that reports an end of the path of contact which cannot be reached."""
-    return RangeError(
-        Problem(
-            f"the path of contact does not reach {end:.6g} (modules; bevel gears: rad) from the pitch point",
-            "its pressure angle would reach 90 deg before that distance",
-            "use shorter arcs, more teeth, or a smaller pressure angle",
-        )
-    )
+    what = f"the path of contact does not reach {end:.6g} (modules; bevel gears: rad) from the pitch point"
+    why = "its pressure angle would reach 90 deg before that distance"
+    return RangeError(Problem(what, why, "use shorter arcs, more teeth, or a smaller pressure angle"))
 
 
 # ------------------------------------------------------------------------------------------- conditions of minimum loss
@@ -415,11 +394,7 @@ def check_pieces(pitch: PitchSurfaces, piece: PathPiece, weight: Weight) -> None
 
 def other_shape_error(why: str) -> RangeError:
     """Return the error for a friction law under which teeth of minimum loss have another shape."""
-    return RangeError(
-        Problem(
-            "with this friction law, teeth of minimum loss do not consist of a constant pressure angle and a minimum "
-            "contact speed",
-            why,
-            "use another pitch_line_speed, a friction law that falls less steeply, or a smaller pressure angle",
-        )
-    )
+    shape = "a constant pressure angle and a minimum contact speed"
+    what = f"with this friction law, teeth of minimum loss do not consist of {shape}"
+    fix = "use another pitch_line_speed, a friction law that falls less steeply, or a smaller pressure angle"
+    return RangeError(Problem(what, why, fix))

@@ -384,19 +384,15 @@ class PathOfContact(Shown):
         return self._contact(sign * side.travel(d), sign * d, side.sin_psi(d), sign * side.slope(d))
 
     def _contact(self, X: Floats, d: Floats, sine: Floats, q: Floats) -> PathContact:
-        """Return the speeds, curvatures, stress and heat of contacts at arcs X and distances d. `sine` is the sine of
-        the pressure angle psi, and `q` is d(psi)/dX. See docs/shapes.md (2) to (5).
-
-        The contact speeds along the profiles are U1 = w + A S and U2 = w - B S, where w is the derivative of S sin psi
-        with respect to d, S is d (sin d for bevel gears), and A and B are the curvatures of the pitch surfaces. The
-        relative curvature is kr = (A + B) sin psi / (U1 U2).
+        """Return speeds, curvatures, stress and heat of contacts at arcs X and distances d, docs/shapes.md (2) to (5).
+        `sine` is the sine of the pressure angle psi, and `q` is d(psi)/dX.
         """
         pitch = self.pitch
         A, B = pitch.A, pitch.B
         S, slope = pitch.S(d), pitch.S_slope(d)
         # rounding may make a sine exceed 1 where the pressure angle is a right angle
         cosine = np.sqrt(np.maximum(1 - sine * sine, 0.0))
-        w = slope * sine + S * q
+        w = slope * sine + S * q  # derivative of S sin psi with respect to d
         U1, U2 = w + A * S, w - B * S
         bend = S * sine if pitch.bevel else 0.0
         # U is 0 at a cusp, with infinite curvature and pressure, and negative beyond it, where its root is NaN

@@ -90,10 +90,8 @@ class ToothPairSearch:
         return ToothPairContact(x, ratio * x + self.offset - angle, point, normal, angle, corner)
 
     def _normals(self, point: Floats, along: Floats, speed: Floats) -> Floats:
-        """Return the unit normals of contacts. Each normal passes through the point that divides the line of centres in
-        the ratio of speeds.
-
-        If the contact is at that point itself, the result is the normal of the flank.
+        """Return the unit normals of contacts, which pass through the point that divides the line of centres in the
+        ratio of speeds. At that point itself, the normal of the flank is returned.
         """
         with np.errstate(all="ignore"):
             to = np.stack([self.distance * speed / (1 + speed) - point[0], -point[1]])

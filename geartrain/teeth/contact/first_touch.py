@@ -195,7 +195,8 @@ class FirstTouchSearch:
 
     def _cells(self, tooth_pairs: CandidatePairs) -> FlankSegments:
         """Return the intervals between search nodes that may be at radii of the driven flank, without `piece2`."""
-        pieces, us, begins = (each[tooth_pairs.tooth1] for each in self.first.nodes)
+        of, (piece, u, begins) = tooth_pairs.tooth1, self.first.nodes
+        pieces, us, begins = piece[of], u[of], begins[of, :-1]
         r, dr, a, da = (each[tooth_pairs.tooth1] for each in self.first.node_values)
         view = DrivenFrame(self.axles, r, a + tooth_pairs.x[:, None])
         change, swing = view.moved(dr, da)
@@ -205,7 +206,7 @@ class FirstTouchSearch:
         minimum, most = (each[tooth_pairs.tooth2][:, None] for each in self.second.span)
         here, there = view.radius[:, :-1], view.radius[:, 1:]
         low, high = np.minimum(here, there), np.maximum(here, there)
-        tooth_pair, at = np.nonzero(begins[:, :-1] & (low - slack <= most) & (high + slack >= minimum))
+        tooth_pair, at = np.nonzero(begins & (low - slack <= most) & (high + slack >= minimum))
         ends = tooth_pair, np.stack([at, at + 1])
         polar2 = np.stack([each[ends] for each in (view.radius, view.azimuth, change, swing)])
         piece = pieces[tooth_pair, at]

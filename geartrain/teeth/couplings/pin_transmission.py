@@ -104,10 +104,8 @@ class PinToSlotTransmission(PinTransmission):
     driver = "pin"
 
     def _reach(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Return two quantities at driver angles S: the distance r - e cos S, and the square of the distance of the pin
-        from the slot's axis.
-
-        The pin radius is r and the axis offset is e. Both quantities are computed as sums without cancellation.
+        """Return r - e cos S, and the square of the pin's distance from the slot's axis, with pin radius r and axis
+        offset e.
         """
         # half angles avoid the cancellation of both differences near r = e and S = 0
         half = np.sin(np.asarray(S, dtype=float) / 2)
@@ -188,10 +186,8 @@ class SlotToPinTransmission(PinTransmission):
         return np.asarray(1 - self.e * np.cos(np.asarray(S, dtype=float)) / along)
 
     def _sides(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Return r sin d and r cos d at driver angles S [rad], where r is the pin radius and d is the angle between pin
-        radius and slot.
-
-        The angle follows from sin d = (e/r) sin S, where e is the axis offset.
+        """Return r sin d and r cos d at driver angles S [rad], where r is the pin radius and d the angle between pin
+        radius and slot: sin d = (e/r) sin S, with axis offset e.
         """
         S = np.asarray(S, dtype=float)
         # sqrt(r^2 - e^2 sin^2 S) as a sum, which does not cancel near r = e

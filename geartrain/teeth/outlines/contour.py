@@ -137,13 +137,11 @@ def _arc(start: Floats, end: Floats, bulge: float, tolerance: float) -> Floats:
 def _segment_moments(start: Floats, end: Floats, bulge: float) -> tuple[float, float]:
     """Return the area, and the polar second moment of area about the origin, of the circular segment between an arc and
     its chord.
-
-    For the radius R and the sweep s, the area is R^2 (s - sin s)/2, and the second moment about the centre of the arc
-    is R^4 (s/4 - sin s (2 + cos s)/12). The first moment is 2/3 R^3 sin^3(s/2) along the bisector.
     """
     R, s = arc_radius(start, end, bulge), 4 * atan(bulge)
     centre = _arc_centre(start, end, bulge)
     area = R**2 * (s - sin(s)) / 2
+    # second moment about the centre of the arc, and first moment along the bisector
     own = R**4 * (s / 4 - sin(s) * (2 + cos(s)) / 12)
     x, y = (start - centre) / R
     bisector = np.array([x * cos(s / 2) - y * sin(s / 2), x * sin(s / 2) + y * cos(s / 2)])

@@ -270,10 +270,8 @@ def _spaced_displacements(path: PathOfContact, gear: int, X: Floats, tolerance: 
 
 
 def _corner(path: PathOfContact, gear: int, X: Floats, tolerance: float) -> list[float]:
-    """Return a list that contains the pitch point if an additional sample is required there, because the chord across
-    it would cut off a corner.
-
-    The curvature of a cycloid is infinite at the pitch point, so that the estimate of the deviation fails there.
+    """Return a list with the pitch point X = 0 if the chord across it would cut off a corner; empty if not. The
+    curvature of a cycloid is infinite there, so that the estimate of the deviation fails.
     """
     if not X.min() < 0 < X.max():
         return []
@@ -293,10 +291,8 @@ def _inflections(path: PathOfContact, gear: int, X: Floats) -> Floats:
 
 
 def _inner_polyline(path: PathOfContact, gear: int, X: Floats, outward: int) -> tuple[Floats, Floats]:
-    """Return the radii [module] and angles [rad] of a polyline inside the tooth.
-
-    The vertices of the polyline are points of the flank where the flank is convex, and intersections of tangents where
-    the flank is concave.
+    """Return radii [module] and angles [rad] of a polyline inside the tooth: points of the flank where it is convex,
+    and intersections of its tangents where it is concave.
     """
     r, angle = _polar(path, gear, X)
     points = r * np.exp(1j * angle)

@@ -255,10 +255,8 @@ def cut_tooth(demands: Sequence[ToothRequirement], wanted: float | None = None) 
 def _largest_fillet(
     own: ToothRequirement, root: float, mates: Sequence[MatePassage], relief: float, most: float, wanted: float
 ) -> ToothOutline | None:
-    """Return the tooth with the largest fillet radius up to `wanted` [module] that clears all mates, found by
-    bisection.
-
-    Return None if even with a small fillet a mate interferes by more than `most` [module].
+    """Return the tooth with the largest fillet radius up to `wanted` [module], found by bisection, with which no mate
+    interferes by more than `most` [module]; None if there is none.
     """
 
     def made(radius: float) -> ToothOutline | None:

@@ -165,10 +165,8 @@ class TriangularContact:
 
 
 def _locate(intervals: Sequence[DriveInterval], t: float, pitch: float) -> tuple[DriveInterval, float]:
-    """Return the drive interval that contains the driver position t [rad], and the angle alpha_1 [rad] between the
-    driver's apex and the line of centres at t.
-
-    If t is in a gap, return the nearest interval and an angle outside this interval.
+    """Return the drive interval at the driver position t [rad], and the angle alpha_1 [rad] of the driver's apex at t;
+    in a gap, the nearest interval and an angle outside this interval.
     """
     for interval in intervals:
         gone = (interval.start - t) % pitch
@@ -316,10 +314,8 @@ def _overhang_excess(sizes: TriangularSizes, low: float) -> float:
 
 
 def _first_range(margin: Callable[[float], float], low: float, reach: float) -> tuple[float, float]:
-    """Return the bounds of the first range of excess in which the function `margin` is positive.
-
-    The range begins at 0 if the margin is positive at 0 or at `low`. The bounds are (0, 0) if the margin is never
-    positive.
+    """Return the bounds of the first range of excess in which `margin` is positive, (0, 0) if there is none. The range
+    begins at 0 if the margin is positive at 0 or at `low`.
     """
     # slightly above 0 or `low`, at which rounding would decide the sign of the margin
     for start in (reach * _NEARLY_0, low * (1 + 1e-9)):

@@ -72,11 +72,8 @@ class ToothPair:
         return u, sin_psi, cos_psi, s, q, c * (cos_psi + sin_psi * (sin_psi + s) / (cos_psi + q))
 
     def _driver_arm(self, u: Any, cos_psi: Any, q: Any) -> Any:
-        """Return the distance, along the driver's flank, between the contact and the foot of the perpendicular from the
-        driver's axis.
-
-        The distance is R1 cos(beta1) - v, where R1 is the tip radius and beta1 the half aperture angle of the driver,
-        and v follows from Eq. (9).
+        """Return the distance, along the driver's flank, of the contact from the foot of the perpendicular from the
+        driver's axis: R1 cos(beta1) - v, with v from Eq. (9).
         """
         # with overhang W and its divisor vanish together; at such small tooth numbers the difference loses no digits
         if self.leans:
@@ -100,10 +97,8 @@ class ToothPair:
         return sine, cosine, arm, (across * inner - along * outer) / square, (along * inner + across * outer) / square
 
     def _apex_directions(self, apex: DrivenApex) -> tuple[Any, Any, Any, Any, Any, Any]:
-        """Return six values of a contact in recess: the arm, the cosine and sine of beta2 - x - y, the sine and cosine
-        of beta2 - y, and the sine of x.
-
-        The angles of the apices are x and y, and beta2 is the half aperture angle of the driven wheel.
+        """Return six values of a contact in recess at the apex angles x and y: the arm, cosine and sine of beta2 - x -
+        y, sine and cosine of beta2 - y, and sin x. beta2 is the half aperture angle of the driven wheel.
         """
         sine, cosine, arm, sin_y, cos_y = apex
         sin_psi, cos_psi = self.sin2 * cos_y - self.cos2 * sin_y, self.cos2 * cos_y + self.sin2 * sin_y

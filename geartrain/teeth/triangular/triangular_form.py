@@ -232,12 +232,10 @@ class Triangular(ToothForm):
         sizes = sizes if sizes.surrounds else self._sizes_at_clearance(sizes, pitch_distance)
         # the clearance reduces the centre distance of an internal pair, which may make the circles overlap
         if sizes.surrounds:
-            raise refused(
-                "the teeth overlap at every angle",
-                "the tip circle of the ring is inside the tip circle of its wheel at the centre distance "
-                f"{sizes.D:.6g}",
-                "use a larger radius of the ring, such as `radii: pitch_true`, or less clearance",
-            )
+            at = f"at the centre distance {sizes.D:.6g}"
+            why = f"the tip circle of the ring is inside the tip circle of its wheel {at}"
+            fix = "use a larger radius of the ring, such as `radii: pitch_true`, or less clearance"
+            raise refused("the teeth overlap at every angle", why, fix)
         return sizes
 
     def _sizes_at_deepest(self, z1: int, z2: int, ring: Literal[0, 1, 2]) -> TriangularSizes:
@@ -273,11 +271,9 @@ class Triangular(ToothForm):
         length = self.centre_distance or self.backlash
         assert length is not None
         if not self._given_radii and (pitch_distance is None or length.unit is None):
-            raise refused(
-                f"the length {length.text} cannot be related to the size of these wheels",
-                "neither radii nor modules with a unit are declared",
-                "give `radii: [first, second]` or the `module` of both wheels, or the clearance as a factor",
-            )
+            what = f"the length {length.text} cannot be related to the size of these wheels"
+            fix = "give `radii: [first, second]` or the `module` of both wheels, or the clearance as a factor"
+            raise refused(what, "neither radii nor modules with a unit are declared", fix)
         if self.centre_distance is not None:
             return sizes.at(sizes.side * (self.centre_distance.si / sizes.deepest_distance - 1))
         return sizes.at(excess_of_backlash(sizes, length.si, length.text))
@@ -290,11 +286,9 @@ class Triangular(ToothForm):
         excess = sizes.side * (self.clearance_factor.value - 1)
         if excess <= 0:
             deepest = "maximum, in a ring" if sizes.ring else "minimum"
-            raise refused(
-                f"a clearance factor of {self.clearance_factor.text} presses a tip into the bottom of a space",
-                f"the centre distance at which a tip touches the bottom is the {deepest}",
-                f"give a factor {'below' if sizes.ring else 'above'} 1, or `excess`",
-            )
+            what = f"a clearance factor of {self.clearance_factor.text} presses a tip into the bottom of a space"
+            why = f"the centre distance at which a tip touches the bottom is the {deepest}"
+            raise refused(what, why, f"give a factor {'below' if sizes.ring else 'above'} 1, or `excess`")
         return float(excess)
 
     def transmission(

@@ -230,18 +230,10 @@ class Involute(ConjugateToothForm):
         if sum(arcs) <= 0:
             why = "the tips of one wheel leave the line of action before the tips of the other wheel reach it"
             raise refused("the teeth do not reach each other", why, "give larger addenda, or smaller shifts")
-        return ConjugatePair(_straight_path(pitch, psi, (arcs[0], arcs[1])), self._bevel_halves(pitch, wheels))
-
-    def _bevel_halves(self, pitch: PitchSurfaces, wheels: WheelPair) -> tuple[float, float]:
-        """Return the half-thicknesses of the teeth of both wheels, as arcs X on the pitch cones [rad on the unit
-        sphere].
-        """
         # a profile shift of x modules increases the whole thickness by 2 x tan psi modules
         module, thin = pitch.p / pi, self._backlash(pitch, wheels) / 4
-        first, second = (
-            pitch.p / 4 + float(figure.value) * tan(self.pressure_angle.si) * module - thin for figure in self.shift
-        )
-        return first, second
+        first, second = (pitch.p / 4 + float(figure.value) * tan(psi) * module - thin for figure in self.shift)
+        return ConjugatePair(_straight_path(pitch, psi, (arcs[0], arcs[1])), (first, second))
 
 
 def _straight_path(pitch: PitchSurfaces, psi: float, arcs: tuple[float, float]) -> PathOfContact:

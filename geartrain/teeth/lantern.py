@@ -134,16 +134,11 @@ class Lantern(ConjugateToothForm):
             return ()
         mate, where = 3 - self.pins, start / pitch.p
         side = f"{abs(where):.4g} pitches {'beyond' if where > 0 else 'short of'} the pitch point"
-        fault = ToothFault(
-            "undercut",
-            mate,
-            -start if self.pins == 1 else start,
-            f"gear {mate} is undercut by the approaching pins",
-            f"its remaining flanks begin {side}, with {left:.6g} pitches of contact",
-            f"give an arc of at most {max(-where, 0):.4g} pitches on its dedendum and of at least {1 + where:.6g} on "
-            "its addendum, a smaller pin_diameter, or a smaller pin_radius",
-        )
-        return (fault,)
+        what = f"gear {mate} is undercut by the approaching pins"
+        why = f"its remaining flanks begin {side}, with {left:.6g} pitches of contact"
+        arcs = f"at most {max(-where, 0):.4g} pitches on its dedendum and of at least {1 + where:.6g} on its addendum"
+        fix = f"give an arc of {arcs}, a smaller pin_diameter, or a smaller pin_radius"
+        return (ToothFault("undercut", mate, -start if self.pins == 1 else start, what, why, fix),)
 
     def lantern_pins(self, wheels: WheelPair) -> LanternPins:
         """Return the pins, with lengths in modules."""

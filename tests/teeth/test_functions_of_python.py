@@ -65,13 +65,6 @@ def test_motion_and_report_use_a_function_of_python() -> None:
     assert f"{degrees(0.04):.6g}" in str(train.report())
 
 
-def test_the_other_wheel_drives_by_the_inverse_function() -> None:
-    train = TRAIN.with_tooth_form(Wave()).with_changes(inputs={"b": 1}, outputs={"a": {}}, loads=None)
-    S = np.linspace(0.1, 6, 9)
-    turns = (2 / 3 * S + 0.02 * np.sin(S)) / (2 * pi)
-    assert train.motion(outputs=["a"]).at(turns).error[0] == pytest.approx(-(S - 1.5 * 2 * pi * turns), abs=1e-12)
-
-
 def test_a_function_refers_to_the_second_wheel_on_request() -> None:
     class Other(Wave):
         ratio = Fraction(3, 2)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import partial
-from math import acos, atan2, ceil, cos, degrees, hypot, inf, sin, tan
+from math import acos, atan2, ceil, cos, degrees, hypot, inf, nan, sin, tan
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -51,15 +51,10 @@ def _undercuts(path: PathOfContact) -> Iterator[ToothFault]:
                 X = _dwell(path, d, U, gear, recess)
                 angle = degrees(X / path.pitch.reach_of(gear))
                 where = "recess" if recess else "approach"
-                yield ToothFault(
-                    "undercut",
-                    gear,
-                    X,
-                    f"gear {gear} is undercut",
-                    f"in {where} the contact speed on its dedendum is 0 at {abs(angle):.6g} deg from the pitch point",
-                    f"end the {where} before {abs(X) / path.pitch.p:.6g} pitches, or use more teeth or a larger "
-                    "pressure angle",
-                )
+                why = f"in {where} the contact speed on its dedendum is 0 at {abs(angle):.6g} deg from the pitch point"
+                limit = f"{abs(X) / path.pitch.p:.6g} pitches"
+                fix = f"end the {where} before {limit}, or use more teeth or a larger pressure angle"
+                yield ToothFault("undercut", gear, X, f"gear {gear} is undercut", why, fix)
 
 
 def _dwell(path: PathOfContact, d: Floats, U: Floats, gear: int, recess: bool) -> float:
@@ -91,15 +86,10 @@ def _pointed(path: PathOfContact, halves: Halves) -> Iterator[ToothFault]:
         # a tip of gear 1 works in recess, a tip of gear 2 in approach
         name, end = ("recess" if X > 0 else "approach"), ("end" if (X > 0) == (gear == 1) else "begin")
         shorter = f"{end} the {name} before {abs(point) / path.pitch.p:.6g} pitches, or use a smaller pressure angle"
-        yield ToothFault(
-            "pointed",
-            gear,
-            X,
-            f"the teeth of gear {gear} come to a point before their tips",
-            f"the flanks of a tooth would cross by {-degrees(at_tip):.4g} deg; the pitch is "
-            f"{360 / path.pitch.teeth_of(gear):.4g} deg",
-            shorter if point else "give thicker teeth by less backlash or by a profile shift outwards",
-        )
+        fix = shorter if point else "give thicker teeth by less backlash or by a profile shift outwards"
+        pitch = 360 / path.pitch.teeth_of(gear)
+        why = f"the flanks of a tooth would cross by {-degrees(at_tip):.4g} deg; the pitch is {pitch:.4g} deg"
+        yield ToothFault("pointed", gear, X, f"the teeth of gear {gear} come to a point before their tips", why, fix)
 
 
 def tooth_thickness(path: PathOfContact, gear: int, halves: Halves, X: float) -> float:
@@ -116,14 +106,9 @@ def _contact_ratio_fault(path: PathOfContact) -> Iterator[ToothFault]:
     ratio = path.contact_ratio
     # arcs with a sum of one pitch give 1 except for rounding
     if ratio < 1 - 1e-12:
-        yield ToothFault(
-            "contact ratio",
-            0,
-            float("nan"),
-            f"the contact ratio {ratio:.6g} is below 1",
-            "one tooth pair leaves contact before the next one enters it",
-            "lengthen approach or recess until their sum is at least one pitch",
-        )
+        why = "one tooth pair leaves contact before the next one enters it"
+        fix = "lengthen approach or recess until their sum is at least one pitch"
+        yield ToothFault("contact ratio", 0, nan, f"the contact ratio {ratio:.6g} is below 1", why, fix)
 
 
 # ------------------------------------------------------------------------------------------------------------ involutes
@@ -168,15 +153,10 @@ def _jam(pair: InvolutePair) -> Iterator[ToothFault]:
             apart = f"give a centre_distance of at least {free_distance(pair.first, pair.second):.6g} modules, or "
         except GearTrainError:
             apart = ""
-        yield ToothFault(
-            "jam",
-            0,
-            float("nan"),
-            "the teeth jam",
-            f"at the centre distance {pair.distance:.6g} modules the teeth are "
-            f"{-pair.backlash:.4g} modules thicker than the spaces",
-            f"{apart}thin the teeth with `backlash`, or reduce the profile shifts",
-        )
+        thick = f"{-pair.backlash:.4g} modules thicker than the spaces"
+        why = f"at the centre distance {pair.distance:.6g} modules the teeth are {thick}"
+        fix = f"{apart}thin the teeth with `backlash`, or reduce the profile shifts"
+        yield ToothFault("jam", 0, nan, "the teeth jam", why, fix)
 
 
 def _interference(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFault]:
@@ -191,17 +171,11 @@ def _interference(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFaul
             continue
         # the line of action touches the base circle at the arc R tan(psi) from the pitch point
         angle = degrees(tan(pair.psi))
-        most = mate.addendum - over
-        yield ToothFault(
-            "interference",
-            gear,
-            X,
-            f"the tips of gear {3 - gear} run into the roots of gear {gear}",
-            f"their contact would continue past {angle:.6g} deg from the pitch "
-            f"point, where the involute of gear {gear} begins at its base circle",
-            f"give gear {3 - gear} an addendum of at most {most:.4g} modules, shift gear {gear} outwards, or use more "
-            "teeth or a larger pressure angle",
-        )
+        what = f"the tips of gear {3 - gear} run into the roots of gear {gear}"
+        start = f"{angle:.6g} deg from the pitch point, where the involute of gear {gear} begins at its base circle"
+        lower = f"give gear {3 - gear} an addendum of at most {mate.addendum - over:.4g} modules"
+        fix = f"{lower}, shift gear {gear} outwards, or use more teeth or a larger pressure angle"
+        yield ToothFault("interference", gear, X, what, f"their contact would continue past {start}", fix)
 
 
 def _undercut(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFault]:
@@ -215,15 +189,11 @@ def _undercut(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFault]:
             # an integer raised slightly by rounding must not become the next integer
             teeth = ceil(2 * (wheel.cut - wheel.shift) / sin(wheel.psi) ** 2 - 1e-9)
             other = ", or use `form: cycloidal`, which suits pinions of few leaves" if 2 * wheel.r <= _LEAVES else ""
-            yield ToothFault(
-                "undercut",
-                gear,
-                (-1 if gear == 1 else 1) * arc,
-                f"gear {gear} is undercut",
-                f"the rack's corner cuts its involute away up to a radius of {cut_radius:.6g} modules, but contact "
-                f"extends down to {lowest:.6g}",
-                f"shift gear {gear} outwards by {minimum:.4g} modules, or give it {teeth} teeth{other}",
-            )
+            cut = f"the rack's corner cuts its involute away up to a radius of {cut_radius:.6g} modules"
+            why = f"{cut}, but contact extends down to {lowest:.6g}"
+            fix = f"shift gear {gear} outwards by {minimum:.4g} modules, or give it {teeth} teeth{other}"
+            X = -arc if gear == 1 else arc
+            yield ToothFault("undercut", gear, X, f"gear {gear} is undercut", why, fix)
 
 
 def _bottom(pair: InvolutePair) -> Iterator[ToothFault]:
@@ -231,26 +201,17 @@ def _bottom(pair: InvolutePair) -> Iterator[ToothFault]:
     for gear in (1, 2):
         gap = pair.bottom_clearance(3 - gear)
         if gap < -_ROUNDING:
-            yield ToothFault(
-                "clearance",
-                gear,
-                float("nan"),
-                f"the tips of gear {gear} touch the bottom of the spaces of gear {3 - gear}",
-                f"they are {-gap:.4g} modules too long",
-                f"give gear {gear} a smaller addendum, gear {3 - gear} a deeper dedendum, or a larger centre distance",
-            )
+            what = f"the tips of gear {gear} touch the bottom of the spaces of gear {3 - gear}"
+            deeper = f"gear {3 - gear} a deeper dedendum, or a larger centre distance"
+            fix = f"give gear {gear} a smaller addendum, {deeper}"
+            yield ToothFault("clearance", gear, nan, what, f"they are {-gap:.4g} modules too long", fix)
 
 
 def ring_tips(path: PathOfContact) -> Iterator[ToothFault]:
     """Yield a fault if the tips of a pinion and of its ring gear collide after their teeth have left contact."""
     gap = tip_gap(path)
     if gap < 0:
-        pitch = path.pitch
-        yield ToothFault(
-            "interference",
-            0,
-            path.arcs[1],
-            "the tips of the pinion run into the tips of the ring",
-            f"they overlap by {degrees(-gap):.4g} deg of the ring, whose pitch is {360 / pitch.z2:.4g} deg",
-            "give the ring more teeth, or both wheels shorter addenda",
-        )
+        what = "the tips of the pinion run into the tips of the ring"
+        why = f"they overlap by {degrees(-gap):.4g} deg of the ring, whose pitch is {360 / path.pitch.z2:.4g} deg"
+        fix = "give the ring more teeth, or both wheels shorter addenda"
+        yield ToothFault("interference", 0, path.arcs[1], what, why, fix)

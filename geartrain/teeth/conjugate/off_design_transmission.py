@@ -16,8 +16,6 @@ from geartrain.teeth.contact.gear_outline import GearOutline, OutlineCurve, Toot
 from geartrain.teeth.contact.outline_transmission import OutlineGears, OutlineTransmission
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from geartrain.numerics.arrays import Floats
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
 
@@ -98,16 +96,11 @@ def _outline(pair: ConjugatePair, gear: int, z: int, R: float) -> GearOutline:
         return np.stack([place.real, place.imag], axis=1)
 
     foot, tip = pair.path.ends(gear)
-    cuts = sorted({0.0, foot, tip, *pair.path.joints}, reverse=foot > tip)
-    curves = [OutlineCurve(flank, a, b) for a, b in pairwise(cuts)]
-    return GearOutline((ToothFlanks.symmetric((_root_line(flank, foot, tip), *curves)),), z, ring=R < 0)
-
-
-def _root_line(flank: Callable[[Floats], Floats], foot: float, tip: float) -> OutlineCurve:
-    """Return the root flank of a tooth: the tangent at the lower end of the active flank."""
-    # small enough for the tangent, large enough that the difference exceeds rounding
+    # the root is straight: the tangent at the lower end of the active flank, from a difference that exceeds rounding
     start, near = flank(np.array([foot, foot + 1e-4 * (tip - foot)]))
     way = start - near
-    length = min(_STRAIGHT, float(np.hypot(*start)) / 3)
-    end = start + way / np.hypot(*way) * length
-    return OutlineCurve(lambda t: end + t[:, None] * (start - end))
+    end = start + way / np.hypot(*way) * min(_STRAIGHT, float(np.hypot(*start)) / 3)
+    root = OutlineCurve(lambda t: end + t[:, None] * (start - end))
+    cuts = sorted({0.0, foot, tip, *pair.path.joints}, reverse=foot > tip)
+    curves = [OutlineCurve(flank, a, b) for a, b in pairwise(cuts)]
+    return GearOutline((ToothFlanks.symmetric((root, *curves)),), z, ring=R < 0)

@@ -156,11 +156,9 @@ class TriangularContact:
             )
             back = next((x for x in (interval.start, interval.end) if not self.speed(interval, x) > 0), None)
             if lean or back is not None:
-                x = interval.start if interval.phase == APPROACH else interval.end
-                return (
-                    "a flank leans beyond the perpendicular and cannot drive while the apex of the driver is "
-                    f"{degrees(x):.4g} deg from the line of centres ({interval.phase})"
-                )
+                x = degrees(interval.start if interval.phase == APPROACH else interval.end)
+                where = f"while the apex of the driver is {x:.4g} deg from the line of centres ({interval.phase})"
+                return f"a flank leans beyond the perpendicular and cannot drive {where}"
         return ""
 
 
@@ -370,9 +368,7 @@ def excess_of_backlash(sizes: TriangularSizes, backlash: float, text: str) -> fl
     low, high = 0.0, sizes.maximum_excess * (1 - 1e-9)
     minimum, most = backlash_at(low), backlash_at(high)
     if not minimum <= backlash <= most:
-        raise refused(
-            f"no clearance gives a backlash of {text}",
-            f"the possible backlash of these teeth is {max(minimum, 0):.6g} to {most:.6g} (in m, or without a unit)",
-            "give a backlash in this range",
-        )
+        possible = f"{max(minimum, 0):.6g} to {most:.6g} (in m, or without a unit)"
+        why = f"the possible backlash of these teeth is {possible}"
+        raise refused(f"no clearance gives a backlash of {text}", why, "give a backlash in this range")
     return root(lambda excess: backlash_at(excess) - backlash, low, high, minimum - backlash, most - backlash)

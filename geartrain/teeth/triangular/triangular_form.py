@@ -341,10 +341,8 @@ def sizes_window(sizes: TriangularSizes) -> ClearanceWindow:
 
     window = find_window(sizes)
     if not window:
-        raise refused(
-            f"no clearance lets wheels of {sizes.z1} and {sizes.z2} triangular teeth turn",
-            f"up to a clearance factor of {window.jam_factor:.6g} the verdict is {window.jam_kind}, and from "
-            f"{window.run_factor:.6g} on it is {window.run_kind}",
-            OTHER_SHAPES[bool(sizes.ring)],
-        )
+        what = f"no clearance lets wheels of {sizes.z1} and {sizes.z2} triangular teeth turn"
+        below = f"up to a clearance factor of {window.jam_factor:.6g} the verdict is {window.jam_kind}"
+        why = f"{below}, and from {window.run_factor:.6g} on it is {window.run_kind}"
+        raise refused(what, why, OTHER_SHAPES[bool(sizes.ring)])
     return window

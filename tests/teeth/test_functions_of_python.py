@@ -11,20 +11,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from models import pair
 
 from geartrain import GearTrain, GearTrainError
 from geartrain.teeth import PinToSlotTransmission
 
-TRAIN = GearTrain.declare(
-    {
-        "links": {"frame": {}, "a": {"wheels": {"p": 20}}, "b": {"wheels": {"w": 30}}},
-        "revolutes": {"A": ["frame", "a"], "B": ["frame", "b"]},
-        "gears": ["p ~ w"],
-        "inputs": {"a": 1},
-        "outputs": {"b": {}},
-        "loads": {"b": 3},
-    }
-)
+TRAIN = pair("inputs: {a: 1}\noutputs: {b: }\nloads: {b: 3}").with_teeth(w=30)
 
 
 class Wave:
@@ -90,12 +82,9 @@ def test_a_subclass_of_the_base_class_is_accepted() -> None:
     mesh = train.meshes[0]
     assert mesh.transmission.error_range() == pytest.approx(PinToSlotTransmission(9.6, 1.1).error_range(), abs=1e-12)
     assert mesh.transmission.speed_range() == pytest.approx(PinToSlotTransmission(9.6, 1.1).speed_range(), abs=1e-12)
-    assert mesh.transmission.steepest_fall() == pytest.approx(_fall(PinToSlotTransmission(9.6, 1.1)), rel=1e-5)
-
-
-def _fall(law: PinToSlotTransmission) -> float:
     S = np.linspace(0, 2 * pi, 100_001)
-    return float(-np.diff(law.speed(S)).min() / (S[1] - S[0]))
+    fall = -np.diff(PinToSlotTransmission(9.6, 1.1).speed(S)).min() / (S[1] - S[0])
+    assert mesh.transmission.steepest_fall() == pytest.approx(fall, rel=1e-5)
 
 
 def test_changes_of_the_train_keep_the_function_while_its_ratio_fits() -> None:

@@ -334,22 +334,20 @@ def test_a_phase_and_a_starting_angle_shift_the_error() -> None:
 
 def test_a_planet_carries_its_runout_through_both_pairs() -> None:
     """An eccentric planet between sun and ring: the ring sees it half a turn of the planet later."""
-    form = {"form": "table", "error": {"over": "driver_turn", "harmonics": [[1, "0.1 deg"]]}}
-    train = GearTrain.declare(
-        {
-            "links": {
-                "frame": {},
-                "sun": {"wheels": {"s": 24}},
-                "planet": {"wheels": {"p": 18}},
-                "ring": {"wheels": {"r": {"teeth": 60, "internal": True}}},
-                "arm": {},
-            },
-            "revolutes": {"M": ["frame", "sun", "ring", "arm"], "P": ["arm", "planet"]},
-            "gears": [{"pair": ["s", "p"]}, {"pair": ["p", "r"], "tooth_form": form}],
-            "inputs": {"sun": 1, "arm": 0},
-            "outputs": {"ring": {}},
-        }
-    )
+    train = load("""
+links:
+  frame: {}
+  sun: {wheels: {s: 24}}
+  planet: {wheels: {p: 18}}
+  ring: {wheels: {r: {teeth: 60, internal: true}}}
+  arm: {}
+revolutes: {M: [frame, sun, ring, arm], P: [arm, planet]}
+gears:
+  - {pair: [s, p]}
+  - {pair: [p, r], tooth_form: {form: table, error: {over: driver_turn, harmonics: [[1, 0.1 deg]]}}}
+inputs: {sun: 1, arm: 0}
+outputs: {ring: }
+""")
     motion = train.motion()
     assert motion.period == Fraction(18, 24)
     turns = np.linspace(0, 1, 7)

@@ -11,6 +11,7 @@ import pytest
 from commands import ended
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from models import pair
 from shapely import Point, Polygon
 from shapely.affinity import rotate, translate
 
@@ -175,13 +176,8 @@ def test_what_cannot_be_is_refused_with_a_cure(given_: dict[str, str], z: tuple[
 
 
 def test_a_ring_is_wanted() -> None:
-    text = """
-links: {frame: {}, a: {wheels: {p: 11}}, b: {wheels: {w: 12}}}
-revolutes: {A: [frame, a], B: [frame, b]}
-gears: [{pair: [p, w], tooth_form: pin_ring}]
-"""
     with pytest.raises(GearTrainError, match="internal"):
-        _ = geartrain.load(text).meshes
+        _ = pair("inputs: {a: 1}\ntooth_form: pin_ring").meshes
 
 
 @pytest.mark.parametrize(

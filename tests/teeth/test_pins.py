@@ -36,25 +36,6 @@ def test_the_slot_follows_the_direction_of_the_pin(pair: tuple[float, float]) ->
     assert round((seen[-1] - seen[0]) / (2 * pi)) == transmission.ratio
 
 
-@given(distances)
-def test_the_speed_is_the_derivative_of_the_angle(pair: tuple[float, float]) -> None:
-    transmission, step = PinToSlotTransmission(*pair), 1e-6
-    slope = (transmission.angle(TURN + step) - transmission.angle(TURN - step)) / (2 * step)
-    assert np.allclose(transmission.speed(TURN), slope, rtol=1e-5, atol=1e-5)
-    minimum, most = transmission.speed_range()
-    speeds = transmission.speed(TURN)
-    assert (speeds >= minimum * (1 + 1e-12 * np.sign(-minimum))).all()
-    assert {round(float(speeds.min()), 9), round(float(speeds.max()), 9)} == {round(minimum, 9), round(most, 9)}
-
-
-@given(distances)
-def test_the_amplitude_is_the_arcsine_of_the_lesser_over_the_greater(pair: tuple[float, float]) -> None:
-    transmission = PinToSlotTransmission(*pair)
-    sampled = np.abs(transmission.error(np.linspace(0, 2 * pi, 200_001))).max()
-    assert transmission.amplitude == pytest.approx(asin(min(pair) / max(pair)))
-    assert sampled == pytest.approx(transmission.amplitude, rel=1e-5)
-
-
 @given(distances.filter(lambda pair: pair[0] > pair[1]))
 def test_a_slot_that_drives_undoes_the_pin_that_drives(pair: tuple[float, float]) -> None:
     there, back = PinToSlotTransmission(*pair), SlotToPinTransmission(*pair)

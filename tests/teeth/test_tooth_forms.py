@@ -445,18 +445,6 @@ def test_efficiency_is_that_of_forces_on_turning_bodies(form: ConjugateToothForm
             assert found == pytest.approx(torque_balance(path, X, friction, driver), abs=2e-8)
 
 
-@given(TEETH, TEETH, st.floats(0.75, 1.05), st.floats(0.75, 1.05))
-@settings(max_examples=40, deadline=None)
-def test_the_mean_loss_of_an_involute_is_that_of_the_textbooks(z1: int, z2: int, add1: float, add2: float) -> None:
-    """pi (1/z1 + 1/z2) (1 - e + e1^2 + e2^2), two pairs taking half each while there are two."""
-    transmission = shape("involute", addendum=[add1, add2]).transmission(z1, z2, 1e-7)
-    p = transmission.path.pitch.p
-    e2, e1 = (arc / p for arc in transmission.path.arcs)
-    assume(e1 + e2 > 1 and max(e1, e2) < 1)
-    expected = pi * (1 / z1 + 1 / z2) * (1 - e1 - e2 + e1**2 + e2**2)
-    assert (1 - transmission.efficiency_mean()) / 1e-7 == pytest.approx(expected, rel=1e-6)
-
-
 @pytest.mark.parametrize("wheels", [{}, {"internal": True}, {"shaft_angle": RIGHT}])
 def test_the_mean_is_that_of_ten_thousand_instants(wheels: dict[str, Any]) -> None:
     for form in EVERY:
@@ -677,8 +665,3 @@ def test_at_a_wrong_distance_other_teeth_have_a_transmission_of_their_own() -> N
     assert transmission.verdict
     tight = shape("uniform_stress", arcs="0.6", centre_distance="29.97").transmission(24, 36)
     assert tight.verdict.kind == "jam"
-
-
-def test_equal_pairs_of_a_long_train_share_one_path() -> None:
-    assert shape("least_friction").path(24, 36) is shape("least_friction").path(24, 36)
-    assert measure(shape("least_friction").path(24, 36)).contact_ratio == pytest.approx(1, rel=1e-12)

@@ -13,8 +13,7 @@ from mechanics import contact, power_ratio
 from sorge import APPROACH, RECESS, Pair, drawn, mp
 
 from geartrain.teeth import Triangular
-from geartrain.teeth.triangular import TriangularSizes, equal_depth, pitch_true
-from geartrain.teeth.triangular.tooth_pair import ToothPair
+from geartrain.teeth.triangular import TriangularSizes, TriangularTransmission, equal_depth, pitch_true
 from geartrain.teeth.triangular.triangular_transmission import contact_course
 
 MANY = [pytest.param(200), pytest.param(4000, marks=pytest.mark.long)]
@@ -29,6 +28,10 @@ def pairs(seed: int, number: int, most: float, shape: str = "near") -> Iterator[
         if max(sizes.beta1, sizes.beta2) + sizes.reach1 + sizes.reach2 < pi / 2:
             number -= 1
             yield sizes, Pair.of(sizes), random
+
+
+def tooth_pair_of(sizes: TriangularSizes) -> Any:
+    return TriangularTransmission(sizes).contact.path.tooth_pair
 
 
 def positions(pair: Pair, random: Random, number: int = 3) -> Iterator[tuple[float, str]]:
@@ -61,7 +64,7 @@ class Worst:
 def test_angle_speed_and_efficiency_at_50_digits(most: float, number: int) -> None:
     angle, speed, efficiency = Worst(), Worst(), Worst()
     for sizes, pair, random in pairs(3, number, most):
-        tooth_pair = ToothPair(sizes)
+        tooth_pair = tooth_pair_of(sizes)
         for x, phase in positions(pair, random):
             f = random.choice([0.05, 0.2, 0.5])
             angle.see(abs(tooth_pair.angle(phase, x) - pair.angle(x, phase)) / pair.p2, sizes, x)
@@ -79,7 +82,7 @@ def test_angle_speed_and_efficiency_at_50_digits(most: float, number: int) -> No
 @pytest.mark.parametrize("most", [1e3, 1e6])
 def test_arrays_give_the_floats_one_by_one(most: float, number: int) -> None:
     for sizes, pair, random in pairs(4, number // 4, most):
-        tooth_pair = ToothPair(sizes)
+        tooth_pair = tooth_pair_of(sizes)
         for x, phase in positions(pair, random):
             many = np.array([x, x])
             for what in (tooth_pair.angle, tooth_pair.speed):
@@ -126,7 +129,7 @@ def test_radii_by_rule_are_those_of_the_source() -> None:
 def test_the_speed_ratio_is_the_derivative_of_the_driven_angle(phase: str) -> None:
     speed, slope = Worst(), Worst()
     for sizes, pair, random in pairs(7, 40, 1e4):
-        tooth_pair = ToothPair(sizes)
+        tooth_pair = tooth_pair_of(sizes)
         for x, here in positions(pair, random, 4):
             if here != phase or pair.lean(x, phase) > STEEP:
                 continue
@@ -147,9 +150,9 @@ def test_turned_back_each_wheel_finds_the_other_where_it_was() -> None:
     """f21(-f12(-x)) = x: the front flanks of one direction are the back flanks of the other."""
     worst = Worst()
     for sizes, pair, random in pairs(8, 150, 1e5):
-        back = ToothPair(sizes.swapped())
+        back = tooth_pair_of(sizes.swapped())
         for x, _ in positions(pair, random):
-            y = -ToothPair(sizes).contact(-x)
+            y = -tooth_pair_of(sizes).contact(-x)
             tau = float(pair.speed(-x))
             worst.see(abs(back.contact(y) - x) / sizes.p1 * min(1, tau / sizes.ratio), sizes, x)
     assert worst.error <= 1e-11, worst
@@ -171,7 +174,7 @@ def test_efficiency_is_the_balance_of_forces(phase: str, wheel: int) -> None:
     sides = set()
     for given, _, random in pairs(9, 60, 1e3):
         sizes = given if wheel == 1 else given.swapped()
-        pair, tooth_pair = Pair.of(sizes), ToothPair(sizes)
+        pair, tooth_pair = Pair.of(sizes), tooth_pair_of(sizes)
         for _ in range(4):
             x = near_the_pitch_point(pair, phase, random)
             f = random.uniform(0.02, 0.6)
@@ -195,7 +198,7 @@ def test_moment_arms_are_distances_of_the_force_and_the_instant_centre_is_on_the
     """Moments of the vectors over the force; the normal through the contact, where it meets the line of centres."""
     arms, centres, ratios, powers = Worst(), Worst(), Worst(), Worst()
     for sizes, pair, random in pairs(10, 40, 1e3):
-        tooth_pair = ToothPair(sizes)
+        tooth_pair = tooth_pair_of(sizes)
         for _ in range(4):
             x, f = near_the_pitch_point(pair, phase, random), random.uniform(0, 0.6)
             inside = abs(x) < pair.amax and (phase == APPROACH) == (x > pair.matching)

@@ -276,7 +276,7 @@ class CircularArc(ToothForm):
 
 @lru_cache(maxsize=256)
 def _gears(first: ArcTooth, second: ArcTooth, distance: float) -> OutlineGears:
-    """Return the outlines of a pair at its centre distance [module], computed once for equal pairs of a train."""
+    """Return the outlines of both wheels at a centre distance [module]. Equal pairs of a train share them."""
     from geartrain.teeth.contact.outline_transmission import OutlineGears
 
     # sum of half the thicknesses of both wheels; what remains of a pitch of pi modules is the backlash

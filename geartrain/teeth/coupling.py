@@ -88,7 +88,7 @@ class CouplingRow(NamedTuple):
 
 
 def ratio_row(name: str, driven: str, driver: str, mean: Fraction) -> CouplingRow:
-    """Return the row of a coupling whose mean ratio `mean` is the driven speed divided by the driver speed."""
+    """Return the row of a coupling of two ends with the mean ratio `mean`, driven speed divided by driver speed."""
     return CouplingRow(name, driven, driver, mean.denominator, -mean.numerator)
 
 
@@ -184,7 +184,7 @@ class Coupling(BaseModel):
 
     @property
     def transmission(self) -> TransmissionFunction | None:
-        """Transmission function if the first end drives; None if the ratio is constant or data are missing."""
+        """Transmission function if the first end drives; None if the speed ratio is constant or sizes are missing."""
         return None
 
     @property
@@ -201,12 +201,12 @@ class Coupling(BaseModel):
 
     @property
     def periods_per_turn(self) -> Fraction:
-        """Number of periods of the transmission function in one revolution of the driver relative to the carrier."""
+        """Number of periods of the transmission function in one turn of the driver relative to the carrier."""
         return Fraction(1)
 
     @property
     def remark(self) -> str:
-        """Predicate on the deviation from the mean motion, such as "moves 1/4 of the time"; an empty string if none."""
+        """Words on the deviation from mean motion, such as "moves 1/4 of the time"; empty if there are none."""
         return ""
 
     @property
@@ -257,8 +257,8 @@ class Coupling(BaseModel):
     def renamed(self, names: Mapping[str, str], name: str) -> Self:
         """Return a copy of the coupling that connects other links.
 
-        names   new name of each replaced link, keyed by the old name
-        name    new `id`
+        names   new name of each link that is replaced, keyed by its old name
+        name    new `id` of the coupling
         """
         changed: dict[str, Any] = {"id": name}
         for key in self.ENDS:

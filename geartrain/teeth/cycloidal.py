@@ -128,8 +128,9 @@ class Cycloidal(ConjugateToothForm):
 
 
 def _arc_of_addendum(pitch: PitchSurfaces, R: float, z: float, rho: float, height: Fraction) -> float:
-    """Return the arc of contact X [module; rad on the unit sphere for bevel gears] that ends at the tip of an addendum
-    with a height of `height` modules.
+    """Return the arc of contact on the pitch surfaces [module; rad for bevel gears] that ends at the tip of an
+    addendum. `R` and `rho` are radii of pitch circle and rolling circle, or half-angles of their cones; `height` is the
+    addendum in modules.
     """
     from math import asin, sin
 

@@ -93,7 +93,7 @@ class CycloidalDisc:
         return found
 
     def _inward_normals(self, turn: Floats) -> Floats:
-        """Return the unit normals of the outline from the centres of the pins inwards, as complex numbers x + iy."""
+        """Return unit normals of the outline as complex numbers x + iy. They point from the pins into the disc."""
         to_pitch_point = self.pins / 2 * np.exp(1j * turn) - self.circle
         found: Floats = np.exp(1j * turn / self.lobes) * to_pitch_point / np.abs(to_pitch_point)
         return found
@@ -176,7 +176,7 @@ class CycloidalDisc:
 
     @property
     def _phases(self) -> Floats:
-        """Equally spaced angles of one pin that cover a pitch [rad]."""
+        """Equally spaced angles of one pin from the line of centres, which cover a pitch [rad]."""
         return np.linspace(0, 2 * pi / self.pins, _PHASES, endpoint=False)
 
     @cached_property
@@ -188,7 +188,7 @@ class CycloidalDisc:
         return int(number.min()), int(number.max())
 
     def angles(self, phase: Floats) -> Floats:
-        """Return the angles of all pins from the pitch point [rad], shape (pins, ...), with one pin at `phase`."""
+        """Return the angles of all pins from the pitch point [rad], shape (pins, ...); one pin is at `phase`."""
         each = 2 * pi / self.pins * np.arange(self.pins)
         found: Floats = each.reshape(-1, *[1] * np.ndim(phase)) + phase
         return found
@@ -295,8 +295,8 @@ class DiscTransmission(ExactRatio, ToothTransmission):
         return DiscTransmission(self.disc, self.friction, driver, direction)
 
     def _phase(self, S: ArrayLike) -> Floats:
-        """Return the angle of a pin from the line of centres [rad] at driver angles S [rad]. At S = 0 it is 0 if the
-        ring drives, and half a pin pitch if the disc drives.
+        """Return the angle of a pin from the line of centres [rad] at driver angles S [rad]. At S = 0, this angle is 0
+        if the ring drives, and half a pin pitch if the disc drives.
         """
         S = self.direction * np.asarray(S, dtype=float)
         found: Floats = S if self.driver == 2 else S * self.disc.lobes / self.disc.pins + pi / self.disc.pins
@@ -344,7 +344,7 @@ class DiscMesh(GearMesh):
 
     @property
     def tooth_phase(self) -> float:
-        """Distance [pitch] of a lobe past the line of centres at disc angle 0: half a pitch less half the backlash."""
+        """Distance [pitch] of a lobe past the line of centres at the disc angle 0: half of pitch minus backlash."""
         return (1 - self.backlash) / 2
 
     def size(self, tips: Mapping[str, float]) -> PairSize:

@@ -134,7 +134,7 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def gears(self) -> tuple[str, str]:
-        """Names of gear 1 and gear 2 of the tooth form, in the order of the pair unless the form changes it."""
+        """Names of gears 1 and 2 of the tooth form: the wheels of the pair in order, unless the form swaps them."""
         return self.gear.pair
 
     @property
@@ -153,7 +153,7 @@ class GearMesh(Pictured, Shown, ABC):
         return self.transmission.verdict
 
     def own_faults(self) -> Iterator[Problem]:
-        """Yield all faults of the teeth of the pair. The messages do not mention the pair or its file."""
+        """Yield all faults of the teeth. The messages do not mention the pair or its file."""
         yield from (fault.problem for fault in self.verdict.faults)
         yield from self.friction_faults()
 
@@ -285,7 +285,7 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def cut_sizes(self) -> Any:
-        """Nominal `TriangularSizes` of the pair. Raises `RangeError` for other tooth forms."""
+        """Nominal sizes of triangular teeth, as `TriangularSizes`. Raises `RangeError` for other tooth forms."""
         why, fix = "cutting errors are modelled for triangular teeth only", "declare `tooth_form: {form: triangular}`"
         raise RangeError(Problem(f"{self.label} has no triangular teeth", why, fix))
 
@@ -344,7 +344,7 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def tooth_phase(self) -> float:
-        """Distance [pitch] of a driven tooth past the line of centres when the driven angle is 0."""
+        """Distance [pitch] of a driven tooth past the line of centres when the angle of the driven wheel is 0."""
         return 0.0
 
     @property
@@ -425,12 +425,12 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def ways(self) -> tuple[Self, ...]:
-        """Meshes to examine: only this mesh, or one for each of the two wheels if the driver is not determined."""
+        """Meshes to examine for faults: this mesh, or one for each wheel as the driver if the driver is not known."""
         return (self,) if self.who.known else (self, self.driven_by(replace(self.who, wheel=self.driven)))
 
 
 def find_faults(ways: Sequence[GearMesh]) -> tuple[Problem, ...]:
-    """Return all faults of one gear pair, for each wheel that may drive it.
+    """Return all faults of one gear pair. `ways` are its meshes with each of the wheels that may drive.
 
     A fault that occurs with only one of the drivers names that driver.
     """

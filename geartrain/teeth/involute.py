@@ -143,7 +143,9 @@ class Involute(ConjugateToothForm):
         return self.involutes(wheels).bottom_clearance(gear)
 
     def backlash_apart(self, wheels: WheelPair, gap: float) -> float | None:
-        """Return the backlash [module] with wheels `gap` modules farther apart; None below the base circles."""
+        """Return the backlash [module] if the wheels are moved apart by `gap` [module] from their centre distance; None
+        if the base circles would not allow the new distance.
+        """
         found = self.involutes(wheels)
         # in a ring the teeth separate as the centre distance decreases
         moved = replace(found, distance=found.distance + (-gap if wheels.internal else gap))

@@ -141,7 +141,7 @@ class Lantern(ConjugateToothForm):
         return (ToothFault("undercut", mate, -start if self.pins == 1 else start, what, why, fix),)
 
     def lantern_pins(self, wheels: WheelPair) -> LanternPins:
-        """Return the pins, with lengths in modules."""
+        """Return the pins of the lantern, with lengths in modules."""
         from geartrain.teeth.outlines.wheel_requirement import LanternPins
 
         z = wheels.z1 if self.pins == 1 else wheels.z2
@@ -149,7 +149,7 @@ class Lantern(ConjugateToothForm):
         return LanternPins(self.pins, radius, wheels.modules(self.pin_diameter, "pin_diameter") / 2)
 
     def _sizes(self, R: float, wheels: WheelPair) -> tuple[float, float]:
-        """Return the distance of the pins from their axis and the radius of a pin [module]."""
+        """Return the distance of the pins from the lantern's axle and their radius [module], for pitch radius `R`."""
         pins = self.lantern_pins(wheels)
         A, B = pins.circle, pins.radius
         z = wheels.z1 if self.pins == 1 else wheels.z2
@@ -171,7 +171,8 @@ class Lantern(ConjugateToothForm):
     def _arcs(
         self, pitch: PitchSurfaces, R: float, A: float, B: float, mate: float, start: float
     ) -> tuple[float, float]:
-        """Return two arcs X of contact [module]: on the mate's addendum and on the mate's dedendum.
+        """Return the arcs of contact on the mate's addendum and on the mate's dedendum [module on the pitch circles].
+        `start` is the arc at which the mate's flank begins; R, A, B and `mate` are defined in `flank_start`.
 
         By default the arc on the addendum is one pitch from the start of the flank, and the arc on the dedendum is 0.
         """

@@ -130,8 +130,9 @@ class LeastFriction(ConjugateToothForm):
         return PathOfContact(pitch, approach, recess)
 
     def _weight(self, pitch: PitchSurfaces) -> Callable[[Floats], Floats] | None:
-        """Return the friction loss per distance d, up to a factor: mu S, where mu is the coefficient of friction, and S
-        is d, or sin d for bevel gears. Return None if mu is the same at all contacts.
+        """Return the friction loss per distance from the pitch point, up to a factor, as a function of this distance d:
+        mu S, where mu is the coefficient of friction and S is d, or sin d for bevel gears. Return None if mu is the
+        same at all contacts.
         """
         if self.friction_law is None or self.pitch_line_speed is None or self.friction_law.of_pitch_line:
             return None

@@ -129,7 +129,7 @@ class MeshingWheels:
 
 @dataclass(frozen=True, slots=True)
 class PairSize:
-    """Size of a pair with real teeth: scale of its lengths, and centre distance at which its wheels are placed."""
+    """Size of a pair: scale of the lengths of its teeth, and centre distance at which its wheels are placed."""
 
     scale: float
     """Length unit of the teeth, in modules."""

@@ -130,7 +130,7 @@ class SlidingEfficiency(Result):
 
 
 def _gear_or_none(gear: int) -> int | None:
-    """Return the number of the faulty gear; None if `gear` is 0, which denotes the pair as a whole."""
+    """Return the number of the faulty gear, or None if `gear` is 0, which means the pair as a whole."""
     return gear or None
 
 
@@ -202,7 +202,7 @@ def verdict_of_faults(faults: tuple[ToothFault, ...], backlash: float) -> PairVe
 
 
 def friction_lock(friction: float, locking: float) -> Problem:
-    """Return the problem of teeth whose coefficient of friction is at or above the limit `locking`."""
+    """Return the problem of teeth that friction locks: the coefficient `friction` is not below the limit `locking`."""
     return Problem(
         f"a coefficient of friction of {friction:g} locks these teeth",
         f"at a coefficient of {locking:.6g} or more the driver cannot overcome the sliding friction at some angle",

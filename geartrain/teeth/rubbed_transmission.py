@@ -67,7 +67,7 @@ class RubbedTransmission(TransmissionFunction):
         return self.transmission.speed_leaps()
 
     def steepest_fall(self) -> float | None:
-        """Return the maximum decrease of the underlying speed ratio [1/rad]; None if it is not known."""
+        """Return the maximum rate of decrease of the underlying speed ratio [1/rad]; None if it is not known."""
         return self.transmission.steepest_fall()
 
     @property
@@ -121,6 +121,6 @@ class RubbedTransmission(TransmissionFunction):
 
 
 def pair_friction(wheels: MeshingWheels) -> PairFriction | None:
-    """Return the friction law of a pair at its pitch-line speed; None without a law or a known speed."""
+    """Return the friction law of a pair at its pitch-line speed; None without a law or if the speed is unknown."""
     declared, at = wheels.friction_law, wheels.pitch_line
     return None if declared is None or at is None else PairFriction(declared, at)

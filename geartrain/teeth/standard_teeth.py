@@ -76,7 +76,9 @@ def _connected(first: str, edges: Iterable[tuple[str, str]]) -> list[str]:
 def _design(
     group: Iterable[str], edges: Iterable[tuple[str, str]], gears: Mapping[str, UndeclaredWheel], angle: int
 ) -> dict[str, StandardTeeth] | None:
-    """Return the standard teeth of connected wheels at a pressure angle [deg]; None if a pair cannot run."""
+    """Return the standard teeth of a group of connected wheels with a pressure angle of `angle` degrees; None if one of
+    the pairs `edges` cannot run with them.
+    """
     addenda = dict.fromkeys(group, ADDENDUM)
     for first, second in edges:
         heights = (height for height in _ADDENDA if _runs(gears[first], gears[second], angle, (height, height)))
@@ -102,7 +104,7 @@ def _runs(first: UndeclaredWheel, second: UndeclaredWheel, angle: int, addenda: 
 
 
 def lone_mate(gear: UndeclaredWheel) -> UndeclaredWheel:
-    """Return a mate for a wheel without one: an equal wheel, or a pinion of half the teeth for a ring gear."""
+    """Return a mate for a wheel that has none: an equal wheel, or for a ring gear a pinion with half its teeth."""
     return UndeclaredWheel(max(gear.z // 2, 1)) if gear.internal else gear
 
 

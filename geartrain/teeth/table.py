@@ -72,10 +72,11 @@ class PeriodicPoints(BaseModel):
         return 2 * pi * pitches / z1
 
     def table(self, points: Sequence[tuple[Quantity, float]], counts: tuple[int, int]) -> PeriodicTable:
-        """Return the periodic function through points. Each point consists of an angle of the driver (or a fraction of
-        the period) and a value.
+        """Return the periodic function that passes through points. Each point consists of an angle of the driver (or a
+        fraction of the period) and a value.
 
-        Raises `GearTrainError` if the last point does not agree with the first one, or do not define a function.
+        Raises `GearTrainError` if the last point does not agree with the first one, or if the points do not define a
+        function.
         """
         from geartrain.numerics.periodic_function import PeriodicTable, check_points
 
@@ -179,7 +180,7 @@ class LiveFunction:
 
     @classmethod
     def read(cls, raw: object) -> LiveFunction:
-        """Return a transmission function that is given as a Python object, or by its name in plain data."""
+        """Return a transmission function from a Python object, or from its name in plain data."""
         from geartrain.teeth.given_transmission import TransmissionProtocol
 
         found = cls._living.get(raw, raw) if isinstance(raw, str) else raw
@@ -343,7 +344,9 @@ class GivenError(ToothForm):
         return GivenTransmission(function, counts, self.driver, self.backlash.si, efficiencies, self.driver)
 
     def _efficiencies(self, counts: tuple[int, int]) -> Efficiencies | None:
-        """Return the efficiencies with the wheel `driver` driving and with its mate driving; None without losses."""
+        """Return the efficiencies for the case that the declared wheel `driver` drives and for the case that its mate
+        drives; None without losses.
+        """
         from geartrain.numerics.periodic_function import HarmonicSeries
         from geartrain.teeth.given_transmission import checked_efficiency
 

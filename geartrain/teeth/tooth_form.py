@@ -24,12 +24,12 @@ ShaftAngle = Callable[[], float | None]
 
 
 def twice(raw: object) -> object:
-    """Return a pair of two equal values if a single value is given. A pair is returned unchanged."""
+    """Return a pair of two equal values if a single value is given, or a given pair itself."""
     return raw if isinstance(raw, list | tuple) else (raw, raw)
 
 
 def number_of_wheel(raw: object) -> object:
-    """Convert "1" or "2" to an integer, because a declaration gives numbers as strings."""
+    """Convert the texts "1" and "2" to numbers, because declarations name the two wheels of a pair by such texts."""
     return int(raw) if raw in ("1", "2") else raw
 
 
@@ -182,7 +182,7 @@ class ToothForm(BaseModel, ABC):
 
     @property
     def rack_angle(self) -> float | None:
-        """Pressure angle of the rack that cuts these teeth [rad]; None for teeth that are not cut by a rack."""
+        """Pressure angle of the rack that generates these teeth [rad]; None if no rack does."""
         return None
 
     def own_backlash(self, pair: str) -> Problem | None:

@@ -68,7 +68,7 @@ class SpeedLeap(NamedTuple):
 
 
 class ContactRubbing(NamedTuple):
-    """Sliding and friction terms of a pair at given driver angles: one row for each contact, NaN without contact."""
+    """Sliding speed and friction terms, arrays with one row for each contact of a pair; NaN without contact."""
 
     sliding: Floats
     """Sliding speed divided by pitch-line speed, 0 or more."""
@@ -248,7 +248,7 @@ class TransmissionFunction(Shown, ABC):
 
     @cached_property
     def _efficiencies(self) -> tuple[Floats, Floats, Floats]:
-        """Weights, efficiencies and speed ratios at the quadrature nodes at which there is contact."""
+        """Weights, efficiencies and speed ratios at those quadrature nodes over one period at which teeth touch."""
         import numpy as np
 
         S, weights = self.graded_nodes(lambda S: self.speed(S) / self.efficiency(S))
@@ -341,7 +341,9 @@ class TransmissionFunction(Shown, ABC):
         return []
 
     def smooth_intervals(self) -> list[tuple[float, float]]:
-        """Return the driver angles [rad] between successive kinks of a period, without intervals of rounding error."""
+        """Return the intervals of the driver angle [rad] between successive kinks within a period. Intervals that are
+        as short as rounding errors are omitted.
+        """
         # a function without kinks is smooth over a whole period, from 0
         cuts = sorted({kink % self.period for kink in self.kinks()} or {0.0})
         edges = pairwise([*cuts, cuts[0] + self.period])
@@ -443,7 +445,7 @@ class ExactRatio(TransmissionFunction):
         return self._constant(S, float(self.ratio))
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """Return the sliding speed and the friction terms of a single contact that does not slide, which are 0."""
+        """Return sliding speed and friction terms of a single contact, all 0 because losses are not modelled."""
         return ContactRubbing(*(self._constant(S, 0.0)[None] for _ in range(3)))
 
     def speed_range(self) -> tuple[float, float]:

@@ -106,7 +106,7 @@ class CellTable:
 
 
 def folded_kinks(transmission: TransmissionFunction) -> Floats:
-    """Return the distinct kinks of a transmission function modulo its period, in ascending order [rad]."""
+    """Return the different kinks of a transmission function, reduced to one period and sorted [rad]."""
     return np.unique(np.mod(np.asarray(transmission.kinks(), dtype=float), transmission.period))
 
 

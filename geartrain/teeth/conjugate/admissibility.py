@@ -58,7 +58,9 @@ def _undercuts(path: PathOfContact) -> Iterator[ToothFault]:
 
 
 def _dwell(path: PathOfContact, d: Floats, U: Floats, gear: int, recess: bool) -> float:
-    """Return the arc X at which the speed along the profile of `gear` is first 0, refined from the samples."""
+    """Return the arc X on the pitch surfaces at which the contact's speed along the profile of `gear` first reaches 0.
+    `d` and `U` are sampled distances from the pitch point and the speeds there, between which the result is refined.
+    """
     at = int(np.argmax(U <= 0))
     if at == 0:
         return 0.0

@@ -97,12 +97,14 @@ def cone_reach(R: float, rho: float, tip: float) -> float:
 
 
 def pin_piece(R: float, A: float, B: float, end: float, inside: bool = False) -> PathPiece:
-    """Return the path of contact of a round pin, with the pressure angle sin psi = (L^2 + R^2 - A^2) / (2 R L).
+    """Return the path of contact of a round pin, with the pressure angle psi from sin psi = (L^2 + R^2 - A^2) / (2 R
+    L).
 
     R is the pitch radius of the lantern, A the distance of its pins from the axle, B the radius of a pin, and L the
-    distance of the pin's centre from the pitch point: L = B + d, or B - d if `inside`. If `inside` is False, the
-    contact is on the mate's addendum; if True, on the mate's dedendum, as far as its undercut. The arc X is R times the
-    angle of the pin's centre from the line of centres, less the value of this angle at the pitch point.
+    distance of the pin's centre from the pitch point. At the distance d of the contact from the pitch point, L = B + d,
+    or B - d if `inside`. If `inside` is False, the contact is on the mate's addendum; if True, on the mate's dedendum,
+    as far as its undercut. The arc X is R times the angle of the pin's centre from the line of centres, less the value
+    of this angle at the pitch point.
     """
     sign = -1.0 if inside else 1.0
 
@@ -172,7 +174,9 @@ def pin_reach(R: float, A: float, B: float, mate: float, tip: float) -> float:
 
 
 def pin_arc(R: float, A: float, B: float, d: float) -> float:
-    """Return the arc X [module] from the pitch point to the contact on the mate's addendum at the distance `d`."""
+    """Return the arc X [module] on the pitch circles from the pitch point to the contact at the distance `d` on the
+    mate's addendum. R, A and B are defined in `lantern`.
+    """
     return float(pin_piece(R, A, B, d).travel(np.array(d)))
 
 
@@ -180,8 +184,8 @@ def pin_arc(R: float, A: float, B: float, d: float) -> float:
 
 
 def _extremal_piece(pitch: PitchSurfaces, D: float, start: float, end: float) -> PathPiece:
-    """Return the extremal of the friction loss, docs/shapes.md (10): S = D cos psi, with the arc X = D ln d, or D ln
-    tan(d/2) on cones, counted from the first contact. S is d, or sin d on cones.
+    """Return the extremal of the friction loss, the path S = D cos psi of docs/shapes.md (10), between two distances d
+    from the pitch point. S is d, or sin d on cones. The arc X on the pitch surfaces is counted from the first contact.
     """
 
     def sine(d: Floats) -> Floats:
@@ -201,7 +205,9 @@ def _extremal_piece(pitch: PitchSurfaces, D: float, start: float, end: float) ->
 
 
 def extremal(pitch: PitchSurfaces, X: float, first: float, last: float) -> PathSide:
-    """Return the extremal of minimum friction with an arc X and pressure angles from `first` to `last` [rad]."""
+    """Return one side of the path of contact of minimum friction, docs/shapes.md (10), with an arc X on the pitch
+    surfaces and pressure angles from `first` to `last` [rad].
+    """
     if not pitch.bevel:
         D = X / log(cos(last) / cos(first))
         return PathSide((_extremal_piece(pitch, D, D * cos(first), D * cos(last)),))
@@ -255,8 +261,8 @@ def flank_start(R: float, A: float, B: float, mate: float) -> float:
 
 
 def _cusp(R: float, A: float, B: float, mate: float, far: float) -> float | None:
-    """Return the maximum pin angle [rad] at which the contact has zero speed along the mate's flank (a cusp of the
-    flank); None if there is no cusp.
+    """Return the maximum angle [rad] of a pin, up to `far`, at which the contact has zero speed along the mate's flank,
+    so that the flank has a cusp; None if there is no cusp. R, A, B and `mate` are defined in `flank_start`.
     """
 
     # a negative distance d belongs to contacts inside the pitch point, which the same formulas describe
@@ -278,18 +284,24 @@ def _cusp(R: float, A: float, B: float, mate: float, far: float) -> float | None
 
 
 def _flank(R: float, A: float, B: float, mate: float, beta: float) -> complex:
-    """Return the point of contact of a pin at the angle `beta`, as x + iy [module] from the mate's axis."""
+    """Return the point at which a pin touches the mate's flank, as x + iy [module] from the mate's axis. `beta` is the
+    angle [rad] of the pin from the line of centres; R, A, B and `mate` are defined in `flank_start`.
+    """
     G = _centre(R, A, np.array(beta))
     return complex((G * (1 - B / np.abs(G)) + 1j * mate) * np.exp(1j * R / mate * beta))
 
 
 def _nearest(R: float, A: float, mate: float, point: complex, low: float, high: float) -> float:
-    """Return the minimum distance [module] of a pin's centre from a point of the mate, at angles `low` to `high`."""
+    """Return the minimum distance [module] of a pin's centre from a point of the mate while the pin turns from the
+    angle `low` to `high` [rad]. R, A and `mate` are defined in `flank_start`.
+    """
     # the mate's frame turns by R / mate t while the lantern turns by t
     return -peak(lambda t: -np.abs((_centre(R, A, t) + 1j * mate) * np.exp(1j * R / mate * t) - point), low, high)
 
 
 def _centre(R: float, A: float, beta: Floats) -> Points:
-    """Return the centre of a pin at the angle `beta` from the line of centres, as x + iy from the pitch point."""
+    """Return the centre of a pin at the angle `beta` [rad] from the line of centres, as x + iy [module] from the pitch
+    point. R is the pitch radius of the lantern, and A the distance of the pin from its axle.
+    """
     found: Points = 1j * R - 1j * A * np.exp(1j * beta)
     return found

@@ -332,7 +332,7 @@ class ConjugateToothForm(ToothForm):
 
 @lru_cache(maxsize=1024)
 def conjugate_pair_of(form: ConjugateToothForm, wheels: WheelPair) -> ConjugatePair:
-    """Return the conjugate pair of a tooth form and two wheels, which is computed once and then cached."""
+    """Return the conjugate pair of a tooth form and two wheels. It is computed once and then cached."""
     return form.pair(wheels)
 
 
@@ -340,7 +340,9 @@ def conjugate_pair_of(form: ConjugateToothForm, wheels: WheelPair) -> ConjugateP
 
 
 def arcs_of(figures: tuple[Figure, Figure], pitch: PitchSurfaces) -> tuple[float, float]:
-    """Convert arcs of approach and recess from pitches to arcs X on the pitch surfaces [module; bevel gears: rad]."""
+    """Convert declared arcs of approach and recess [pitch] to lengths on the pitch surfaces [module; bevel
+    gears: rad].
+    """
     return float(figures[0].value) * pitch.p, float(figures[1].value) * pitch.p
 
 
@@ -382,7 +384,9 @@ def check_wheels(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle
 
 
 def check_order(form: ToothForm, pair: tuple[str, str]) -> None:
-    """Raise `GearTrainError` if a pair names its ring gear first but declares `pins` or unequal parameters."""
+    """Raise `GearTrainError` if a pair names its ring gear first and its form declares `pins` or a parameter with
+    different values for the two wheels. A ring gear is always gear 2 of the form, which would exchange these values.
+    """
     given = {name: getattr(form, name) for name in type(form).model_fields}
     uneven = [name for name, value in given.items() if isinstance(value, tuple) and value[0].value != value[1].value]
     if uneven := uneven + [name for name in ("pins",) if name in form.model_fields_set]:

@@ -128,9 +128,8 @@ class ConjugateMesh(GearMesh):
         )
 
     def wheel_outline(self, gear: int, cut: BlankSizes) -> WheelOutline:
-        """Return the outline of a wheel, with the designed flanks and a root that is determined by the sizes `cut`.
-
-        If `cut` has no bottom clearance, the bottom clearance of the tooth form is used.
+        """Return the outline of a wheel, with the designed flanks and a root cut as the sizes `cut` require. If `cut`
+        has no bottom clearance, the bottom clearance of the tooth form is used.
         """
         from geartrain.teeth.outlines.wheel_outline import outline
 
@@ -203,7 +202,7 @@ class ConjugateMesh(GearMesh):
 
 @dataclass(frozen=True)
 class ConjugateFigures(PairFigures):
-    """Results of a pair with conjugate teeth, including the designed path of contact."""
+    """Results of a pair with conjugate teeth: those of every pair, and the design at the design distance."""
 
     KEYS = (
         *PairFigures.KEYS,

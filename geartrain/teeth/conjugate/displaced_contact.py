@@ -203,7 +203,7 @@ class DisplacedContact:
         return 2 * pi / self.wheels[0].z, 2 * pi / self.wheels[1].z
 
     def apart_by(self, shift: float) -> DisplacedContact:
-        """Return the contact of the same teeth at a centre distance that is increased by `shift` [module]."""
+        """Return the contact of the same teeth if the centre distance is increased by `shift` [module]."""
         return replace(self, even=self.even + shift * self.apart, distance=self.distance + shift)
 
 
@@ -276,7 +276,7 @@ def _corner_lag(pair: ConjugatePair, gear: int, driver: int) -> CornerLag:
 
 
 def _end_shift(path: PathOfContact, gear: int) -> float:
-    """Return the increase of the arc of contact X per unit increase of the tip radius of `gear`."""
+    """Return the increase of the arc of contact on the pitch surfaces per unit increase of the tip radius of `gear`."""
     # a one-sided difference, because the path is undefined beyond the tip
     foot, tip = path.ends(gear)
     step = _END_STEP * (foot - tip)

@@ -18,7 +18,7 @@ _ROUNDING = 1e-12  # modules: a negative arc of less counts as 0
 
 
 def inv(angle: float) -> float:
-    """Return the involute function of an angle x [rad], tan x - x."""
+    """Return the involute function tan x - x of an angle x [rad]."""
     return tan(angle) - angle
 
 
@@ -195,5 +195,8 @@ def spherical_arc(R: float, psi: float, tip: float) -> float:
 
 
 def cone_height(R: float, z: float, height: float) -> float:
-    """Return the angle [rad] above the pitch cone, of half-angle `R` [rad], of a height in modules of the large end."""
+    """Return the angle [rad on the unit sphere] between the pitch cone of a bevel gear and a point above it. `R` is the
+    half-angle of the pitch cone [rad], `z` the tooth number, and `height` the height of the point in modules of the
+    large end.
+    """
     return atan(height * 2 * sin(R) / z)

@@ -88,8 +88,9 @@ def stress_law(pitch: PitchSurfaces, a: float, b: float, psi: float) -> ValueAnd
 
 
 def _piece_over_arc(made: Callable[[float], PathPiece], guess: float, X: float, start: float = 0.0) -> PathPiece:
-    """Return the piece of a path that ends at the arc X, by Newton's method for the distance d of its end. `made`
-    returns the piece up to a distance; an end out of reach is bisected towards the last end that was reached.
+    """Return a piece of a path of contact that ends at the arc X on the pitch surfaces. `made` returns the piece that
+    ends at a distance from the pitch point, which is found by Newton's method from `guess`. If a distance cannot be
+    reached, it is bisected towards the last one that was.
     """
     low, end, last = start, guess, inf
     for _ in range(_TRIES):
@@ -112,8 +113,9 @@ def _piece_over_arc(made: Callable[[float], PathPiece], guess: float, X: float, 
 def _solutions(
     pitch: PitchSurfaces, f: ValueAndSlope, first: float, start: float = 0.0, piece_maker: PieceMaker | None = None
 ) -> Callable[[float], PathPiece]:
-    """Return a function that solves S v' + f(d, v) = 0 up to a distance d and returns the solution as a piece of a
-    path. Each solution is the initial guess of the next one.
+    """Return a function that solves S v' + f(d, v) = 0 from the distance `start` up to a distance d from the pitch
+    point, with v = `first` at `start`. It returns the solution as a piece of a path of contact. S is d, or sin d for
+    bevel gears. Each solution is the initial guess of the next one.
     """
     last: Chebyshev | None = None
 
@@ -126,15 +128,15 @@ def _solutions(
 
 
 def _sine_piece(pitch: PitchSurfaces, f: ValueAndSlope, v: Chebyshev, end: float) -> PathPiece:
-    """Return the piece of a path of contact that corresponds to a solution v = sin psi as a function of the distance d,
-    where psi is the pressure angle.
+    """Return the piece of a path of contact, up to the distance `end` from the pitch point, on which the pressure angle
+    psi at the distance d is given by sin psi = v(d). `v` is a solution of the differential equation S v' + f(d, v) = 0.
     """
     return sampled(v, _slope(pitch, f, v), v.domain[0], end, max(len(v.coef), 64))
 
 
 def _slope(pitch: PitchSurfaces, f: ValueAndSlope, v: Chebyshev) -> Callable[[Floats], Floats]:
-    """Return a function for the derivative v' of a solution v of S v' + f(d, v) = 0, from the differential equation or,
-    close to the pitch point, where it gives 0/0, from the series.
+    """Return a function for the derivative v' of a solution v of S v' + f(d, v) = 0. Close to the pitch point, where
+    the differential equation gives 0/0, the derivative of the Chebyshev series is used.
     """
     steep = v.deriv()
 
@@ -178,7 +180,9 @@ def heat_law(pitch: PitchSurfaces, beta: float, gamma: float) -> ValueAndSlope:
 
 
 def _quotient_piece(pitch: PitchSurfaces, f: ValueAndSlope, g: Chebyshev, end: float) -> PathPiece:
-    """Return the piece of a path of contact for a solution g = sin psi / S, where psi is the pressure angle."""
+    """Return the piece of a path of contact, up to the distance `end` from the pitch point, on which the pressure angle
+    psi at the distance d is given by sin psi = S g(d). `g` is a solution of the differential equation of `heat_law`.
+    """
     steep = _slope(pitch, f, g)
     return sampled(
         lambda d: pitch.S(d) * g(d),
@@ -265,7 +269,7 @@ def _too_long_error(pitch: PitchSurfaces, X: float, psi: float, u: float) -> Ran
 
 def _first_variation(pitch: PitchSurfaces, piece: PathPiece, loss: Weight) -> float:
     """Return the first variation of the friction loss over the piece of minimum contact speed, docs/shapes.md (13) or
-    (19): the integral of `variation_integrand` over d.
+    (19): the integral of `variation_integrand` over the distance d from the pitch point.
     """
     x, weights = _GAUSS
     d = piece.start + (piece.end - piece.start) * (x + 1) / 2
@@ -357,7 +361,7 @@ def _collocated(pitch: PitchSurfaces, f: ValueAndSlope, first: float, d: Floats,
 
 
 def unreachable_end(end: float) -> RangeError:
-    """Return the error that reports an end of the path of contact which cannot be reached."""
+    """Return the error for a path of contact that cannot extend to the distance `end` from the pitch point."""
     what = f"the path of contact does not reach {end:.6g} (modules; bevel gears: rad) from the pitch point"
     why = "its pressure angle would reach 90 deg before that distance"
     return RangeError(Problem(what, why, "use shorter arcs, more teeth, or a smaller pressure angle"))
@@ -367,7 +371,7 @@ def unreachable_end(end: float) -> RangeError:
 
 
 def variation_integrand(pitch: PitchSurfaces, piece: PathPiece, d: Floats, loss: Weight) -> Floats:
-    """Return the integrand of the first variation of the friction loss at distances d.
+    """Return the integrand of the first variation of the friction loss at distances d from the pitch point.
 
     The integrand is the additional loss if the path of contact is higher at d, minus the loss saved because the arc
     becomes longer.
@@ -393,7 +397,7 @@ def check_pieces(pitch: PitchSurfaces, piece: PathPiece, weight: Weight) -> None
 
 
 def other_shape_error(why: str) -> RangeError:
-    """Return the error for a friction law under which teeth of minimum loss have another shape."""
+    """Return the error for a friction law under which teeth of minimum loss have a shape that is not modelled."""
     shape = "a constant pressure angle and a minimum contact speed"
     what = f"with this friction law, teeth of minimum loss do not consist of {shape}"
     fix = "use another pitch_line_speed, a friction law that falls less steeply, or a smaller pressure angle"

@@ -109,12 +109,12 @@ class PathSide:
 
     @property
     def end(self) -> float:
-        """Distance of the contact farthest from the pitch point from this point [module]."""
+        """Distance of the outermost contact from the pitch point [module]."""
         return self.pieces[-1].end
 
     @cached_property
     def arc(self) -> float:
-        """Arc X along the pitch surfaces that corresponds to the whole side [module]."""
+        """Arc X on the pitch surfaces by which the gears turn while the contact moves along the whole side [module]."""
         return float(self.travel(np.array(self.end)))
 
     @property
@@ -131,22 +131,24 @@ class PathSide:
         return self._by_piece(d, [piece.slope for piece in self.pieces])
 
     def travel(self, d: Floats) -> Floats:
-        """Return the arc X along the pitch surfaces [module] while the contact moves from `start` to the distance d."""
+        """Return the arc on the pitch surfaces [module] by which gears turn while the contact moves to distance d."""
         found: Floats = self._offsets[self._which(d)] + self._by_piece(d, [piece.travel for piece in self.pieces])
         return found
 
     @cached_property
     def _offsets(self) -> Floats:
-        """Arcs X along the pitch surfaces at the starts of the pieces [module]."""
+        """Arcs X on the pitch surfaces by which the gears have turned when the contact enters each piece [module]."""
         return np.cumsum([0.0, *(float(piece.travel(np.array(piece.end))) for piece in self.pieces[:-1])])
 
     def _which(self, d: Floats) -> Indices:
-        """Return the index of the piece that contains each distance d; the outer piece where two pieces meet."""
+        """Return the index of the piece that contains the contact at each distance d from the pitch point; where two
+        pieces meet, the index of the outer piece.
+        """
         return np.searchsorted(self.joints[:-1], d, side="right")
 
     def distance(self, X: Floats) -> Floats:
-        """Return the distance d of the contact from the pitch point at the arc X along the pitch surfaces. Newton's
-        method is used, with dd/dX = cos psi.
+        """Return the distance of the contact from the pitch point when the gears have turned by the arc X on the pitch
+        surfaces [module]. Newton's method is used.
         """
         X = np.asarray(X, dtype=float)
         arc = self.arc
@@ -171,8 +173,8 @@ class PathSide:
 
 @dataclass(frozen=True)
 class PathContact(Shown):
-    """Geometry, speeds, stress and heat of the contacts at given pitch-line displacements X. All arrays have the same
-    shape. Contacts with X < 0 are in approach, contacts with X > 0 in recess.
+    """Geometry, speeds, stress and heat of the contacts at given displacements X of the pitch line. All arrays have the
+    same shape. Contacts with X < 0 are in approach, contacts with X > 0 in recess.
     """
 
     X: Floats
@@ -267,7 +269,9 @@ class PathOfContact(Shown):
 
     @property
     def joints(self) -> list[float]:
-        """Arcs X at which the pieces of both sides end [module]; negative in approach."""
+        """Arcs X on the pitch surfaces at which the contact passes from one piece to the next or leaves the last piece
+        [module]; negative in approach.
+        """
         sides = ((-1.0, self.approach), (1.0, self.recess))
         return [sign * float(side.travel(np.array(d))) for sign, side in sides for d in side.joints]
 

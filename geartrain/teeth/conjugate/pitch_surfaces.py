@@ -57,12 +57,12 @@ class PitchSurfaces:
 
     @property
     def reach(self) -> float:
-        """Arc X along the pitch surfaces per radian of rotation of gear 1: R1, or sin R1 on cones."""
+        """Arc on the pitch surfaces per radian of rotation of gear 1: R1, or sin R1 on cones."""
         return sin(self.R1) if self.bevel else self.R1
 
     @property
     def reach2(self) -> float:
-        """Arc X along the pitch surfaces per radian of gear 2: R2 (negative for ring gears), or sin R2 on cones."""
+        """Arc on the pitch surfaces per radian of rotation of gear 2: R2 (below 0 for rings), or sin R2 on cones."""
         return sin(self.R2) if self.bevel else self.R2
 
     def teeth_of(self, gear: int) -> float:
@@ -70,7 +70,7 @@ class PitchSurfaces:
         return self.z1 if gear == 1 else self.z2
 
     def reach_of(self, gear: int) -> float:
-        """Return the absolute value of the arc X along the pitch surfaces per radian of rotation of gear 1 or 2."""
+        """Return the absolute value of the arc on the pitch surfaces per radian of rotation of gear 1 or 2."""
         return self.reach if gear == 1 else abs(self.reach2)
 
     def axle_of(self, gear: int) -> float:
@@ -103,7 +103,9 @@ class PitchSurfaces:
         return found
 
     def point(self, d: Floats, sin_psi: Floats, cos_psi: Floats) -> Floats:
-        """Return contact points in the fixed frame, (..., 2) from the pitch point or (..., 3) on the unit sphere."""
+        """Return contact points in the fixed frame, from their distance `d` from the pitch point and their pressure
+        angle psi. The shape is (..., 2) from the pitch point, or (..., 3) on the unit sphere.
+        """
         S = self.S(d)
         if not self.bevel:
             return np.stack([S * cos_psi, S * sin_psi], axis=-1)

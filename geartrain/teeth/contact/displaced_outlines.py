@@ -168,7 +168,7 @@ def _ends(search: ToothPairSearch) -> tuple[float, float, float, float]:
 
 
 def _around(held: Bools, at: int) -> Bools:
-    """Return a mask of the contiguous True entries of an array that include the index `at`."""
+    """Return a mask of the entries that are connected with the entry `at` by entries that are all True."""
     gaps = np.flatnonzero(~held)
     low, high = gaps[gaps < at], gaps[gaps > at]
     found = np.zeros(len(held), bool)
@@ -177,7 +177,9 @@ def _around(held: Bools, at: int) -> Bools:
 
 
 def _corner(search: ToothPairSearch, end: float, last: float) -> CornerLag:
-    """Return the additional lag of the driven wheel while a tip is in contact beyond an end of flank contact."""
+    """Return the additional lag of the driven wheel while a tip is in contact, from the end of flank contact at the
+    driver angle `end` to the end of tip contact at `last` [rad].
+    """
     if abs(last - end) < _NO_CORNER:
         return CornerLag(_NO_CORNER, np.zeros(2))
     lag = search.at(np.linspace(end, last, _CORNER_NODES)).lag
@@ -185,7 +187,7 @@ def _corner(search: ToothPairSearch, end: float, last: float) -> CornerLag:
 
 
 def _half_widths(search: ToothPairSearch, found: ToothPairContact, gear: int) -> Floats:
-    """Return the half-thickness of the tooth of one wheel at each contact [module]."""
+    """Return the half-thickness [module] of the tooth of `gear` at the point of each contact."""
     if gear == 0:
         return np.asarray(np.hypot(*found.point) * (np.arctan2(found.point[1], found.point[0]) - found.x))
     x, y = search.distance - found.point[0], found.point[1]
@@ -199,7 +201,7 @@ def _sizes(wheel: GearOutline, radius: Floats, tip: float, half: Floats) -> Disp
 
 
 def _pitch_points(search: ToothPairSearch, found: ToothPairContact, gear: int) -> tuple[Floats, Floats]:
-    """Return x and y [module] of the points where the flank in contact intersects the pitch circle of a wheel."""
+    """Return x and y [module] of the points where the flanks in contact intersect the pitch circle of `gear`."""
     table = (search.pair.touch_search.first, search.pair.touch_search.second)[gear]
     radius = (search.first, search.second)[gear].z / 2
     piece = np.flatnonzero((table.ends[0] <= radius) & (radius <= table.ends[1]) & ~table.flat)[:1]

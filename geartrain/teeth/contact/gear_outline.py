@@ -446,7 +446,7 @@ class FlankTable:
 
     @cached_property
     def mirrored(self) -> FlankTable:
-        """Mirror image of the table, in which azimuths have the opposite sign."""
+        """Mirror image of all flanks, in which azimuths have the opposite sign."""
         return replace(self, azimuth=-self.azimuth)
 
     @cached_property
@@ -456,7 +456,7 @@ class FlankTable:
 
     @cached_property
     def stalls(self) -> Bools:
-        """Mask, shape (2, pieces), of the pieces whose radius is stationary in u at the start or at the end."""
+        """Mask, shape (2, pieces): True if the radius of a piece is stationary in u at its start or at its end."""
         powers = np.arange(COUNT)
         slopes = np.stack([np.where(powers % 2, powers, -powers) @ self.radius, powers @ self.radius])
         found: Bools = slopes < _STALLED * (self.ends[1] - self.ends[0])
@@ -486,7 +486,9 @@ class FlankTable:
 
     @cached_property
     def nodes(self) -> tuple[Indices, Floats, Bools]:
-        """Search nodes, shape (teeth, nodes): index of the piece, parameter u, and whether a search interval begins."""
+        """Nodes for the search for contacts, three arrays of shape (teeth, nodes): index of the piece, its parameter u,
+        and whether a search interval begins at the node.
+        """
         # the quotient is rounded up, so that a side with few pieces still has the minimum number of cells
         cells = np.repeat(np.maximum(1, -(-_CELLS // np.diff(self.first))), np.diff(self.first))
         each = []
@@ -505,7 +507,7 @@ class FlankTable:
 
     @cached_property
     def node_values(self) -> tuple[Floats, Floats, Floats, Floats]:
-        """Radius, its derivative by the parameter u, azimuth [rad], and its derivative by u at the search nodes."""
+        """Radius and azimuth [rad] at the `nodes`, each followed by its derivative with respect to u."""
         piece, u, _ = self.nodes
         r, dr = value(self.radius, piece, u)
         a, da = value(self.azimuth, piece, u)

@@ -28,7 +28,7 @@ KINDS = ("flank", "corner of first", "corner of second", "corner on corner")
 
 
 class OutlinePair:
-    """Contact of the front or back flanks of two wheels at one centre distance; back flanks as mirror images."""
+    """Contact of the leading flanks, or of mirror images of the trailing flanks, at one centre distance."""
 
     def __init__(
         self, first: GearOutline, second: GearOutline, distance: float, side: Literal["front", "back"]
@@ -78,9 +78,8 @@ class OutlinePair:
         return angle, speed, pair, *others
 
     def _tooth_pairs(self, rest: Floats) -> tuple[CandidatePairs, Indices]:
-        """Return all tooth pairs within range, and the number of the driver's tooth in each pair.
-
-        In the mirror image, teeth are numbered backwards.
+        """Return all tooth pairs within range at the driver angles `rest` [rad], and the number of the driver's tooth
+        in each pair. In the mirror image, teeth are numbered backwards.
         """
         pitch = self.first.pitch
         # pitch deviations may shift teeth into the window from either side

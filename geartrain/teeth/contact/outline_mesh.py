@@ -51,7 +51,7 @@ class OutlineMesh(GearMesh):
         return PairSize(1.0, distance, distance / self.wheels.touching)
 
     def requirement(self, wheel: str, scale: float, tolerance: float) -> FixedTooth:
-        """Return the tooth of `wheel` exactly as the tooth form defines it, including circular arcs."""
+        """Return the tooth of `wheel` exactly as the tooth form defines it. Circular arcs are kept."""
         del scale, tolerance
         return self.teeth[self.gear.pair.index(wheel)]
 

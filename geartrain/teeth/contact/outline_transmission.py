@@ -102,7 +102,7 @@ class OutlineTransmission(ToothTransmission):
         return self.direction * np.asarray(S, dtype=float)
 
     def _in_direction(self, error: Floats | float) -> Floats:
-        """Convert transmission errors [rad] of the front flanks to the direction of motion."""
+        """Convert transmission errors [rad], computed for the front flanks, to the actual direction of motion."""
         ahead = np.asarray(error) - self._offset
         return ahead if self.direction > 0 else self._backlash - ahead
 

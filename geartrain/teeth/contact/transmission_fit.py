@@ -46,7 +46,7 @@ _MOST = 100_000  # maximum number of stretches per driver pitch
 
 @dataclass(frozen=True)
 class PiecewiseTransmission:
-    """Driven angle [rad] as a function of the driver angle phi1: ratio phi1 plus a periodic piecewise polynomial."""
+    """Driven angle [rad] as a function of the driver angle phi1: mean motion plus a periodic piecewise polynomial."""
 
     ratio: Fraction
     """Mean speed ratio: absolute value of the driven speed divided by the driver speed."""
@@ -115,8 +115,8 @@ class PiecewiseTransmission:
 
 
 class _Stretches(NamedTuple):
-    """Intervals of the driver angle with fitted polynomials: ends (2, n), coefficients (COUNT, n), tooth and kind of
-    contact, and maximum differences between fit and function.
+    """Intervals of the driver angle, each with a polynomial: ends (2, n), coefficients (COUNT, n), tooth and kind of
+    contact, and maximum difference between the polynomial and the driven angle.
     """
 
     ends: Floats
@@ -206,7 +206,9 @@ def tabulate(
 
 
 class _Fitter:
-    """Adaptive polynomial fit. Intervals are divided at their kinks, or bisected, until the fit is accurate."""
+    """Adaptive fit of polynomials to the driven angle. Intervals are divided where the contact changes to another tooth
+    or curve, or bisected, until the fit is accurate.
+    """
 
     def __init__(self, pair_contact: OutlinePair, tolerance: float) -> None:
         self.pair_contact, self.tolerance = pair_contact, tolerance
@@ -215,7 +217,7 @@ class _Fitter:
         self.period = pair_contact.cycle * self.pitch
 
     def fit(self) -> tuple[_Stretches, Floats, Floats]:
-        """Return all intervals in ascending order, their ends, and those ends that are kinks."""
+        """Return all intervals in ascending order, their ends, and those ends at which the contact changes."""
         count = _PARTS * self.pair_contact.cycle
         edges = (np.arange(count + 1) + _OFFSET) * (self.period / count)
         pending, before = np.stack([edges[:-1], edges[1:]]), np.full(count, np.inf)
@@ -241,7 +243,9 @@ class _Fitter:
         return self._ordered(done, np.concatenate(kinks))
 
     def _fitted(self, ends: Floats) -> tuple[_Stretches, Indices]:
-        """Return the fitted polynomials of the intervals, and contact labels at their nodes, shape (4, n, nodes)."""
+        """Return the fitted polynomials of the intervals, and the labels of the contacts at their nodes, shape (4, n,
+        nodes). Contacts of the same tooth and the same curves have the same label.
+        """
         half, middle = np.diff(ends, axis=0)[0] / 2, ends.mean(axis=0)
         phi1 = middle[:, None] + half[:, None] * _ALL
         angle, speed, labels = self._evaluated(phi1)
@@ -258,13 +262,13 @@ class _Fitter:
         return _Stretches(ends, fits[0], fits[1], pair, kind, off[0], off[1]), labels
 
     def _evaluated(self, phi1: Floats) -> tuple[Floats, Floats, Indices]:
-        """Return driven angle [rad], speed ratio and labels of the contact at driver angles phi1 [rad]."""
+        """Return driven angle [rad], speed ratio and label of the contact at driver angles phi1 [rad]."""
         angle, speed, pair, kind, _, _, _, curves = self.pair_contact.at(phi1.ravel(), 0.0)
         labels = np.stack([pair, kind, *curves]).reshape(4, *phi1.shape)
         return angle.reshape(phi1.shape), speed.reshape(phi1.shape), labels
 
     def _kinks(self, ends: Floats, labels: Indices) -> list[Floats]:
-        """Return, for each interval, the driver angles [rad] at which the contact changes."""
+        """Return, for each interval, the driver angles [rad] at which the contact changes to another tooth or curve."""
         changed = (labels[:, :, 1:] != labels[:, :, :-1]).any(axis=0)
         stretch, at = np.nonzero(changed)
         half, middle = np.diff(ends, axis=0)[0] / 2, ends.mean(axis=0)
@@ -274,7 +278,7 @@ class _Fitter:
         return [np.unique(found[stretch == one]) for one in range(ends.shape[1])]
 
     def _located(self, low: Floats, high: Floats, left: Indices) -> Floats:
-        """Return the smallest angle [rad] from `low` to `high` at which the labels differ from `left`."""
+        """Return the smallest angle [rad] from `low` to `high` at which the contact's label differs from `left`."""
         share = np.arange(1, _CUTS) / _CUTS
         for _ in range(20):  # 17^20 exceeds 2^53 by far, so the loop ends by the break below
             inner = low[:, None] + (high - low)[:, None] * share
@@ -291,8 +295,8 @@ class _Fitter:
         return low + (high - low) / 2
 
     def _ordered(self, done: list[_Stretches], kinks: Floats) -> tuple[_Stretches, Floats, Floats]:
-        """Return the intervals sorted by driver angle, their ends, and the ends that are kinks. Kinks are moved to the
-        intersections of adjacent polynomials.
+        """Return the intervals sorted by driver angle, their ends, and those ends that are in `kinks`. These ends are
+        moved to the intersections of the adjacent polynomials.
         """
         everything = joined(done)
         everything = some(everything, np.argsort(everything.ends[0]))
@@ -312,8 +316,9 @@ class _Fitter:
 
 
 def _divided(ends: Floats, cuts: list[Floats], off: Floats) -> tuple[Floats, Floats]:
-    """Return the intervals that result from dividing each interval at its kinks, or from bisecting it if it has none,
-    and the previous fit error of each new interval.
+    """Return the intervals that result from dividing each interval at the angles in `cuts`, or from bisecting it if
+    there are none. With each new interval, return the fit error `off` of the bisected one; infinite if it was divided
+    at `cuts`.
     """
     found, before = [], []
     for (low, high), inner, last in zip(ends.T, cuts, off, strict=True):

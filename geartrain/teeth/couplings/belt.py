@@ -128,7 +128,7 @@ class Belt(Coupling):
         return iter(() if self.by_teeth else self.around.values())
 
     def sense(self, pulley: str) -> int:
-        """Return 1 if a pulley turns in the sense of the first one, relative to the carrier, or -1 if it does not."""
+        """Return 1 if a pulley turns in the same sense as the first one, relative to the carrier, otherwise -1."""
         return 1 if (pulley in self.reversed) == (self.ends[0] in self.reversed) else -1
 
     def rows(self, wheels: Mapping[str, tuple[str, Any]]) -> Sequence[CouplingRow]:

@@ -68,7 +68,9 @@ class CrankSliderTransmission(LosslessTransmission):
         self.r, self.l = radius, rod
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the travel of the slide from its outer dead centre, 0 or less, at crank angles S [2 pi rad = 1 mm]."""
+        """Return the travel of the slide from its outer dead centre at crank angles S [rad]. It is 0 or less, in rad,
+        where 2 pi rad represent 1 mm.
+        """
         import numpy as np
 
         S = np.asarray(S, dtype=float)
@@ -104,8 +106,8 @@ class CrankSliderTransmission(LosslessTransmission):
         return -most, most
 
     def error_range(self) -> tuple[float, float]:
-        """Return the minimum and the maximum travel of the slide, which occur at the dead centres. They are in rad,
-        where 2 pi rad correspond to 1 mm.
+        """Return the minimum and the maximum travel of the slide, which occur at the dead centres, in rad, where 2 pi
+        rad represent 1 mm.
         """
         return -2 * self.period * self.r, 0.0
 

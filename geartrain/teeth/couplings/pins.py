@@ -55,7 +55,7 @@ class PinCoupling(Coupling):
 
 
 class _PinInSlot(PinCoupling):
-    """Pin in a slot. In one turn of the pin, the slot turns `WINDING` times."""
+    """Pin in a slot. The class attribute `WINDING` is the number of turns of the slot in one turn of the pin."""
 
     WINDING: ClassVar[int] = 1
 

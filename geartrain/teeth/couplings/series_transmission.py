@@ -50,7 +50,7 @@ class SeriesTransmission(LosslessTransmission):
         self.rest, self.phase, self.period = 1 - rho if rest is None else rest, phase, 2 * pi / order
 
     def mirrored(self) -> SeriesTransmission:
-        """Return the function for a driver whose forward sense is reversed: the phase changes its sign."""
+        """Return the transmission function for a driver with the opposite forward sense: the phase changes sign."""
         if not self.phase:
             return self
         return SeriesTransmission(self.ratio, self.factor, self.order, self.rho, self.rest, -self.phase)

@@ -48,7 +48,7 @@ class GenevaTransmission(TableTransmission):
         super().__init__(Fraction(pins, slots), deviation)
 
     def mirrored(self) -> GenevaTransmission:
-        """Return this transmission function itself, because its deviation is an odd function."""
+        """Return this function itself, because its deviation is an odd function of the driver angle."""
         return self
 
 
@@ -110,5 +110,7 @@ class StepTransmission(TableTransmission):
         self.dwell = 1 - over * times * Fraction(sum(1 for each in moves if each), len(moves))
 
     def mirrored(self) -> StepTransmission:
-        """Return this function itself, because an engagement begins at S = 0 in either sense of the driver."""
+        """Return this function itself. It also applies to a driver with the opposite forward sense, because an
+        engagement begins at S = 0 in either sense.
+        """
         return self

@@ -30,7 +30,7 @@ _MOST_MOVES = 10_000  # entries of a list of moves: a calendar of four years has
 
 
 def _moves(raw: object) -> object:
-    """Return a list of moves. A single number is converted to a list with one entry."""
+    """Return a list of moves. A single number becomes a list with one entry."""
     return raw if isinstance(raw, list | tuple) else (raw,)
 
 

@@ -60,7 +60,7 @@ class DeviationTransmission(TransmissionFunction):
         self._scale = -1 / self._mean if inverse else float(way)
 
     def _own_angle(self, S: ArrayLike) -> Floats:
-        """Return the argument of the deviation function [rad], modulo its period, at driver angles S [rad]."""
+        """Return the arguments of the deviation function [rad], modulo its period, at driver angles S [rad]."""
         S = np.asarray(S, dtype=float)
         if not self.inverse:
             return np.asarray(self.way * S + self.phase)
@@ -93,7 +93,7 @@ class DeviationTransmission(TransmissionFunction):
         return self._scale * self.deviation(at) + self._lag, self._speed(self.deviation.derivative(at))
 
     def _speed(self, slope: ArrayLike) -> Floats:
-        """Return the speed ratio that corresponds to each slope (derivative) of the deviation function."""
+        """Return the speed ratios at which the deviation function has the derivatives `slope`."""
         own = self._mean + np.asarray(slope)
         return np.asarray(1 / own if self.inverse else own)
 
@@ -126,7 +126,7 @@ class DeviationTransmission(TransmissionFunction):
         return found
 
     def _jumps(self, order: int) -> Floats:
-        """Return the jumps of the derivative of order `order` of the deviation at its breakpoints; 0 for rounding."""
+        """Return the jumps of the deviation's derivative of this order at its breakpoints; 0 for rounding errors."""
         before, after = self.deviation.sides(order)
         low, high = self.deviation.extremes(order)
         return np.where(np.abs(after - before) > _SLIGHT * (high - low), after - before, 0.0)
@@ -137,7 +137,7 @@ class DeviationTransmission(TransmissionFunction):
         return bool(self._jumps(0).any())
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...]:
-        """Return the upward steps of the speed ratio within one period, for motion in the direction of rotation."""
+        """Return the upward steps of the speed ratio within one period."""
         sides = [self._speed(each[self._jumps(1) != 0]) for each in self.deviation.sides(1)]
         pairs = zip(*(each.tolist() for each in sides[:: self.way * self.direction]), strict=True)
         return tuple(SpeedLeap(before, after) for before, after in pairs if after > before)

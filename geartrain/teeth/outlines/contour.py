@@ -123,7 +123,7 @@ class Contour(Shown):
 
 
 def _arc(start: Floats, end: Floats, bulge: float, tolerance: float) -> Floats:
-    """Return points of a polyline within `tolerance` of an arc, without the end point of the arc."""
+    """Return points of a polyline that is within `tolerance` of an arc. The end point of the arc is omitted."""
     radius, sweep = arc_radius(start, end, bulge), 4 * atan(bulge)
     # angle of the chord whose sagitta equals the tolerance
     step = max(2 * acos(max(1 - tolerance / radius, -1.0)), _MINIMUM_STEP)

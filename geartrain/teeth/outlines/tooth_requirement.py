@@ -61,7 +61,7 @@ _ALIKE = 1e-5  # modules: flanks that differ by less are equal
 
 @dataclass(frozen=True)
 class ToothRequirement(WheelRequirement):
-    """Teeth of gear 1 or 2 that a conjugate pair requires. Lengths are in modules."""
+    """Required flanks and root of gear 1 or 2 of a conjugate pair. Lengths are in modules."""
 
     pair: ConjugatePair
     """Conjugate pair at its design distance."""
@@ -101,7 +101,7 @@ class ToothRequirement(WheelRequirement):
 
     @cached_property
     def other(self) -> ToothRequirement:
-        """Requirement of the same pair on the teeth of the mate."""
+        """Requirement of the same pair on its other gear."""
         return ToothRequirement(self.pair, 3 - self.gear, self.tolerance, self.clearance, self.pins)
 
     @property
@@ -144,7 +144,7 @@ class ToothRequirement(WheelRequirement):
 
     @cached_property
     def passage(self) -> MatePassage:
-        """Positions of the mate's tooth or pin within the tooth spaces of this gear."""
+        """Positions of the mate's tooth or pin while it passes through a tooth space of this gear."""
         own, other = self.flank, self.other
         found = other.flank
         if self.pins is not None and other.gear == self.pins.gear:
@@ -209,7 +209,7 @@ def check_flat(pair: ConjugatePair) -> None:
 
 
 def alike(one: ToothRequirement, other: ToothRequirement) -> bool:
-    """Return True if one tooth satisfies both requirements: equal tip radii, and equal flanks where both are active."""
+    """Return True if one tooth satisfies both requirements: equal tip radii, and equal flanks where both touch."""
     first, second = one.flank, other.flank
     if first.outward != second.outward or abs(first.r[-1] - second.r[-1]) > _ALIKE:
         return False

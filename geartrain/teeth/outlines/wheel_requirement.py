@@ -17,7 +17,9 @@ SAME_SIZE = 1e-9  # of a length, or rad: smaller differences count as equal
 
 @dataclass(frozen=True, slots=True)
 class LanternPins:
-    """Round pins of a lantern or ring: gear with the pins, radius of the pin circle, radius of a pin [module]."""
+    """Round pins of a lantern or of a ring of pins: number of the gear that has them, radius of the pin circle [module]
+    and radius of a pin [module].
+    """
 
     gear: int
     circle: float
@@ -52,7 +54,7 @@ class WheelRequirement(ABC):
 
     @abstractmethod
     def agrees(self, other: WheelRequirement) -> bool:
-        """Return True if the teeth of one wheel can satisfy both requirements, or False if they cannot."""
+        """Return True if one wheel can satisfy both requirements, or False if it cannot."""
 
     @abstractmethod
     def cut(self, others: Sequence[WheelRequirement] = ()) -> CutTooth:
@@ -78,7 +80,7 @@ class FixedTooth(CutTooth, WheelRequirement):
 
 @dataclass(frozen=True)
 class PairRequirement:
-    """Requirement of a pair on a wheel: name of the pair, name and words of its tooth form, and required teeth."""
+    """Teeth that a pair requires for one wheel, with the names of the pair and of its tooth form for messages."""
 
     pair: str
     form: str

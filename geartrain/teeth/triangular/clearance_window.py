@@ -33,7 +33,7 @@ class TriangularContact:
 
     @cached_property
     def dragged(self) -> DraggedPath:
-        """Real path of contact, in which the driven wheel dwells while no tooth pushes it."""
+        """Real path of contact, including the dwells, in which no tooth pushes the driven wheel."""
         return drag(self.path)
 
     @property
@@ -42,23 +42,23 @@ class TriangularContact:
         return self.dragged.intervals
 
     def locate(self, t: float) -> tuple[DriveInterval, float]:
-        """Return the drive interval that contains the driver position t [rad], and the angle alpha_1 [rad] between the
-        driver's apex and the line of centres at t.
+        """Return the drive interval at the driver position t [rad], and the angle alpha_1 [rad] of the driver's apex
+        from the line of centres at t.
         """
         return _locate(self.intervals, t, self.sizes.p1)
 
     def lag(self, interval: DriveInterval, x: Any, m: ModuleType = math) -> Any:
-        """Return the lag [rad] of the driven wheel behind its mean motion at the driver's apex angle x [rad]."""
+        """Return the driven wheel's lag [rad] behind its mean motion at the angle x [rad] of the driver's apex."""
         y = self.path.tooth_pair.angle(interval.phase, x, m) if interval.held is None else interval.held
         return y - self.sizes.ratio * x
 
     def speed(self, interval: DriveInterval, x: Any, m: ModuleType = math) -> Any:
-        """Return the speed ratio at the angle x [rad] of the driver's apex from the line of centres; 0 in a dwell."""
+        """Return the speed ratio with the driver's apex at the angle x [rad] from the line of centres; 0 in a dwell."""
         return self.path.tooth_pair.speed(interval.phase, x, m) if interval.held is None else 0.0
 
     @cached_property
     def _bounds(self) -> list[DriveInterval]:
-        """Intervals of driver position in which a contact limits the driven wheel, even if it cannot drive."""
+        """Intervals of driver position in which a contact limits the driven wheel, including those where it slips."""
         sizes = self.sizes
         return RealPath(sizes, slips=True).envelope if any(sizes.lean) else self.path.envelope
 
@@ -83,7 +83,9 @@ class TriangularContact:
         yield from (piece.low for piece in self.path.pieces if interval.end < piece.low < interval.start)
 
     def _minimum_within(self, low: float, high: float) -> float:
-        """Return the minimum backlash between two kinks [rad], at a kink or where both flanks have one speed ratio."""
+        """Return the minimum backlash [rad] between two kinks. It occurs at one of the kinks, or where the drive and
+        the coast flanks have the same speed ratio.
+        """
         pitch, middle = self.sizes.p1, (low + high) / 2
         ours, start = self.locate(middle)
         theirs, back = _locate(self._bounds, -middle, pitch)
@@ -134,17 +136,17 @@ class TriangularContact:
 
     @property
     def idle(self) -> float:
-        """Total driver angle during the dwells in one pitch [rad]."""
+        """Sum of the driver angles of all dwells in one pitch [rad]."""
         return sum(each.width for each in self.intervals if each.phase == DWELL)
 
     @property
     def lost(self) -> float:
-        """Driven angle that is lost in the dwells of one pitch [rad]."""
+        """Angle that the driven wheel loses in the dwells of one pitch [rad]."""
         return self.dragged.lost
 
     @cached_property
     def overhang(self) -> str:
-        """Message about an overhanging flank that touches or would turn the driven wheel back; empty if none."""
+        """Message on an overhanging flank that touches its mate or would turn it backwards; empty if none does."""
         # tolerance for the rounding of the limits of contact, which are roots with a smaller error
         sizes, small = self.sizes, 1e-9 * self.sizes.p1
         for interval in self.intervals:
@@ -163,8 +165,8 @@ class TriangularContact:
 
 
 def _locate(intervals: Sequence[DriveInterval], t: float, pitch: float) -> tuple[DriveInterval, float]:
-    """Return the drive interval at the driver position t [rad], and the angle alpha_1 [rad] of the driver's apex at t;
-    in a gap, the nearest interval and an angle outside this interval.
+    """Return the drive interval at the driver position t [rad], and the angle alpha_1 [rad] of the driver's apex from
+    the line of centres at t. In a gap, return the nearest interval and an angle outside this interval.
     """
     for interval in intervals:
         gone = (interval.start - t) % pitch
@@ -193,7 +195,7 @@ def _no_valley(sizes: TriangularSizes) -> str:
 @dataclass(frozen=True, slots=True)
 class ClearanceWindow(Shown):
     """Range of clearances, from `jam` to `run`, in which a pair of triangular teeth turns. The bounds are values of
-    `TriangularSizes.excess`.
+    `excess`: the relative deviation from the centre distance at which a tip touches the bottom of a tooth space.
 
     The truth value of a window is False if `run` is not above `jam`: the pair then does not turn at any clearance. If a
     pair turns in several ranges of clearance, the window is the first range.
@@ -213,7 +215,8 @@ class ClearanceWindow(Shown):
     """Sign of the pair: 1 for external, -1 for internal pairs, whose clearance factors are below 1."""
 
     def factor(self, excess: float) -> float:
-        """Return the clearance factor that corresponds to an excess.
+        """Return the clearance factor, the centre distance divided by `TriangularSizes.deepest_distance`, for an
+        excess.
 
         excess   relative deviation of the centre distance, as in `TriangularSizes.excess`
         """
@@ -231,7 +234,7 @@ class ClearanceWindow(Shown):
 
     @property
     def reach_factor(self) -> float:
-        """Clearance factor at the excess `reach`."""
+        """Clearance factor at the excess `reach`, at which the tips cease to reach each other."""
         return self.factor(self.reach)
 
     def __bool__(self) -> bool:
@@ -296,12 +299,12 @@ def _window(sizes: TriangularSizes) -> ClearanceWindow:
 
 
 def _start_of_range(margin: Callable[[float], float], low: float, reach: float) -> float:
-    """Return the smallest excess above which `margin` is positive; 0 if it is positive at `low`."""
+    """Return the smallest excess of the centre distance above which `margin` is positive; 0 if so at `low`."""
     return 0.0 if margin(low) > 0 else _first_sign_change(margin, low, reach)
 
 
 def _overhang_excess(sizes: TriangularSizes, low: float) -> float:
-    """Return the excess up to which an overhanging flank touches; 0 if no such flank touches at the excess `low`."""
+    """Return the excess up to which an overhanging flank touches its mate; 0 if none touches at the excess `low`."""
     if low >= sizes.maximum_excess or not any(sizes.at(low).lean):
         return 0.0
 
@@ -312,8 +315,8 @@ def _overhang_excess(sizes: TriangularSizes, low: float) -> float:
 
 
 def _first_range(margin: Callable[[float], float], low: float, reach: float) -> tuple[float, float]:
-    """Return the bounds of the first range of excess in which `margin` is positive, (0, 0) if there is none. The range
-    begins at 0 if the margin is positive at 0 or at `low`.
+    """Return the bounds of the first range of excess of the centre distance in which `margin` is positive, (0, 0) if
+    there is none. The range begins at 0 if the margin is positive at 0 or at `low`.
     """
     # slightly above 0 or `low`, at which rounding would decide the sign of the margin
     for start in (reach * _NEARLY_0, low * (1 + 1e-9)):
@@ -338,7 +341,7 @@ def _end_margin(path: RealPath, entry: bool) -> float:
 
 
 def _first_sign_change(value: Callable[[float], float], low: float, reach: float) -> float:
-    """Return the smallest excess above `low` at which `value` changes sign; `reach` if it does not."""
+    """Return the smallest excess of the centre distance above `low` at which `value` changes sign, or `reach`."""
     # scanned in 16 steps before `root`; a range shorter than one step may be missed
     steps, start = 16, low
     at_low = value(low)
@@ -353,8 +356,8 @@ def _first_sign_change(value: Callable[[float], float], low: float, reach: float
 
 
 def excess_of_backlash(sizes: TriangularSizes, backlash: float, text: str) -> float:
-    """Return the excess at which the minimum backlash, measured on the pitch circle of the second wheel, equals
-    `backlash`.
+    """Return the excess of the centre distance at which the minimum backlash, measured on the pitch circle of the
+    second wheel, equals `backlash`.
 
     The root is unique because the backlash increases with the excess. Raises `GearTrainError` if no excess gives this
     backlash; `text` is the declared backlash as shown in the error message.

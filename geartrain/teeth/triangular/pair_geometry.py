@@ -127,7 +127,7 @@ class TriangularSizes(Shown):
 
     @property
     def side(self) -> int:
-        """Sign of the centre distance and of alpha_2 in the equations: 1 for external, -1 for internal pairs."""
+        """Sign of the centre distance and of the driven angle alpha_2 in the equations: -1 for internal pairs."""
         return -1 if self.ring else 1
 
     @property
@@ -183,7 +183,7 @@ class TriangularSizes(Shown):
         return self.factor(self.excess)
 
     def factor(self, excess: float) -> float:
-        """Return the clearance factor for a given excess.
+        """Return the clearance factor, the centre distance divided by `deepest_distance`, for a given excess.
 
         Parameters
         ----------
@@ -215,12 +215,12 @@ class TriangularSizes(Shown):
 
     @cached_property
     def reach1(self) -> float:
-        """Maximum angle alpha_1max [rad] between a driver's tip and the line of centres in contact, Eq. (4)."""
+        """Maximum angle alpha_1max [rad] from the line of centres at which a tip of the driver can touch, Eq. (4)."""
         return contact_half_angle(*self.signed_radii, self.side * self.D, self.delta)
 
     @cached_property
     def reach2(self) -> float:
-        """Maximum angle alpha_2max [rad] between a driven tip and the line of centres in contact, Eq. (4)."""
+        """Maximum angle alpha_2max [rad] from the line of centres at which a driven tip can touch, Eq. (4)."""
         return contact_half_angle(*self.signed_radii[::-1], self.side * self.D, self.delta)
 
     @cached_property
@@ -279,8 +279,8 @@ class TriangularSizes(Shown):
 
     @cached_property
     def maximum_excess(self) -> float:
-        """Maximum excess at which the teeth can touch. If the excess is larger, tips never touch, or the tip circles of
-        an internal pair overlap at every angle.
+        """Maximum excess at which the teeth can touch. If the centre distance deviates more, tips never touch, or the
+        tip circles of an internal pair overlap at every angle.
         """
         apart = min(self.depths) / self.deepest_distance
         return apart if not self.ring else min(apart, 1 + self.side * sum(self.signed_radii) / self.deepest_distance)

@@ -34,8 +34,8 @@ _SMALL = 1e-10  # fraction of a pitch: smaller steps and gaps are rounding error
 
 @dataclass(frozen=True, slots=True)
 class MonotonePiece:
-    """Range of the driver's apex angle alpha_1 [rad] within one phase of contact. The speed ratio is monotonic in this
-    range, so that the driven angle is convex or concave.
+    """Range of the angle alpha_1 [rad] of the driver's apex from the line of centres, within one phase of contact. The
+    speed ratio is monotonic in this range, so that the driven angle is convex or concave.
     """
 
     phase: str
@@ -46,12 +46,12 @@ class MonotonePiece:
 
 @dataclass(frozen=True, slots=True)
 class DriveInterval:
-    """Range of the driver's apex angle alpha_1, from `start` down to `end`, in which one tooth pair drives, or in which
-    no tooth pair drives (dwell).
+    """Range of the angle alpha_1 of the driver's apex from the line of centres, from `start` down to `end`, in which
+    one tooth pair drives, or in which no tooth pair drives (dwell).
 
-    `tooth_pair` numbers the teeth: alpha_1 = t + tooth_pair p1 for a position t common to all intervals of a path. In a
-    dwell, `tooth_pair` is the pair that has just lost contact, and `held` is the angle alpha_2 at which this pair left
-    the driven wheel.
+    `tooth_pair` numbers the teeth: alpha_1 = t + tooth_pair p1, where p1 is the driver's pitch and t a position common
+    to all intervals of a path. In a dwell, `tooth_pair` is the pair that has just lost contact, and `held` is the angle
+    alpha_2 of the driven apex at which this pair left the driven wheel.
     """
 
     phase: str
@@ -75,7 +75,7 @@ class RealPath:
     """Contact of all tooth pairs of two triangular wheels over one pitch, and the pair that drives at each position."""
 
     def __init__(self, sizes: TriangularSizes, slips: bool = False) -> None:
-        """Create the path of contact; if `slips`, with contacts that limit the driven wheel but cannot drive it."""
+        """Create the path; `slips` adds contacts that limit the motion of the driven wheel but cannot drive it."""
         self.sizes, self.slips = sizes, slips
         self.tooth_pair = ToothPair(sizes)
         self.pitch, self.ratio = sizes.p1, sizes.ratio
@@ -83,13 +83,15 @@ class RealPath:
     # ------------------------------------------------------------------------------------------------- one tooth pair
 
     def g(self, phase: str, x: float) -> float:
-        """Return the lag g(x) = f(x) - (z1/z2) x of the driven wheel behind its mean motion [rad] at the angle x [rad]
-        of the driver's apex. Here f is the angle of the driven apex.
+        """Return the lag g(x) = f(x) - (z1/z2) x of the driven wheel behind its mean motion [rad], with the driver's
+        apex at the angle x [rad] from the line of centres. Here f(x) is the angle of the driven apex.
         """
         return float(self.tooth_pair.angle(phase, x)) - self.ratio * x
 
     def slope(self, phase: str, x: float) -> float:
-        """Return the derivative of the lag g at x, which is the speed ratio minus its mean value."""
+        """Return the derivative of the lag g of the driven wheel, which is the speed ratio minus its mean value, with
+        the driver's apex at the angle x [rad] from the line of centres.
+        """
         return float(self.tooth_pair.speed(phase, x)) - self.ratio
 
     @cached_property
@@ -123,7 +125,9 @@ class RealPath:
         return [MonotonePiece(phase, low, a, first), MonotonePiece(phase, a, high, last)]
 
     def extremes(self, phase: str, low: float, high: float) -> list[float]:
-        """Return a list with the extremum of the lag g [rad] from `low` to `high`; empty if there is none."""
+        """Return a list with the extremum [rad] of the lag of the driven wheel while the driver's apex is at angles
+        from `low` to `high`; empty if there is none.
+        """
         if (self.slope(phase, low) < 0) == (self.slope(phase, high) < 0):
             return []
         return [self.g(phase, bracketed_root(lambda x: self.slope(phase, x), low, high))]
@@ -132,7 +136,7 @@ class RealPath:
 
     @cached_property
     def branches(self) -> list[MonotonePiece]:
-        """Parts of `pieces`, at most one pitch long, in which a tooth pair can have the minimum lag of its piece."""
+        """Parts of `pieces`, at most one pitch long, in which a tooth pair can permit the smallest lag."""
         return [branch for piece in self.pieces for branch in self._branches_of(piece)]
 
     def _branches_of(self, piece: MonotonePiece) -> list[MonotonePiece]:
@@ -154,11 +158,13 @@ class RealPath:
         return [MonotonePiece(piece.phase, start, start + pitch, True)]
 
     def _rise(self, phase: str, x: float) -> float:
-        """Return the increase g(x + p1) - g(x) of the lag over one pitch p1 of the driver [rad]."""
+        """Return the increase g(x + p1) - g(x) of the driven wheel's lag over one pitch p1 of the driver [rad]."""
         return float(self.tooth_pair.angle(phase, x + self.pitch) - self.tooth_pair.angle(phase, x)) - self.sizes.p2
 
     def lowest(self, t: float, besides: int | None = None) -> float:
-        """Return the minimum lag g [rad] of all tooth pairs but `besides` at driver position t; inf without pairs."""
+        """Return the minimum lag [rad] of the driven wheel that any tooth pair except `besides` permits at the driver
+        position t [rad]; inf if there is no such pair.
+        """
         minimum = inf
         for piece in self.pieces:
             first, last = ceil((piece.low - t) / self.pitch), floor((piece.high - t) / self.pitch)
@@ -194,7 +200,7 @@ class RealPath:
         return [*found[1:-1], DriveInterval(last.phase, last.start, first.end, last.tooth_pair)]
 
     def _cell(self, high: float, low: float) -> Iterator[DriveInterval]:
-        """Yield the drive intervals from driver position `high` to `low` [rad], where no branch begins or ends."""
+        """Yield the drive intervals from driver position `high` down to `low` [rad], between ends of branches."""
         middle = low + (high - low) / 2
         found = {}  # the two ends of a concave piece may belong to the same tooth pair
         for branch in self.branches:
@@ -221,7 +227,9 @@ class RealPath:
     def _crossings(
         self, one: tuple[MonotonePiece, int], other: tuple[MonotonePiece, int], low: float, high: float
     ) -> Iterator[float]:
-        """Yield the driver positions t [rad] from `low` to `high` at which the lags of two branches are equal."""
+        """Yield the driver positions [rad] from `low` to `high` at which two tooth pairs permit the same lag. `one` and
+        `other` each consist of a branch and the number of the tooth pair on it.
+        """
         (a, i), (b, j) = one, other
         shift, turned = (j - i) * self.pitch, (j - i) * self.sizes.p2
         low, high = low + i * self.pitch, high + i * self.pitch
@@ -266,7 +274,7 @@ def _join_neighbours(cells: list[DriveInterval]) -> list[DriveInterval]:
 
 @dataclass(frozen=True, slots=True)
 class SpeedJump(Result):
-    """Impact of teeth: speed ratios before and after, and the relative jump of Eqs. (22), (25), (26) and (27)."""
+    """Impact of teeth: speed ratios before and after, and jump of the normal velocity, Eqs. (22), (25) to (27)."""
 
     KEYS = ("kind", "alpha1", "before", "after", "value")
 
@@ -281,12 +289,14 @@ class SpeedJump(Result):
 
     @property
     def value(self) -> float:
-        """Relative jump 1 - before/after of the normal velocity."""
+        """Relative jump 1 - before/after of the normal velocity, from the speed ratios before and after the impact."""
         return 1 - self.before / self.after
 
 
 def matches(last: DriveInterval, new: DriveInterval, pitch: float) -> bool:
-    """Return True if one tooth pair continues from `last` to `new` through the matching position, changing flanks."""
+    """Return True if one tooth pair drives in both intervals and passes the matching position between them, where the
+    contact moves to other flanks.
+    """
     faces = last.held is None and new.held is None and last.phase != new.phase
     # both are the same root, computed from either side
     return faces and abs(last.end - new.start) < 1e-9 * pitch
@@ -297,7 +307,7 @@ def matches(last: DriveInterval, new: DriveInterval, pitch: float) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class DraggedPath:
-    """Real path of contact with dwells, and the overlap of the entering tips in a clash [rad of the driven wheel]."""
+    """Real path of contact with dwells, and the angle by which entering tips overlap [rad of the driven wheel]."""
 
     intervals: tuple[DriveInterval, ...]
     clash: float
@@ -308,8 +318,8 @@ class DraggedPath:
 def drag(path: RealPath) -> DraggedPath:
     """Return the real path of contact, with a dwell of the driven wheel wherever no tooth pair drives.
 
-    The envelope is followed over one pitch, starting and ending at its lowest point. The first interval of the result
-    begins after the last dwell.
+    The driven wheel is followed over one pitch, from the position of minimum lag to the next such position. The first
+    interval of the result begins after the last dwell.
     """
     envelope, angle = path.envelope, path.tooth_pair.angle
     if not envelope:
@@ -352,11 +362,15 @@ def drag(path: RealPath) -> DraggedPath:
 
 
 def _minimum(path: RealPath, interval: DriveInterval) -> float:
-    """Return the minimum lag g over an interval [rad], which the driven wheel reaches from any earlier position."""
+    """Return the minimum lag of the driven wheel over an interval [rad]. At this lag, the tooth pair pushes the driven
+    wheel wherever it was before.
+    """
     phase, low, high = interval.phase, interval.end, interval.start
     return min(path.g(phase, low), path.g(phase, high), *path.extremes(phase, low, high))
 
 
 def _arrival(path: RealPath, interval: DriveInterval, y: float) -> float:
-    """Return the driver's apex angle alpha_1 [rad] at which a tooth pair meets the driven wheel at rest at y [rad]."""
+    """Return the angle alpha_1 [rad] of the driver's apex at which a tooth pair of the interval meets the driven wheel,
+    which rests with its apex at the angle alpha_2 = y [rad].
+    """
     return bracketed_root(lambda x: path.tooth_pair.angle(interval.phase, x) - y, interval.end, interval.start)

@@ -44,7 +44,9 @@ the smaller root of Eq. (16).
 
 
 class ToothPair:
-    """Constants of one tooth pair, and its contact as a function of the driver's apex angle alpha_1 = x [rad]."""
+    """Constants of one pair of triangular teeth, and its contact as a function of the angle alpha_1 = x [rad] of the
+    driver's apex from the line of centres.
+    """
 
     __slots__ = ("D", "R1", "R2", "cos1", "cos2", "delta", "entry", "leans", "mirror", "side", "sign2", "sin1", "sin2")
 
@@ -72,8 +74,8 @@ class ToothPair:
         return u, sin_psi, cos_psi, s, q, c * (cos_psi + sin_psi * (sin_psi + s) / (cos_psi + q))
 
     def _driver_arm(self, u: Any, cos_psi: Any, q: Any) -> Any:
-        """Return the distance, along the driver's flank, of the contact from the foot of the perpendicular from the
-        driver's axis: R1 cos(beta1) - v, with v from Eq. (9).
+        """Return the distance, along the driver's flank, from the foot of the perpendicular from the driver's axis to
+        the contact: R1 cos(beta1) - v, with v from Eq. (9).
         """
         # with overhang W and its divisor vanish together; at such small tooth numbers the difference loses no digits
         if self.leans:
@@ -107,8 +109,8 @@ class ToothPair:
     # -------------------------------------------------------------------------------------------- motion and friction
 
     def angle(self, phase: str, x: Any, m: ModuleType = math) -> Any:
-        """Return the angle alpha_2 of the driven apex [rad] at alpha_1 = x [rad], by Eq. (7) in approach and by Eq.
-        (17) in recess and slip.
+        """Return the angle alpha_2 [rad] of the driven apex from the line of centres at alpha_1 = x [rad], by Eq. (7)
+        in approach and by Eq. (17) in recess and slip.
 
         In the return phase, alpha_2 is the second root of Eq. (7).
         """
@@ -126,7 +128,7 @@ class ToothPair:
         return self._arms(phase, self._contact(phase, x, m))
 
     def speed(self, phase: str, x: Any, m: ModuleType = math) -> Any:
-        """Return the speed ratio tau = d alpha_2 / d alpha_1, Eqs. (12) and (19); negative in the return phase."""
+        """Return the speed ratio tau = d alpha_2 / d alpha_1, by Eqs. (12) and (19); negative in the return phase."""
         if phase == RETURN:
             _, _, cos_psi, _, q, _ = self._flank_line(-x, m)
             return -1 - self.D * cos_psi / (self.R2 * q)
@@ -231,7 +233,7 @@ class ToothPair:
         return self.D * n1 / (self.mirror * n1 + self.sign2 * n2)
 
     def contact(self, x: float) -> float:
-        """Return the angle alpha_2 [rad] of the driven apex at alpha_1 = x, where |x| is at most alpha_1max. It is the
-        smaller of the angles in approach and in recess.
+        """Return the angle alpha_2 [rad] of the driven apex at the angle alpha_1 = x of the driver's apex, where |x| is
+        at most alpha_1max. It is the smaller of the angles in approach and in recess.
         """
         return float(min(self.angle(APPROACH, x), self.angle(RECESS, x)))

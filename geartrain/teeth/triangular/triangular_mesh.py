@@ -54,7 +54,7 @@ class TriangularDetails(NamedForm, Protocol):
 
 @dataclass(frozen=True)
 class TriangularMesh(GearMesh):
-    """Gear pair with triangular teeth in a train. The clearance window of the pair explains why it does not turn."""
+    """Gear pair with triangular teeth in a train."""
 
     tooth_form: TriangularDetails
     transmission: TriangularTransmission
@@ -220,7 +220,7 @@ def triangular_figures(
 
 
 def explain_clearance(transmission: TriangularTransmission, window: ClearanceWindow | None) -> tuple[str, str]:
-    """Return cause and remedy for a pair that cannot turn: its clearance window, and the violated bound."""
+    """Return cause and remedy for a pair that cannot turn: clearance window, and the bound that is violated."""
     if window is None:
         return "", "use more teeth or a smaller half_angle"
     excess, jam, run = transmission.sizes.excess, window.jam_factor, window.run_factor

@@ -78,7 +78,7 @@ class TriangularTransmission(ToothTransmission):
 
     @property
     def intervals(self) -> tuple[DriveInterval, ...]:
-        """Intervals of the real path of contact over one pitch of the driver, in order of time. Dwells are included."""
+        """Intervals of the real path of contact over one pitch of the driver, in order of time, including dwells."""
         return self.contact.intervals
 
     @property
@@ -94,7 +94,7 @@ class TriangularTransmission(ToothTransmission):
         return -lag if self.direction > 0 else self.sizes.p2 + lag
 
     def speed(self, S: ArrayLike) -> Floats:
-        """Return the speed ratio tau at driver angles S [rad]."""
+        """Return the speed ratio tau of the driven wheel to the driver at driver angles S [rad]."""
         return self.mapped(S, self._tau)
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
@@ -129,8 +129,8 @@ class TriangularTransmission(ToothTransmission):
         return self.friction if by is None else by(self.sliding(phase, x))
 
     def _friction_terms(self, interval: DriveInterval, x: Floats) -> tuple[Any, Any, Any]:
-        """Return three quantities: the sliding speed divided by the pitch-line speed, the friction term of the input
-        power, and the friction term of the output power.
+        """Return three quantities at driver apex angles x [rad] of an interval: the sliding speed divided by the pitch-
+        line speed, the friction term of the input power, and the friction term of the output power.
         """
         if interval.held is not None:
             return nan, nan, nan
@@ -201,7 +201,7 @@ class TriangularTransmission(ToothTransmission):
 
     @cached_property
     def _start(self) -> float:
-        """Angle [rad] from the line of centres to the driver's tooth at the first interval, modulo one pitch."""
+        """Angle [rad] of the driver's tooth from the line of centres at the first interval, modulo one pitch."""
         first = self._drive_intervals[0]
         return (first.start - first.tooth_pair * self.period) % self.period
 
@@ -251,8 +251,8 @@ class TriangularTransmission(ToothTransmission):
             yield centre
 
     def _line_of_centres(self, phase: str) -> float:
-        """Return the angle [rad] between the driver's apex and the line of centres when the contact is on the line of
-        centres, where the direction of sliding reverses.
+        """Return the angle [rad] of the driver's apex from the line of centres at which the contact itself is on the
+        line of centres. There the direction of sliding reverses.
         """
         if phase != APPROACH:
             return 0.0
@@ -280,7 +280,7 @@ class TriangularTransmission(ToothTransmission):
         return self.sizes.p2 + min(lags), self.sizes.p2 + max(lags)
 
     def _samples(self) -> Iterator[tuple[str, Floats]]:
-        """Yield phase and 101 driver apex angles alpha_1 [rad] of each smooth interval in which a tooth pair drives."""
+        """Yield phase and 101 angles alpha_1 [rad] of the driver's apex of each smooth interval of driving teeth."""
         for interval, high, low in self.stretches:
             if interval.held is None:
                 yield interval.phase, np.linspace(high, low, 101)
@@ -332,7 +332,7 @@ class TriangularTransmission(ToothTransmission):
 
 @dataclass(frozen=True)
 class ContactCourse(Result):
-    """Table of the contact over one pitch, by time, with one row for each sample and end of an interval."""
+    """Table of the contact over one pitch, in order of time: a row for each sample and for each interval's end."""
 
     KEYS = (
         *("phases", "alpha1", "alpha2", "speed_ratio", Key("instant_centre", to=finite)),

@@ -100,7 +100,8 @@ class CycloidalDisc:
 
     @cached_property
     def sharpest(self) -> float:
-        """Minimum radius of curvature [module] of the convex parts of the pin-centre curve.
+        """Minimum radius of curvature [module] of the convex parts of the curve of a pin's centre in the frame of the
+        disc.
 
         The radius of a pin must be smaller than this value, because a larger pin undercuts the lobes. The value is
         infinite if no part is convex.
@@ -109,7 +110,7 @@ class CycloidalDisc:
         return 1 / float(bent.max()) if bent.max() > 0 else inf
 
     def _centre_curvature(self, turn: Floats) -> Floats:
-        """Return the curvature of the pin-centre curve [1/module], positive where the curve is convex."""
+        """Return the curvature of the curve of a pin's centre in the disc's frame [1/module]; positive if convex."""
         # first and second derivative of `centres` with respect to the angle of the eccentric
         z, e, R = self.lobes, 0.5, self.circle
         slow, fast = np.exp(1j * turn / z), np.exp(1j * turn * (z + 1) / z)

@@ -184,12 +184,12 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def own_size(self) -> PairSize | None:
-        """Size of the pair, ignoring other pairs of its wheels; None for intersecting axes."""
+        """Size of the pair without regard to other pairs of its wheels; None for intersecting axes."""
         return self.size({})
 
     @property
     def unit_tips(self) -> Mapping[str, float]:
-        """Tip radii of wheels of unknown scale in the length unit of the teeth, keyed by wheel; may be empty."""
+        """Tip radii of wheels, keyed by wheel, in a length unit whose size is not known; empty for most tooth forms."""
         return {}
 
     @abstractmethod
@@ -328,7 +328,7 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def fault(self) -> Problem | None:
-        """First fault that prevents the teeth of the pair from running; None if the teeth can run."""
+        """First of the `faults` that prevent the teeth of the pair from running; None if the teeth can run."""
         return self.faults[0] if self.faults else None
 
     @property

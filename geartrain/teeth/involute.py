@@ -239,7 +239,7 @@ class Involute(ConjugateToothForm):
 
 
 def _straight_path(pitch: PitchSurfaces, psi: float, arcs: tuple[float, float]) -> PathOfContact:
-    """Return the path of contact with a constant pressure angle `psi` [rad] and the given arcs X."""
+    """Return the path of contact with a constant pressure angle `psi` [rad] and arcs of approach and recess `arcs`."""
     from geartrain.teeth.conjugate.optimal_sides import involute
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 

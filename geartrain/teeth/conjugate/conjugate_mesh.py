@@ -95,7 +95,7 @@ class ConjugateMesh(GearMesh):
 
     @property
     def separation(self) -> float:
-        """Tangent of the pressure angle at the pitch point: radial divided by tangential tooth force."""
+        """Tangent of the pressure angle at the pitch point, which is the radial tooth force over the tangential one."""
         return abs(tan(float(self.path.at(np.zeros(1)).psi[0])))
 
     @property

@@ -123,7 +123,7 @@ class ConjugateTransmission(ExactRatio, ToothTransmission):
 
     @cached_property
     def _arcs(self) -> tuple[float, float]:
-        """Arcs X of approach and recess of the driver [module; rad for bevel gears]."""
+        """Arcs of approach and recess of the driver on the pitch surfaces [module; rad for bevel gears]."""
         approach, recess = self.pair.arcs
         return (approach, recess) if self.driver == 1 else (recess, approach)
 

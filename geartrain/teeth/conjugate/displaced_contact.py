@@ -56,8 +56,8 @@ def azimuth_at(pitch: PitchSurfaces, gear: int, own: float, other: Floats) -> Fl
 
 
 def corner_contact(path: PathOfContact, gear: int, radius: Floats, azimuth: Floats) -> tuple[Floats, Floats]:
-    """Return the arcs X by which both gears have rotated when the tip of `gear` touches given points of the mate's
-    flank.
+    """Return the arcs X on the pitch surfaces by which both gears have rotated when the tip of `gear` touches given
+    points of the mate's flank.
 
     The points are given by radius and azimuth [rad] in the position of the mate at X = 0. The tip of gear 1 touches
     beyond the recess; the tip of gear 2 touches before the approach.

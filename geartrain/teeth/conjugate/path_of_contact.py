@@ -258,7 +258,7 @@ class PathOfContact(Shown):
 
     @cached_property
     def arcs(self) -> tuple[float, float]:
-        """Arcs X of approach and recess in which the teeth touch [module]. One of the two arcs may be negative."""
+        """Arcs of approach and recess on the pitch surfaces [module] in which the teeth touch. One may be negative."""
         return (self.approach.arc, self.recess.arc) if self.real is None else self.real
 
     @property

@@ -93,7 +93,7 @@ class DrivenFrame:
 
     @property
     def azimuth(self) -> Floats:
-        """Azimuths of the points about the second axle [rad]."""
+        """Azimuths of the points about the second axle [rad], 0 on the line of centres."""
         found: Floats = np.arctan2(self.side, self.along)
         return found
 

@@ -260,8 +260,8 @@ Harmonic = Annotated[tuple[Figure, Angle], BeforeValidator(_amplitude)]
 
 
 class TabledLaw(_VaryingPair):
-    """Coupling with the driven angle q = mean S + unit d(S), where S is the angle of the driver, and the function d is
-    given by harmonics or by a table.
+    """Coupling with the driven angle q = mean S + unit d(S), where S is the angle of the driver, the mean ratio and the
+    unit are declared, and the function d is given by harmonics or by a table.
 
     A mean ratio of 0 describes a cam with an oscillating arm.
     """

@@ -256,7 +256,7 @@ def _largest_fillet(
     own: ToothRequirement, root: float, mates: Sequence[MatePassage], relief: float, most: float, wanted: float
 ) -> ToothOutline | None:
     """Return the tooth with the largest fillet radius up to `wanted` [module], found by bisection, with which no mate
-    interferes by more than `most` [module]; None if there is none.
+    interferes by more than `most` [module]; None if there is none. `root` and `relief` are defined in `fillet`.
     """
 
     def made(radius: float) -> ToothOutline | None:

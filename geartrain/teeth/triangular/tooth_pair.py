@@ -45,7 +45,7 @@ the smaller root of Eq. (16).
 
 class ToothPair:
     """Constants of one pair of triangular teeth, and its contact as a function of the angle alpha_1 = x [rad] of the
-    driver's apex from the line of centres.
+    driver's apex from the line of centres. The parameter `m` of a method is `math` or, for arrays, `numpy`.
     """
 
     __slots__ = ("D", "R1", "R2", "cos1", "cos2", "delta", "entry", "leans", "mirror", "side", "sign2", "sin1", "sin2")
@@ -99,8 +99,9 @@ class ToothPair:
         return sine, cosine, arm, (across * inner - along * outer) / square, (along * inner + across * outer) / square
 
     def _apex_directions(self, apex: DrivenApex) -> tuple[Any, Any, Any, Any, Any, Any]:
-        """Return six values of a contact in recess at the apex angles x and y: the arm, cosine and sine of beta2 - x -
-        y, sine and cosine of beta2 - y, and sin x. beta2 is the half aperture angle of the driven wheel.
+        """Return six values of a contact in recess at alpha_1 = x and alpha_2 = y: the arm of `DrivenApex`, cosine and
+        sine of beta2 - x - y, sine and cosine of beta2 - y, and sin x. beta2 is the half aperture angle of the driven
+        wheel.
         """
         sine, cosine, arm, sin_y, cos_y = apex
         sin_psi, cos_psi = self.sin2 * cos_y - self.cos2 * sin_y, self.cos2 * cos_y + self.sin2 * sin_y

@@ -49,7 +49,7 @@ class TriangularDetails(NamedForm, Protocol):
     """Methods of a triangular tooth form that the mesh of a pair uses."""
 
     def in_metres(self, module: float | None) -> bool:
-        """Return True if the lengths of wheels with the given module [m] are in metres."""
+        """Return True if the tooth form gives lengths in metres to wheels with the given module [m]."""
 
 
 @dataclass(frozen=True)
@@ -93,7 +93,7 @@ class TriangularMesh(GearMesh):
 
     @property
     def own_size(self) -> PairSize:
-        """Size of the pair from its lengths, if these are in metres, or else from pitch circles that touch."""
+        """Size of the pair from its own lengths in metres, or, without such lengths, from pitch circles that touch."""
         module = self.wheels.module
         if module is None or not self.tooth_form.in_metres(module):
             return self.size({})

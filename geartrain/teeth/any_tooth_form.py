@@ -25,9 +25,7 @@ TOOTH_FORMS = {
     "pin_ring": "PinRing",
     "table": "GivenError",
 }
-"""Class name of each tooth form, keyed by the name of the form in declarations, which is also the name of
-its module.
-"""
+"""Class name of each tooth form, keyed by the name of the form, which is also the name of its module."""
 
 
 _GROUP, _PREFIX = "geartrain.wings", "tooth_form."

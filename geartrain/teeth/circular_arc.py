@@ -198,12 +198,10 @@ class CircularArc(ToothForm):
             deep = found[1 - at][1] + _BOTTOM
             tooth = ArcTooth(z, thickness, addendum, radius, deep if at + 1 == pinion else max(deep, pi / 2))
             if not tooth.fits:
-                raise refused(
-                    f"circular-arc teeth of a wheel of {z} cannot be {thickness:.4g} modules thick and {addendum:.4g} "
-                    f"high with arcs of radius {radius:.4g}",
-                    "the arc must rise from the pitch circle to the tip and leave a flank below it",
-                    "remove `addendum`, `radius` and `thickness`, or give a larger radius or a smaller thickness",
-                )
+                sizes_text = f"{thickness:.4g} modules thick and {addendum:.4g} high with arcs of radius {radius:.4g}"
+                why = "the arc must rise from the pitch circle to the tip and leave a flank below it"
+                fix = "remove `addendum`, `radius` and `thickness`, or give a larger radius or a smaller thickness"
+                raise refused(f"circular-arc teeth of a wheel of {z} cannot be {sizes_text}", why, fix)
             made.append(tooth)
         return made[0], made[1]
 
@@ -278,9 +276,7 @@ class CircularArc(ToothForm):
 
 @lru_cache(maxsize=256)
 def _gears(first: ArcTooth, second: ArcTooth, distance: float) -> OutlineGears:
-    """Return the outlines of a pair at its centre distance [module]. The result is cached so that equal pairs of a
-    train are computed only once.
-    """
+    """Return the outlines of both wheels at a centre distance [module]. Equal pairs of a train share them."""
     from geartrain.teeth.contact.outline_transmission import OutlineGears
 
     # sum of half the thicknesses of both wheels; what remains of a pitch of pi modules is the backlash
@@ -293,9 +289,7 @@ def _gears(first: ArcTooth, second: ArcTooth, distance: float) -> OutlineGears:
 
 @dataclass(frozen=True, slots=True)
 class ArcTooth:
-    """Sizes of one circular-arc tooth with radial flanks and a tip that consists of two equal arcs. Lengths are in
-    modules.
-    """
+    """Sizes of one circular-arc tooth [module] with radial flanks and a tip that consists of two equal arcs."""
 
     z: int
     """Number of teeth of the wheel."""
@@ -349,9 +343,7 @@ class ArcTooth:
 
     @property
     def flank(self) -> tuple[float, float]:
-        """Radius at which the radial flank ends and the arc begins [module], and angle of the flank from the tooth's
-        centre line [rad].
-        """
+        """Radius at which the radial flank ends [module], and angle of the flank from the tooth's centre line [rad]."""
         x, y = self.centre
         far = hypot(x, y)
         # length and direction of the tangent from the axis of the wheel to the arc

@@ -20,7 +20,7 @@ from pydantic import (
     model_validator,
 )
 
-from geartrain.numerics.quantity import Figure, Friction, Quantity, Share, bad, check_range, parse_friction
+from geartrain.numerics.quantity import Figure, Friction, Quantity, Share, bad, check_range, checked, parse_friction
 
 
 class NumberOrKeys(BaseModel):
@@ -63,11 +63,14 @@ class CoulombFriction(NumberOrKeys):
     )
 
     @model_validator(mode="after")
-    def _check_range(self) -> CoulombFriction:
+    def _check_coefficients(self) -> CoulombFriction:
         check_range("friction", self.sliding, self.range)
         if self.range is not None and self.deviation is not None:
             fix = "omit `deviation` for a uniform distribution, or `range` for a normal distribution"
             raise bad("friction", "`range` and `deviation` are both given", fix)
+        if self.static is not None and self.static.value < self.sliding.value:
+            what = f"the static coefficient of friction {self.static.text} is below the sliding one {self.sliding.text}"
+            raise bad("friction", what, "give a `static` friction of `sliding` or more, or omit `static`")
         return self
 
     @property
@@ -76,13 +79,6 @@ class CoulombFriction(NumberOrKeys):
         if self.range is not None:
             return self.range[0].value < self.range[1].value
         return self.deviation is not None and bool(self.deviation.value)
-
-    @model_validator(mode="after")
-    def _check_static(self) -> CoulombFriction:
-        if self.static is not None and self.static.value < self.sliding.value:
-            what = f"the static coefficient of friction {self.static.text} is below the sliding one {self.sliding.text}"
-            raise bad("friction", what, "give a `static` friction of `sliding` or more, or omit `static`")
-        return self
 
 
 def _sliding(raw: object) -> object:
@@ -93,14 +89,14 @@ DeclaredCoulombFriction = Annotated[CoulombFriction, BeforeValidator(_sliding)]
 """Field type of a Coulomb friction coefficient. A bare number is accepted as the coefficient `sliding`."""
 
 
-def _check_restitution(figure: Figure) -> Figure:
-    if not 0 <= figure.value <= 1:
-        fix = "give a number from 0 (no rebound) to 1 (no loss of energy)"
-        raise bad("restitution", f"a restitution of {figure.text} is out of range", fix)
-    return figure
-
-
-DeclaredRestitution = Annotated[Figure, AfterValidator(_check_restitution)]
+DeclaredRestitution = Annotated[
+    Figure,
+    checked(
+        lambda given: 0 <= given.value <= 1,
+        "a restitution of {text} is out of range",
+        "give a number from 0 (no rebound) to 1 (no loss of energy)",
+    ),
+]
 """Coefficient of restitution, 0 to 1."""
 
 

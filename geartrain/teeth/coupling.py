@@ -88,7 +88,7 @@ class CouplingRow(NamedTuple):
 
 
 def ratio_row(name: str, driven: str, driver: str, mean: Fraction) -> CouplingRow:
-    """Return the row of a coupling whose mean ratio `mean` is the driven speed divided by the driver speed."""
+    """Return the row of a coupling of two ends with the mean ratio `mean`, driven speed divided by driver speed."""
     return CouplingRow(name, driven, driver, mean.denominator, -mean.numerator)
 
 
@@ -98,9 +98,7 @@ class Coupling(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", coerce_numbers_to_str=True, defer_build=True)
 
     ENDS: ClassVar[tuple[str, ...]] = ("pair",)
-    """Keys that name the links: either two keys, the driver first, or one key whose value is a list or mapping of
-    links.
-    """
+    """Keys that name the links: two keys, the driver first, or one key with a list or mapping of links."""
     SIDES: ClassVar[tuple[str, str]] = ("driven", "driver")
     """Names of the driven side and of the driving side in tables."""
     FOR_COPIES: ClassVar[bool] = False
@@ -118,9 +116,7 @@ class Coupling(BaseModel):
     NEGLECTED: ClassVar[tuple[str, str] | None] = None
     """Effect on torques that is not computed, and the reason; None for kinds of couplings without such an effect."""
     HOLDS: ClassVar[bool] = False
-    """True if the driven side cannot separate from the driver, because the coupling holds the driven side in both
-    senses of rotation.
-    """
+    """True if the driven side cannot separate from the driver, because the coupling holds it in both senses."""
 
     kind: str
     id: str = Field("", description="Name of the coupling; default `first~second`")
@@ -137,9 +133,7 @@ class Coupling(BaseModel):
 
     @property
     def ends(self) -> tuple[str, ...]:
-        """Names of the links that the coupling connects, or of wheels if it is declared by wheels. The driving link
-        comes first.
-        """
+        """Names of the connected links, or of wheels if the coupling is declared by wheels; the driver first."""
         values = [getattr(self, key) for key in self.ENDS]
         return tuple(values) if len(values) > 1 else tuple(values[0])
 
@@ -185,23 +179,17 @@ class Coupling(BaseModel):
 
     @property
     def losses(self) -> Efficiencies | None:
-        """Basic efficiencies if the first end drives and if the second end drives; None for a coupling
-        without losses.
-        """
+        """Basic efficiencies with the first end driving and with the second; None without losses."""
         return self.efficiency
 
     @property
     def transmission(self) -> TransmissionFunction | None:
-        """Transmission function if the first end drives; None if the ratio is constant or the data of the function are
-        missing.
-        """
+        """Transmission function if the first end drives; None if the speed ratio is constant or sizes are missing."""
         return None
 
     @property
     def formula(self) -> str:
-        """Closed-form formula for the driven angle q as a function of the driver's angle S; an empty string if no
-        closed form is known.
-        """
+        """Formula for the driven angle q in terms of the driver's angle S; an empty string if none is known."""
         return ""
 
     def on_axes(self, angle: float) -> Self:
@@ -213,14 +201,12 @@ class Coupling(BaseModel):
 
     @property
     def periods_per_turn(self) -> Fraction:
-        """Number of periods of the transmission function in one revolution of the driver relative to the carrier."""
+        """Number of periods of the transmission function in one turn of the driver relative to the carrier."""
         return Fraction(1)
 
     @property
     def remark(self) -> str:
-        """Predicate that describes the deviation from the mean motion, such as "moves 1/4 of the time"; an empty string
-        if there is none.
-        """
+        """Words on the deviation from mean motion, such as "moves 1/4 of the time"; empty if there are none."""
         return ""
 
     @property
@@ -246,9 +232,7 @@ class Coupling(BaseModel):
         return (ratio_row(self.name, driven, driver, self.mean),)
 
     def references(self) -> Iterator[tuple[str, str, tuple[str | int, ...]]]:
-        """Yield the kind (link or wheel), the name and the location in the declaration of each part of the train that
-        the coupling names.
-        """
+        """Yield the kind (link or wheel), the name and the location in the declaration of each named part."""
         kind = "wheel" if self.by_teeth else "link"
         for key in self.ENDS:
             value = getattr(self, key)
@@ -260,9 +244,7 @@ class Coupling(BaseModel):
 
     @property
     def torques(self) -> Iterator[Quantity]:
-        """Declared energies, such as the loss of a jumper. If there are any, all torques of the train must
-        have units.
-        """
+        """Declared energies, such as the loss of a jumper, which require units of all torques of the train."""
         values = (getattr(self, name) for name in type(self).model_fields)
         return (each for each in values if isinstance(each, Quantity) and each.dimension == "energy")
 
@@ -275,8 +257,8 @@ class Coupling(BaseModel):
     def renamed(self, names: Mapping[str, str], name: str) -> Self:
         """Return a copy of the coupling that connects other links.
 
-        names   new name of each replaced link, keyed by the old name
-        name    new `id`
+        names   new name of each link that is replaced, keyed by its old name
+        name    new `id` of the coupling
         """
         changed: dict[str, Any] = {"id": name}
         for key in self.ENDS:
@@ -291,9 +273,7 @@ class Coupling(BaseModel):
 
 
 def unmodelled_properties(couplings: Sequence[Coupling]) -> list[str]:
-    """Return a list of the properties of couplings that are not known or not modelled. Each entry contains the names of
-    the couplings.
-    """
+    """Return the properties of couplings that are unknown or not modelled, each with the names of the couplings."""
     named: dict[str, list[str]] = {}
     for each in couplings:
         if each.UNKNOWN:

@@ -1,6 +1,4 @@
-"""Cycloidal teeth: epicycloids outside the pitch circles, hypocycloids inside, and one rolling circle for each side of
-the pitch point.
-"""
+"""Cycloidal teeth: epicycloids outside and hypocycloids inside the pitch circles, by two rolling circles."""
 
 from __future__ import annotations
 
@@ -71,32 +69,23 @@ class Cycloidal(ConjugateToothForm):
         check_one_of(self, "rolling", "rolling", "rolling_fraction")
         check_above_0(self, "rolling", "rolling", "rolling_fraction")
         if any(figure.value >= 1 for figure in self.rolling_fraction or ()):
-            raise bad(
-                "rolling",
-                "a rolling circle as large as the pitch circle or larger generates no dedendum",
-                "give a fraction below 1 (1/2 makes radial flanks, and a larger fraction undercut flanks)",
-            )
+            what = "a rolling circle as large as the pitch circle or larger generates no dedendum"
+            fix = "give a fraction below 1 (1/2 makes radial flanks, and a larger fraction undercut flanks)"
+            raise bad("rolling", what, fix)
         if self.thickness is not None:
-            self._check_thickness(self.thickness)
+            check_one_of(self, "backlash", "thickness", "backlash")
+            check_above_0(self, "length", "thickness")
+            if (both := sum(float(each.value) for each in self.thickness)) > pi:
+                fix = f"give thicknesses with a sum of at most {pi:.6g} modules"
+                raise bad("length", f"thicknesses of {both:.6g} modules in total exceed the pitch", fix)
         check_one_of(self, "arcs", "arcs", "addendum")
         if self.arcs is not None:
             check_arcs(self.arcs)
-        elif self.addendum is not None and (
-            min(height.value for height in self.addendum) < 0 or not sum(height.value for height in self.addendum)
-        ):
-            raise bad(
-                "height",
-                "an addendum is negative, or both are 0",
-                "give addenda of 0 or more modules, not 0 for both wheels",
-            )
+        heights = [height.value for height in self.addendum or ()]
+        if heights and (min(heights) < 0 or not any(heights)):
+            fix = "give addenda of 0 or more modules, not 0 for both wheels"
+            raise bad("height", "an addendum is negative, or both are 0", fix)
         return self
-
-    def _check_thickness(self, thickness: TwoFigures) -> None:
-        check_one_of(self, "backlash", "thickness", "backlash")
-        check_above_0(self, "length", "thickness")
-        if (both := sum(float(each.value) for each in thickness)) > pi:
-            fix = f"give thicknesses with a sum of at most {pi:.6g} modules"
-            raise bad("length", f"thicknesses of {both:.6g} modules in total exceed the pitch", fix)
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
         """Return the pair at its design centre distance."""
@@ -115,16 +104,11 @@ class Cycloidal(ConjugateToothForm):
         return ConjugatePair(path, (first, second))
 
     def _circles(self, pitch: PitchSurfaces, wheels: WheelPair) -> tuple[float, float]:
-        """Return the radii of the rolling circles of approach and recess [module]; for bevel gears, the half-angles of
-        the rolling cones [rad].
-        """
+        """Return the radii of both rolling circles [module]; for bevel gears, half-angles of rolling cones [rad]."""
         if self.rolling is not None:
             if wheels.bevel:
-                raise refused(
-                    "`rolling` does not apply to bevel pairs",
-                    "their rolling circles are cones",
-                    "give `rolling_fraction` instead",
-                )
+                what, why = "`rolling` does not apply to bevel pairs", "their rolling circles are cones"
+                raise refused(what, why, "give `rolling_fraction` instead")
             first, second = (wheels.modules(length, "rolling circle") for length in self.rolling)
             return first, second
         first, second = (float(figure.value) for figure in self.rolling_fraction or (_HALF, _HALF))
@@ -144,8 +128,9 @@ class Cycloidal(ConjugateToothForm):
 
 
 def _arc_of_addendum(pitch: PitchSurfaces, R: float, z: float, rho: float, height: Fraction) -> float:
-    """Return the arc of contact X [module; rad on the unit sphere for bevel gears] that ends at the tip of an addendum
-    with a height of `height` modules.
+    """Return the arc of contact on the pitch surfaces [module; rad for bevel gears] that ends at the tip of an
+    addendum. `R` and `rho` are radii of pitch circle and rolling circle, or half-angles of their cones; `height` is the
+    addendum in modules.
     """
     from math import asin, sin
 
@@ -161,9 +146,7 @@ def _arc_of_addendum(pitch: PitchSurfaces, R: float, z: float, rho: float, heigh
         # a ring's tips are inside its pitch circle
         chord = circle_reach(R, rho, abs(R) + (float(height) if R > 0 else -float(height))) / 2
     if chord >= size:
-        raise refused(
-            f"an addendum of {float(height):g} modules exceeds the height of these cycloids",
-            "a cycloid reaches its maximum height after half a turn of the rolling circle",
-            "give a lower addendum or a larger rolling circle",
-        )
+        what = f"an addendum of {float(height):g} modules exceeds the height of these cycloids"
+        why = "a cycloid reaches its maximum height after half a turn of the rolling circle"
+        raise refused(what, why, "give a lower addendum or a larger rolling circle")
     return 2 * size * asin(chord / size)

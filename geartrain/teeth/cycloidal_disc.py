@@ -93,16 +93,15 @@ class CycloidalDisc:
         return found
 
     def _inward_normals(self, turn: Floats) -> Floats:
-        """Return the unit normals of the outline that point from the centres of the pins inwards, as complex numbers x
-        + iy.
-        """
+        """Return unit normals of the outline as complex numbers x + iy. They point from the pins into the disc."""
         to_pitch_point = self.pins / 2 * np.exp(1j * turn) - self.circle
         found: Floats = np.exp(1j * turn / self.lobes) * to_pitch_point / np.abs(to_pitch_point)
         return found
 
     @cached_property
     def sharpest(self) -> float:
-        """Minimum radius of curvature [module] of the convex parts of the pin-centre curve.
+        """Minimum radius of curvature [module] of the convex parts of the curve of a pin's centre in the frame of the
+        disc.
 
         The radius of a pin must be smaller than this value, because a larger pin undercuts the lobes. The value is
         infinite if no part is convex.
@@ -111,7 +110,7 @@ class CycloidalDisc:
         return 1 / float(bent.max()) if bent.max() > 0 else inf
 
     def _centre_curvature(self, turn: Floats) -> Floats:
-        """Return the curvature of the pin-centre curve [1/module], positive where the curve is convex."""
+        """Return the curvature of the curve of a pin's centre in the disc's frame [1/module]; positive if convex."""
         # first and second derivative of `centres` with respect to the angle of the eccentric
         z, e, R = self.lobes, 0.5, self.circle
         slow, fast = np.exp(1j * turn / z), np.exp(1j * turn * (z + 1) / z)
@@ -143,9 +142,8 @@ class CycloidalDisc:
         return found
 
     def arms(self, angle: Floats) -> Floats:
-        """Return the lever arms [module] of the contact normals about the centre of the disc, docs/reducers.md (4).
-
-        A lever arm is 0 for pins that cannot push the disc forwards.
+        """Return the lever arms [module] of the contact normals about the centre of the disc, docs/reducers.md (4); 0
+        for pins that cannot push the disc forwards.
         """
         found: Floats = np.maximum(self.lobes / 2 * self.circle * np.sin(angle) / self.distance(angle), 0.0)
         return found
@@ -165,23 +163,21 @@ class CycloidalDisc:
 
     def _loaded_angle(self, arms: Floats) -> Floats:
         """Return the rotation [rad] of the disc under load at which the pins in contact carry the whole torque,
-        docs/reducers.md (7).
-
-        Pins with longer lever arms come into contact first. The number of loaded pins is the smallest for which the
-        next pin remains unloaded.
+        docs/reducers.md (7). Pins with longer lever arms come into contact first.
         """
         assert self.deflection is not None
         ordered = -np.sort(-arms, axis=0)
         torque = self.deflection * self.lobes / 2
         angles = (torque + self.clearance * np.cumsum(ordered, axis=0)) / np.cumsum(ordered**2, axis=0)
         following = np.concatenate([ordered[1:], np.zeros_like(ordered[:1])])
+        # the number of loaded pins is the smallest for which the next pin remains unloaded
         enough = angles * following <= self.clearance
         found: Floats = np.take_along_axis(angles, enough.argmax(axis=0)[None], axis=0)[0]
         return found
 
     @property
     def _phases(self) -> Floats:
-        """Equally spaced angles of one pin that cover a pitch [rad]."""
+        """Equally spaced angles of one pin from the line of centres, which cover a pitch [rad]."""
         return np.linspace(0, 2 * pi / self.pins, _PHASES, endpoint=False)
 
     @cached_property
@@ -193,9 +189,7 @@ class CycloidalDisc:
         return int(number.min()), int(number.max())
 
     def angles(self, phase: Floats) -> Floats:
-        """Return the angles of all pins from the pitch point [rad], as an array (pins, ...), if one pin is at the angle
-        `phase`.
-        """
+        """Return the angles of all pins from the pitch point [rad], shape (pins, ...); one pin is at `phase`."""
         each = 2 * pi / self.pins * np.arange(self.pins)
         found: Floats = each.reshape(-1, *[1] * np.ndim(phase)) + phase
         return found
@@ -226,10 +220,8 @@ class CycloidalDisc:
     # ---------------------------------------------------------------------------------------------------------- teeth
 
     def lobe(self, tolerance: float) -> FixedTooth:
-        """Return one lobe, symmetric about the x axis, as a sequence of chords that stay inside the lobe, so that they
-        do not touch the pins.
-
-        `tolerance` is the maximum distance of a chord from the lobe [module]; at most 4096 chords are used.
+        """Return one lobe, symmetric about the x axis, as at most 4096 chords inside the lobe, so that they do not
+        touch the pins. `tolerance` is the maximum distance of a chord from the lobe [module].
         """
         # doubled, because the excess of a chord falls with the square of their number
         number = _MIN_CHORDS
@@ -247,10 +239,8 @@ class CycloidalDisc:
         return FixedTooth("external", tip, float(np.abs(points[0])), tooth)
 
     def _chord_excess(self, number: int) -> Floats:
-        """Return the distances by which the midpoints of `number` chords around the disc are outside its outline
-        [module].
-
-        The distance is negative where the chord is inside the outline.
+        """Return the distances [module] by which the midpoints of `number` chords around the disc are outside its
+        outline; negative inside.
         """
         turn = np.linspace(0, 2 * pi, 2 * number + 1)
         points = self.outline(turn)
@@ -299,19 +289,15 @@ class DiscTransmission(ExactRatio, ToothTransmission):
 
     @property
     def verdict(self) -> PairVerdict:
-        """Verdict on the pair. It is always "runs", because discs that cannot run are rejected when they
-        are declared.
-        """
+        """Verdict on the pair: always "runs", because impossible discs are rejected when they are declared."""
         return PairVerdict("runs", "the teeth run", self._backlash, ())
 
     def _driven(self, driver: int, direction: int) -> DiscTransmission:
         return DiscTransmission(self.disc, self.friction, driver, direction)
 
     def _phase(self, S: ArrayLike) -> Floats:
-        """Return the angle of a pin from the line of centres [rad] at driver angles S [rad].
-
-        At S = 0 a pin is on the line of centres if the ring drives. If the disc drives, a lobe is on the line of
-        centres, between two pins.
+        """Return the angle of a pin from the line of centres [rad] at driver angles S [rad]. At S = 0, this angle is 0
+        if the ring drives, and half a pin pitch if the disc drives.
         """
         S = self.direction * np.asarray(S, dtype=float)
         found: Floats = S if self.driver == 2 else S * self.disc.lobes / self.disc.pins + pi / self.disc.pins
@@ -329,15 +315,9 @@ class DiscTransmission(ExactRatio, ToothTransmission):
 # ------------------------------------------------------------------------------------------------------ pair of a train
 
 
-def _range_text(fewest: int, most: int) -> str:
-    return str(most) if fewest == most else f"{fewest} to {most}"
-
-
 @dataclass(frozen=True)
 class DiscFigures(PairFigures):
-    """Results of a lobed disc in its ring of pins: the results that exist for every pair, the sizes of the pins, and
-    their loads.
-    """
+    """Results of a lobed disc in its ring of pins: those of every pair, and sizes and loads of the pins."""
 
     KEYS = (*PairFigures.KEYS, "shortening", "pin_radius", "maximum_load", "bearing")
 
@@ -365,9 +345,7 @@ class DiscMesh(GearMesh):
 
     @property
     def tooth_phase(self) -> float:
-        """Distance [pitch] by which a lobe is past the line of centres when the angle of the disc is 0: midway between
-        two pins, less half the backlash.
-        """
+        """Distance [pitch] of a lobe past the line of centres at the disc angle 0: half of pitch minus backlash."""
         return (1 - self.backlash) / 2
 
     def size(self, tips: Mapping[str, float]) -> PairSize:
@@ -383,6 +361,7 @@ class DiscMesh(GearMesh):
     def account(self) -> PairAccount:
         """Return the report on the pair: sizes, maximum pin load, backlash and efficiency."""
         disc = self.transmission.disc
+        fewest, most = disc.bearing_pins
         figures = DiscFigures(
             self.counts,
             self.verdict,
@@ -395,7 +374,7 @@ class DiscMesh(GearMesh):
         )
         row = (
             *(self.name, f"{self.driver} -> {self.driven}", str(disc.lobes), str(disc.pins)),
-            *(f"{disc.shortening:.4g}", f"{disc.pin:.4g}", _range_text(*disc.bearing_pins)),
+            *(f"{disc.shortening:.4g}", f"{disc.pin:.4g}", str(most) if fewest == most else f"{fewest} to {most}"),
             f"{disc.maximum_load:.4g}",
             *(f"{degrees(self.verdict.backlash):.4g}", *self.efficiency_texts),
         )

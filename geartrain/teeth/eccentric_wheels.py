@@ -41,9 +41,7 @@ class EccentricWheels(NamedTuple):
     offsets: tuple[float, float]
     """Distances of the wheel centres from the axes, in the common length unit."""
     angles: tuple[float, float]
-    """Directions of the centres at S = 0 [rad], measured from the direction of the driven wheel's axis in the sense of
-    rotation of the driver.
-    """
+    """Directions of the centres at S = 0 [rad] from the driven wheel's axis, in the driver's sense of rotation."""
     pressure_angle: float
     """Pressure angle that corresponds to the centre distance [rad]."""
     internal: bool = False
@@ -56,9 +54,7 @@ class EccentricWheels(NamedTuple):
         return first, -second if self.internal else second
 
     def errors_at(self, S: Floats) -> Floats:
-        """Return the transmission error [rad of the driven wheel] at driver angles S [rad], computed by Newton's
-        method.
-        """
+        """Return the transmission error [rad of the driven wheel] at driver angles S [rad], by Newton's method."""
         (r1, r2), sign = self.base, -1 if self.internal else 1
         (e1, e2), (phi1, phi2), inv0 = self.offsets, self.angles, tan(self.pressure_angle) - self.pressure_angle
         distance = sign * abs(self.counts[0] + sign * self.counts[1]) / 2

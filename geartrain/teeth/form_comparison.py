@@ -25,21 +25,15 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
     from geartrain.teeth.conjugate.wheel_pair import WheelPair
 
-REFERENCE_ANGLE = "20 deg"
-"""Pressure angle of the involute that serves as the reference for comparisons."""
 USUAL = ("involute", "uniform_stress", "uniform_temperature_b", "least_friction", "cycloidal", "lantern")
-"""Names of the tooth forms that are compared by default. Forms with several variants (readings) are included with one
-variant.
-"""
+"""Names of the tooth forms compared by default, with one variant (reading) of each form."""
 _MOST_PITCHES = 100.0  # upper limit of an arc of contact
 _EIGHTH = 0.125  # turn: from 45 deg on, the pressure angle does not determine teeth of uniform stress
 
 
 @dataclass(frozen=True)
 class MeasuredForm(Result):
-    """Result for one compared tooth form: its path of contact, losses and loads, or the faults of teeth that cannot
-    run.
-    """
+    """Result for one compared tooth form: path of contact, losses and loads, or the faults of its teeth."""
 
     KEYS = (*(Key("form", "name"), "runs", Key("arcs", "pitches"), "ratios", "faults"),)
 
@@ -52,9 +46,7 @@ class MeasuredForm(Result):
     ratios: PathRatios | None = None
     """Losses and loads relative to the involute; None for the involute itself and if the teeth cannot run."""
     faults: tuple[ToothFault, ...] = ()
-    """Faults that prevent the teeth from running. The kind of a fault is "refused" if the tooth form rejects the
-    wheels.
-    """
+    """Faults that prevent the teeth from running; of kind "refused" if the tooth form rejects the wheels."""
 
     @property
     def runs(self) -> bool:
@@ -92,9 +84,7 @@ class FormComparison(Pictured, Result):
     base: MeasuredForm
     """Result for the involute, with which the tooth forms are compared."""
     forms: tuple[MeasuredForm, ...]
-    """Results for the compared tooth forms. If a form has contact in recess only, they include an involute with such
-    contact.
-    """
+    """Results for the compared forms, and for an involute with contact in recess only if a form has such contact."""
 
     @property
     def path(self) -> PathOfContact:
@@ -170,9 +160,13 @@ def compare_forms(
     known = comparable_forms()
     _check(known, names, arcs, pressure_angle)
     angle = {} if pressure_angle is None else {"pressure_angle": pressure_angle.text}
-    base = _pair_result("involute", reference_involute(wheels, arcs))
+    base = _pair_result("involute", Involute.pair_of_arcs(wheels, arcs, {"pressure_angle": "20 deg"}))
     if base.measures is None:
-        raise _reference_error(base)
+        what = "the 20 deg involute, the reference of the comparison, cannot run: "
+        # remedies that change the pressure angle are omitted, because the reference has 20 degrees by definition
+        fixes = [f"{fault.fix.partition(', or ')[0]}, or give other tooth numbers" for fault in base.faults]
+        faults = zip(base.faults, fixes, strict=True)
+        raise QuestionError(Problem(what + fault.what, fault.why, fix, "arcs") for fault, fix in faults)
     found = []
     for name in names:
         model, reading = known[name]
@@ -188,14 +182,11 @@ def compare_forms(
         involute = Involute.pair_of_arcs(wheels, own_arcs, angle)
         found.append(_pair_result("involute, recess only", involute, base.measures))
     models = [model for name, (model, _) in known.items() if name in names]
-    return FormComparison((int(wheels.z1), int(wheels.z2)), _matched_text(models, arcs), base, tuple(found))
-
-
-def reference_involute(wheels: WheelPair, arcs: tuple[float, float]) -> ConjugatePair:
-    """Return the 20 degree involute pair whose arcs of approach and recess [pitch] are given. These arcs determine the
-    addenda.
-    """
-    return Involute.pair_of_arcs(wheels, arcs, {"pressure_angle": REFERENCE_ANGLE})
+    notes = dict.fromkeys(model.matched for model in models if model.matched)
+    common = "; ".join([f"arcs of contact, {arcs[0]:g} pitches in approach and {arcs[1]:g} in recess", *notes])
+    loads = "one tooth pair bears the whole load, or the tooth pairs in contact share it"
+    matched = f"Matched: {common}. Two loads: {loads}. Results are to first order in friction."
+    return FormComparison((int(wheels.z1), int(wheels.z2)), matched, base, tuple(found))
 
 
 def arcs_error(text: str) -> QuestionError:
@@ -224,19 +215,6 @@ def _check(
         raise QuestionError(Problem(f"a pressure angle of {angle.text} is out of range", why, fix, "pressure_angle"))
 
 
-def _reference_error(base: MeasuredForm) -> QuestionError:
-    """Return the error for a reference involute that cannot run.
-
-    Fixes that change the pressure angle are omitted, because the reference has 20 degrees by definition.
-    """
-    what = "the 20 deg involute, the reference of the comparison, cannot run: "
-    fixes = (fault.fix.partition(", or ")[0] for fault in base.faults)
-    return QuestionError(
-        Problem(what + fault.what, fault.why, f"{fix}, or give other tooth numbers", "arcs")
-        for fault, fix in zip(base.faults, fixes, strict=True)
-    )
-
-
 def _pair_result(name: str, pair: ConjugatePair, base: PathMeasures | None = None) -> MeasuredForm:
     from geartrain.teeth.conjugate.path_losses import measure
 
@@ -244,10 +222,3 @@ def _pair_result(name: str, pair: ConjugatePair, base: PathMeasures | None = Non
         return MeasuredForm(name, pair.path, None, faults=pair.faults)
     found = measure(pair.path)
     return MeasuredForm(name, pair.path, found, None if base is None else found.over(base))
-
-
-def _matched_text(models: Sequence[type[ConjugateToothForm]], arcs: tuple[float, float]) -> str:
-    notes = dict.fromkeys(model.matched for model in models if model.matched)
-    common = "; ".join([f"arcs of contact, {arcs[0]:g} pitches in approach and {arcs[1]:g} in recess", *notes])
-    loads = "one tooth pair bears the whole load, or the tooth pairs in contact share it"
-    return f"Matched: {common}. Two loads: {loads}. Results are to first order in friction."

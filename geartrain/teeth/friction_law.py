@@ -14,11 +14,11 @@ from dataclasses import dataclass
 from functools import cache
 from itertools import pairwise
 from math import log, sqrt
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
-from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, model_validator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
 
-from geartrain.numerics.quantity import Figure, Quantity, Velocity, bad
+from geartrain.numerics.quantity import Figure, Quantity, Velocity, above_zero, bad, checked
 from geartrain.numerics.results import Shown
 from geartrain.numerics.roots import root
 
@@ -30,13 +30,9 @@ if TYPE_CHECKING:
 FOOT_A_MINUTE = 0.3048 / 60
 """Speed of one foot per minute, in m/s."""
 BUCKINGHAM = ((0.0, 0.0517), (150.0, 0.0112), (2100.0, 0.0385))
-"""Pairs of pitch-line speed [ft/min] and friction coefficient of lubricated cast-iron spur gears, from Buckingham, p.
-404, cited by Smith.
-"""
+"""Pairs of pitch-line speed [ft/min] and friction coefficient of lubricated cast iron (Buckingham, p. 404)."""
 DOKOS = (0.53, 0.18, 1e7)
-"""Friction coefficients of dry steel at the lowest and at the highest speed, and the ratio of these two speeds, from
-Dokos, cited by Smith.
-"""
+"""Friction coefficients of dry steel at the lowest and the highest speed, and the ratio of these speeds (Dokos)."""
 SLOWEST_OF_DOKOS = Quantity.parse("0.0001 in/s", "velocity", False)
 
 
@@ -59,21 +55,12 @@ def buckingham_constants() -> tuple[float, float, float]:
     return -log(a) / sqrt(slow), rest, (low - rest * a) / sqrt(slow)
 
 
-def _positive(value: Any) -> Any:
-    if value.value <= 0:
-        raise bad("friction", f"the value must be greater than 0, not {value.text}", "give a number above 0")
-    return value
-
-
-def _not_negative(value: Any) -> Any:
-    if value.value < 0:
-        raise bad("friction", f"a value of {value.text} is below 0", "give 0 or more")
-    return value
-
-
-Coefficient = Annotated[Figure, AfterValidator(_not_negative)]
-PositiveFigure = Annotated[Figure, AfterValidator(_positive)]
-PositiveVelocity = Annotated[Velocity, AfterValidator(_positive)]
+_POSITIVE = above_zero("give a number above 0")
+Coefficient = Annotated[
+    Figure, checked(lambda given: given.value >= 0, "a value of {text} is below 0", "give 0 or more")
+]
+PositiveFigure = Annotated[Figure, _POSITIVE]
+PositiveVelocity = Annotated[Velocity, _POSITIVE]
 Speeds = Literal["sliding", "pitch_line"]
 
 
@@ -237,17 +224,11 @@ class TabulatedFriction(FrictionLaw):
     def _check_table(self) -> TabulatedFriction:
         speeds = [speed.base for speed in self.speeds]
         if len(speeds) != len(self.coefficients) or len(speeds) < 2:
-            raise bad(
-                "friction",
-                "speeds and coefficients do not form a table",
-                "give as many coefficients as speeds, at least two of each",
-            )
+            fix = "give as many coefficients as speeds, at least two of each"
+            raise bad("friction", "speeds and coefficients do not form a table", fix)
         if speeds[0] < 0 or any(low >= high for low, high in pairwise(speeds)):
-            raise bad(
-                "friction",
-                "the speeds are negative or not in increasing order",
-                "list speeds of 0 or more in increasing order",
-            )
+            fix = "list speeds of 0 or more in increasing order"
+            raise bad("friction", "the speeds are negative or not in increasing order", fix)
         return self
 
     @property

@@ -112,9 +112,7 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def note(self) -> str:
-        """Note on a wheel that is treated as a wheel of another kind, such as a contrate wheel; an empty string if
-        there is none.
-        """
+        """Note on a wheel that is treated as a wheel of another kind, such as a contrate wheel; may be empty."""
         return self.wheels.note
 
     @property
@@ -136,7 +134,7 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def gears(self) -> tuple[str, str]:
-        """Names of gear 1 and gear 2 of the tooth form, in the order of the pair unless the form changes it."""
+        """Names of gears 1 and 2 of the tooth form: the wheels of the pair in order, unless the form swaps them."""
         return self.gear.pair
 
     @property
@@ -155,7 +153,7 @@ class GearMesh(Pictured, Shown, ABC):
         return self.transmission.verdict
 
     def own_faults(self) -> Iterator[Problem]:
-        """Yield all faults of the teeth of the pair. The messages do not mention the pair or its file."""
+        """Yield all faults of the teeth. The messages do not mention the pair or its file."""
         yield from (fault.problem for fault in self.verdict.faults)
         yield from self.friction_faults()
 
@@ -186,14 +184,12 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def own_size(self) -> PairSize | None:
-        """Size of the pair, ignoring other pairs of its wheels; None for intersecting axes."""
+        """Size of the pair without regard to other pairs of its wheels; None for intersecting axes."""
         return self.size({})
 
     @property
     def unit_tips(self) -> Mapping[str, float]:
-        """Tip radii of wheels whose size is known only up to a scale factor, in the length unit of the teeth, keyed by
-        wheel; may be empty.
-        """
+        """Tip radii of wheels, keyed by wheel, in a length unit whose size is not known; empty for most tooth forms."""
         return {}
 
     @abstractmethod
@@ -289,17 +285,13 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def cut_sizes(self) -> Any:
-        """Nominal `TriangularSizes`, about which random manufacturing errors vary. Raises `RangeError` for other tooth
-        forms.
-        """
+        """Nominal sizes of triangular teeth, as `TriangularSizes`. Raises `RangeError` for other tooth forms."""
         why, fix = "cutting errors are modelled for triangular teeth only", "declare `tooth_form: {form: triangular}`"
         raise RangeError(Problem(f"{self.label} has no triangular teeth", why, fix))
 
     @property
     def displaced_contact(self) -> DisplacedContact | None:
-        """Model of the contact of displaced flanks for the given driving wheel; None if the tooth form has no such
-        model.
-        """
+        """Contact of displaced flanks for the given driving wheel; None if the tooth form has no such model."""
         return None
 
     @abstractmethod
@@ -331,14 +323,12 @@ class GearMesh(Pictured, Shown, ABC):
 
     @cached_property
     def faults(self) -> tuple[Problem, ...]:
-        """All faults that prevent the teeth of the pair from running, each with its remedy; an empty tuple if the teeth
-        can run.
-        """
+        """All faults that prevent the teeth from running, each with its remedy; empty if the teeth can run."""
         return tuple(replace(each, what=f"{self.label}: {each.what}", place=self.place) for each in self.own_faults())
 
     @property
     def fault(self) -> Problem | None:
-        """First fault that prevents the teeth of the pair from running; None if the teeth can run."""
+        """First of the `faults` that prevent the teeth of the pair from running; None if the teeth can run."""
         return self.faults[0] if self.faults else None
 
     @property
@@ -354,9 +344,7 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def tooth_phase(self) -> float:
-        """Distance [pitch] by which a tooth of the driven wheel is past the line of centres when the driven angle
-        is 0.
-        """
+        """Distance [pitch] of a driven tooth past the line of centres when the angle of the driven wheel is 0."""
         return 0.0
 
     @property
@@ -437,14 +425,12 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def ways(self) -> tuple[Self, ...]:
-        """Meshes to examine: only this mesh if the driver is determined, or one mesh for each of the two possible
-        drivers if it is not.
-        """
+        """Meshes to examine for faults: this mesh, or one for each wheel as the driver if the driver is not known."""
         return (self,) if self.who.known else (self, self.driven_by(replace(self.who, wheel=self.driven)))
 
 
 def find_faults(ways: Sequence[GearMesh]) -> tuple[Problem, ...]:
-    """Return all faults of one gear pair, for each wheel that may drive it.
+    """Return all faults of one gear pair. `ways` are its meshes with each of the wheels that may drive.
 
     A fault that occurs with only one of the drivers names that driver.
     """

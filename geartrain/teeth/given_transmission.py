@@ -1,6 +1,4 @@
-"""Gear pairs whose transmission function is given instead of the shape of their teeth: as a table of transmission
-errors, or as a Python object.
-"""
+"""Gear pairs whose transmission function is given, by a table of errors or a Python object, instead of teeth."""
 
 from __future__ import annotations
 
@@ -198,7 +196,7 @@ class GivenMesh(GearMesh):
         return None
 
     def requirement(self, wheel: str, scale: float, tolerance: float) -> NoReturn:
-        """Raise `GearTrainError`, because the shape of the teeth is not known."""
+        """Raise `GearTrainError`, because the shape of teeth with a given transmission function is not known."""
         del scale, tolerance
         what, why = f"the teeth of '{wheel}' have no shape", "this pair declares a transmission error instead of teeth"
         raise refused(what, why, "declare a tooth form with shapes, such as `tooth_form: involute`")

@@ -23,7 +23,6 @@ if TYPE_CHECKING:
 
 _MOST_MODULES = 1_000_000  # larger than any wheel; squares of much larger lengths overflow
 _PROPORTIONS = {"full": ("1", "1.25"), "deep": ("1", "1.4"), "stub": ("0.8", "1")}
-_PAIR = "give a sum of 0, such as `shift: [0.3, -0.3]`"
 
 
 class Involute(ConjugateToothForm):
@@ -81,9 +80,8 @@ class Involute(ConjugateToothForm):
         if heights is None or not isinstance(given, dict):
             return given
         if twice := {"addendum", "dedendum"} & given.keys():
-            raise bad(
-                "height", f"{min(twice)} and proportions are both given", f"remove `{min(twice)}` or `proportions`"
-            )
+            name = min(twice)
+            raise bad("height", f"{name} and proportions are both given", f"remove `{name}` or `proportions`")
         rest = {name: value for name, value in given.items() if name != "proportions"}
         return {**rest, "addendum": heights[0], "dedendum": heights[1]}
 
@@ -94,9 +92,8 @@ class Involute(ConjugateToothForm):
         for name in ("shift", "addendum", "dedendum"):
             for length in getattr(self, name):
                 if abs(length.value) > _MOST_MODULES:
-                    raise bad(
-                        "height", f"{name} {length.text} is out of range", f"give at most {_MOST_MODULES:g} modules"
-                    )
+                    fix = f"give at most {_MOST_MODULES:g} modules"
+                    raise bad("height", f"{name} {length.text} is out of range", fix)
         return self
 
     def misplaced(self, wheels: WheelPair) -> float | None:
@@ -105,8 +102,15 @@ class Involute(ConjugateToothForm):
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
         """Return the pair at its declared centre distance; by default, at the distance without backlash."""
+        from geartrain.teeth.conjugate.admissibility import involute_faults
+        from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
+
         wheels.check()
-        return self._bevel(wheels) if wheels.bevel else self._spur(wheels)
+        if wheels.bevel:
+            return self._bevel(wheels)
+        found = self.involutes(wheels)
+        path = _straight_path(found.pitch, found.psi, found.arcs)
+        return ConjugatePair(path, found.halves, involute_faults(found, path))
 
     @classmethod
     def pair_of_arcs(cls, wheels: WheelPair, arcs: tuple[float, float], given: Mapping[str, object]) -> ConjugatePair:
@@ -135,14 +139,12 @@ class Involute(ConjugateToothForm):
     # ------------------------------------------------------------------------------------------------ parallel axes
 
     def bottom_clearance(self, wheels: WheelPair, gear: int) -> float:
-        """Return the bottom clearance between the root of one wheel and the tip of its mate [module], negative if
-        they overlap.
-        """
+        """Return the bottom clearance at the root of one wheel [module]; negative if it overlaps the mate's tip."""
         return self.involutes(wheels).bottom_clearance(gear)
 
     def backlash_apart(self, wheels: WheelPair, gap: float) -> float | None:
-        """Return the backlash [module] if the wheels are `gap` modules farther apart than declared; None if the base
-        circles do not allow this distance.
+        """Return the backlash [module] if the wheels are moved apart by `gap` [module] from their centre distance; None
+        if the base circles would not allow the new distance.
         """
         found = self.involutes(wheels)
         # in a ring the teeth separate as the centre distance decreases
@@ -180,12 +182,10 @@ class Involute(ConjugateToothForm):
             # at this distance the pressure angle would be 0
             minimum = second.base - first.base if wheels.internal else second.base + first.base
             if distance <= minimum:
-                raise refused(
-                    f"a centre distance of {distance:.6g} modules is too short for these involutes",
-                    f"their base circles require more than {minimum:.6g}; the distance without profile shift is "
-                    f"{wheels.distance:g}",
-                    "give a longer centre_distance or a larger pressure_angle",
-                )
+                what = f"a centre distance of {distance:.6g} modules is too short for these involutes"
+                plain = f"the distance without profile shift is {wheels.distance:g}"
+                why = f"their base circles require more than {minimum:.6g}; {plain}"
+                raise refused(what, why, "give a longer centre_distance or a larger pressure_angle")
         thinned = wheels.modules(self.backlash, "backlash")
         return InvolutePair(first, second, distance, thinned)
 
@@ -201,14 +201,6 @@ class Involute(ConjugateToothForm):
         # the flank of the rack is straight as deep as the addendum of the mate; its fillet is below
         return InvoluteWheel(z, psi, shift, add, ded, min(mate, ded), ring)
 
-    def _spur(self, wheels: WheelPair) -> ConjugatePair:
-        from geartrain.teeth.conjugate.admissibility import involute_faults
-        from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
-
-        found = self.involutes(wheels)
-        path = _straight_path(found.pitch, found.psi, found.arcs)
-        return ConjugatePair(path, found.halves, involute_faults(found, path))
-
     # ----------------------------------------------------------------------------------------------- axes that meet
 
     def _bevel(self, wheels: WheelPair) -> ConjugatePair:
@@ -216,11 +208,11 @@ class Involute(ConjugateToothForm):
         from geartrain.teeth.conjugate.involute_geometry import cone_height, spherical_arc
 
         if sum(figure.value for figure in self.shift):
-            raise refused(
+            what, why = (
                 "the shifts of a bevel pair do not sum to 0",
                 "the shaft angle fixes the pitch cones of both wheels",
-                _PAIR,
             )
+            raise refused(what, why, "give a sum of 0, such as `shift: [0.3, -0.3]`")
         if self.centre_distance is not None:
             raise refused("bevel wheels have no centre distance", "their axes intersect", "remove `centre_distance`")
         pitch, psi = wheels.pitch, self.pressure_angle.si
@@ -231,39 +223,23 @@ class Involute(ConjugateToothForm):
             tip = R + cone_height(R, z, height)
             # half-angle of the base cone of a spherical involute: its sine is sin R cos psi
             if not asin(sin(R) * cos(psi)) <= tip < pi:
-                raise refused(
-                    f"the tip cone of wheel {at + 1} is out of range",
-                    f"it is {height:g} modules above the pitch cone, but must be outside the base cone and below "
-                    "180 deg",
-                    "give the wheel an addendum near 1 and a shift near 0",
-                )
+                limits = "but must be outside the base cone and below 180 deg"
+                why = f"it is {height:g} modules above the pitch cone, {limits}"
+                fix = "give the wheel an addendum near 1 and a shift near 0"
+                raise refused(f"the tip cone of wheel {at + 1} is out of range", why, fix)
             arcs.append(spherical_arc(R, psi, tip))
         # one arc may be negative, if its contact ends on the other side of the pitch point
         if sum(arcs) <= 0:
-            raise refused(
-                "the teeth do not reach each other",
-                "the tips of one wheel leave the line of action before the tips of the other wheel reach it",
-                "give larger addenda, or smaller shifts",
-            )
-        return ConjugatePair(_straight_path(pitch, psi, (arcs[0], arcs[1])), self._bevel_halves(pitch, wheels))
-
-    def _bevel_halves(self, pitch: PitchSurfaces, wheels: WheelPair) -> tuple[float, float]:
-        """Return the half-thicknesses of the teeth of both wheels, as arcs X on the pitch cones [rad on the unit
-        sphere].
-
-        A profile shift of x modules increases the whole thickness by 2 x tan psi modules.
-        """
+            why = "the tips of one wheel leave the line of action before the tips of the other wheel reach it"
+            raise refused("the teeth do not reach each other", why, "give larger addenda, or smaller shifts")
+        # a profile shift of x modules increases the whole thickness by 2 x tan psi modules
         module, thin = pitch.p / pi, self._backlash(pitch, wheels) / 4
-        first, second = (
-            pitch.p / 4 + float(figure.value) * tan(self.pressure_angle.si) * module - thin for figure in self.shift
-        )
-        return first, second
+        first, second = (pitch.p / 4 + float(figure.value) * tan(psi) * module - thin for figure in self.shift)
+        return ConjugatePair(_straight_path(pitch, psi, (arcs[0], arcs[1])), (first, second))
 
 
 def _straight_path(pitch: PitchSurfaces, psi: float, arcs: tuple[float, float]) -> PathOfContact:
-    """Return the path of contact with a constant pressure angle `psi` [rad] and the given arcs X of approach and
-    recess.
-    """
+    """Return the path of contact with a constant pressure angle `psi` [rad] and arcs of approach and recess `arcs`."""
     from geartrain.teeth.conjugate.optimal_sides import involute
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 

@@ -73,14 +73,10 @@ class Lantern(ConjugateToothForm):
     def misplaced(self, wheels: WheelPair) -> float | None:
         """Return None, or raise `RangeError` if a centre distance other than the design distance is declared."""
         if (distance := super().misplaced(wheels)) is not None:
-            raise RangeError(
-                Problem(
-                    f"the centre distance of this lantern is {distance - wheels.distance:+.6g} modules off the design "
-                    "distance",
-                    "the ratio is constant only at the design distance, and other distances are not modelled",
-                    "remove `centre_distance`, or give another tooth_form",
-                )
-            )
+            off = f"{distance - wheels.distance:+.6g} modules off the design distance"
+            why = "the ratio is constant only at the design distance, and other distances are not modelled"
+            fix = "remove `centre_distance`, or give another tooth_form"
+            raise RangeError(Problem(f"the centre distance of this lantern is {off}", why, fix))
         return None
 
     def pair(self, wheels: WheelPair) -> ConjugatePair:
@@ -111,10 +107,8 @@ class Lantern(ConjugateToothForm):
         tooth = pitch.p / 2 - pin - self._backlash(pitch, wheels) / 2
         halves = (pin, tooth) if self.pins == 1 else (tooth, pin)
         (approach, recess), arcs = (sides, real) if self.pins == 1 else (sides[::-1], real[::-1])
-        path, cut = (
-            PathOfContact(pitch, approach, recess, (arcs[0], arcs[1])),
-            self._undercut(pitch, start, outside, inside),
-        )
+        path = PathOfContact(pitch, approach, recess, (arcs[0], arcs[1]))
+        cut = self._undercut(pitch, start, outside, inside)
         return ConjugatePair(path, halves, extra=cut, solid=(self.pins != 1, self.pins != 2))
 
     @classmethod
@@ -140,19 +134,14 @@ class Lantern(ConjugateToothForm):
             return ()
         mate, where = 3 - self.pins, start / pitch.p
         side = f"{abs(where):.4g} pitches {'beyond' if where > 0 else 'short of'} the pitch point"
-        fault = ToothFault(
-            "undercut",
-            mate,
-            -start if self.pins == 1 else start,
-            f"gear {mate} is undercut by the approaching pins",
-            f"its remaining flanks begin {side}, with {left:.6g} pitches of contact",
-            f"give an arc of at most {max(-where, 0):.4g} pitches on its dedendum and of at least {1 + where:.6g} on "
-            "its addendum, a smaller pin_diameter, or a smaller pin_radius",
-        )
-        return (fault,)
+        what = f"gear {mate} is undercut by the approaching pins"
+        why = f"its remaining flanks begin {side}, with {left:.6g} pitches of contact"
+        arcs = f"at most {max(-where, 0):.4g} pitches on its dedendum and of at least {1 + where:.6g} on its addendum"
+        fix = f"give an arc of {arcs}, a smaller pin_diameter, or a smaller pin_radius"
+        return (ToothFault("undercut", mate, -start if self.pins == 1 else start, what, why, fix),)
 
     def lantern_pins(self, wheels: WheelPair) -> LanternPins:
-        """Return the pins, with lengths in modules."""
+        """Return the pins of the lantern, with lengths in modules."""
         from geartrain.teeth.outlines.wheel_requirement import LanternPins
 
         z = wheels.z1 if self.pins == 1 else wheels.z2
@@ -160,33 +149,30 @@ class Lantern(ConjugateToothForm):
         return LanternPins(self.pins, radius, wheels.modules(self.pin_diameter, "pin_diameter") / 2)
 
     def _sizes(self, R: float, wheels: WheelPair) -> tuple[float, float]:
-        """Return the distance of the pins from their axis and the radius of a pin [module]."""
+        """Return the distance of the pins from the lantern's axle and their radius [module], for pitch radius `R`."""
         pins = self.lantern_pins(wheels)
         A, B = pins.circle, pins.radius
         z = wheels.z1 if self.pins == 1 else wheels.z2
         # such pins do not intersect the pitch circle
         if abs(A - R) >= B:
-            raise refused(
-                f"pins at {A:.6g} modules from the axis do not reach the pitch circle",
-                f"the pitch radius is {R:.6g} modules and the radius of a pin {B:.6g}, so no contact occurs at the "
-                "pitch point",
-                f"give a pin_radius (distance of the pin centres from the axis) between {R - B:.6g} and {R + B:.6g} "
-                "modules",
-            )
+            what = f"pins at {A:.6g} modules from the axis do not reach the pitch circle"
+            sizes = f"the pitch radius is {R:.6g} modules and the radius of a pin {B:.6g}"
+            limits = f"between {R - B:.6g} and {R + B:.6g} modules"
+            fix = f"give a pin_radius (distance of the pin centres from the axis) {limits}"
+            raise refused(what, f"{sizes}, so no contact occurs at the pitch point", fix)
         # chord between the centres of two adjacent pins
         most = 2 * A * sin(pi / z)
         if most <= 2 * B:
-            raise refused(
-                f"pins of {2 * B:.6g} modules touch each other",
-                f"the centres of {z} pins are {most:.6g} modules apart",
-                f"give a pin_diameter below {most:.6g} modules; half of that leaves space for the mate's teeth",
-            )
+            what = f"pins of {2 * B:.6g} modules touch each other"
+            fix = f"give a pin_diameter below {most:.6g} modules; half of that leaves space for the mate's teeth"
+            raise refused(what, f"the centres of {z} pins are {most:.6g} modules apart", fix)
         return A, B
 
     def _arcs(
         self, pitch: PitchSurfaces, R: float, A: float, B: float, mate: float, start: float
     ) -> tuple[float, float]:
-        """Return two arcs X of contact [module]: on the mate's addendum and on the mate's dedendum.
+        """Return the arcs of contact on the mate's addendum and on the mate's dedendum [module on the pitch circles].
+        `start` is the arc at which the mate's flank begins; R, A, B and `mate` are defined in `flank_start`.
 
         By default the arc on the addendum is one pitch from the start of the flank, and the arc on the dedendum is 0.
         """

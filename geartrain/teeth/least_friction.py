@@ -82,44 +82,33 @@ class LeastFriction(ConjugateToothForm):
 
     def _check_usual(self) -> LeastFriction:
         if self.pressure_angles is not None:
-            raise bad(
-                "literal",
-                "pressure_angles apply only to the literal shape",
-                "give `pressure_angle`, or `literal: true`",
-            )
+            what = "pressure_angles apply only to the literal shape"
+            raise bad("literal", what, "give `pressure_angle`, or `literal: true`")
         if self.pressure_angle is not None:
             check_angle("pressure_angle", self.pressure_angle, 0.125)
         if self.margin is not None and self.margin.value <= 0:
-            raise bad(
-                "margin",
-                f"with a margin of {self.margin.text} the contact would come to rest on the dedendum",
-                "give a margin above 0",
-            )
+            what = f"with a margin of {self.margin.text} the contact would come to rest on the dedendum"
+            raise bad("margin", what, "give a margin above 0")
         fastest = sin((self.pressure_angle or _MAXIMUM_ANGLE).si)
         # at the pitch point the contact moves with the sine of the pressure angle times the pitch-line speed
-        if (self.margin or _MARGIN).value >= fastest:
-            raise bad(
-                "margin",
-                f"a margin of {(self.margin or _MARGIN).text} is not below {fastest:.6g}, the speed at the pitch point",
-                "give a margin below the sine of the pressure angle, or a larger pressure_angle",
-            )
+        if (margin := self.margin or _MARGIN).value >= fastest:
+            what = f"a margin of {margin.text} is not below {fastest:.6g}, the speed at the pitch point"
+            fix = "give a margin below the sine of the pressure angle, or a larger pressure_angle"
+            raise bad("margin", what, fix)
         return self
 
     def _check_literal(self) -> LeastFriction:
         if self.friction_law is not None:
             raise bad("literal", "the literal shape does not depend on a friction_law", "remove `friction_law`")
         if self.pressure_angle is not None or self.margin is not None:
-            raise bad(
-                "literal", "the literal shape has neither pressure_angle nor margin", "give `pressure_angles` instead"
-            )
+            what = "the literal shape has neither pressure_angle nor margin"
+            raise bad("literal", what, "give `pressure_angles` instead")
         first, last = (angle.si for angle in self.pressure_angles or (_FIRST_ANGLE, _LAST_ANGLE))
         # at 45 deg the radius of curvature is 0, beyond it the flank would turn back
         if not pi / 4 <= last < first < pi / 2:
-            raise bad(
-                "pressure_angle",
-                "the pressure angles of the literal shape are not in descending order between 90 and 45 deg",
-                "give two angles from 45 to 90 deg, the larger one first: the flanks have a cusp at 45 deg",
-            )
+            what = "the pressure angles of the literal shape are not in descending order between 90 and 45 deg"
+            fix = "give two angles from 45 to 90 deg, the larger one first: the flanks have a cusp at 45 deg"
+            raise bad("pressure_angle", what, fix)
         if self.arcs is not None and min(arc.value for arc in self.arcs) > 0:
             raise bad("arcs", "the literal shape has contact on one side only", "give `arcs: [0, 1]` or `arcs: [1, 0]`")
         return self
@@ -141,10 +130,9 @@ class LeastFriction(ConjugateToothForm):
         return PathOfContact(pitch, approach, recess)
 
     def _weight(self, pitch: PitchSurfaces) -> Callable[[Floats], Floats] | None:
-        """Return the density of the friction loss, up to a constant factor, as a function of the distance d from the
-        pitch point. The density is mu S, where mu is the coefficient of friction and S is d, or sin d for bevel gears.
-
-        Return None if the coefficient of friction is the same at all contacts.
+        """Return the friction loss per distance from the pitch point, up to a factor, as a function of this distance d:
+        mu S, where mu is the coefficient of friction and S is d, or sin d for bevel gears. Return None if mu is the
+        same at all contacts.
         """
         if self.friction_law is None or self.pitch_line_speed is None or self.friction_law.of_pitch_line:
             return None

@@ -81,9 +81,7 @@ class MeshingWheels:
     friction: float | None = None
     """Coefficient of friction; None if no friction is declared or if a friction law is declared."""
     distance: float | None = None
-    """Half the sum, over both wheels, of the product of transverse module and tooth count [m]; None if a module has no
-    unit.
-    """
+    """Mean over both wheels of transverse module times tooth count [m]; None if a module has no unit."""
     friction_law: FrictionLaw | None = None
     """Friction law that is declared instead of a coefficient; None if no friction law is declared."""
     pitch_line: float | None = None
@@ -101,13 +99,11 @@ class MeshingWheels:
     @property
     def pitch_distance(self) -> float | None:
         """Centre distance at which the declared pitch circles touch [m]; None if no lengths are declared."""
-        z1, z2 = self.counts
+        if self.distance is None or not any(self.internal):
+            return self.distance
         # `distance` belongs to the sum of the tooth numbers, also for a ring
-        return (
-            self.distance
-            if self.distance is None or not any(self.internal)
-            else self.distance * abs(z1 - z2) / (z1 + z2)
-        )
+        z1, z2 = self.counts
+        return self.distance * abs(z1 - z2) / (z1 + z2)
 
     @property
     def ring(self) -> Literal[0, 1, 2]:
@@ -127,17 +123,13 @@ class MeshingWheels:
 
     @property
     def note(self) -> str:
-        """Note on a contrate wheel, which is treated as a spur wheel; an empty string if neither wheel is a contrate
-        wheel.
-        """
+        """Note that a contrate wheel is treated as a spur wheel; empty if neither wheel is a contrate wheel."""
         return _CONTRATE if "contrate" in self.kinds else ""
 
 
 @dataclass(frozen=True, slots=True)
 class PairSize:
-    """Size of a pair with real teeth: the scale of its lengths, and the centre distance at which layouts place its
-    wheels.
-    """
+    """Size of a pair: scale of the lengths of its teeth, and centre distance at which its wheels are placed."""
 
     scale: float
     """Length unit of the teeth, in modules."""

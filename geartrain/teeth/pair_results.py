@@ -92,9 +92,7 @@ class SlidingEfficiency(Result):
 
     @property
     def friction(self) -> float | None:
-        """Coefficient of friction; None for a declared efficiency. If the coefficient depends on speed, its mean over
-        the driver angle is returned.
-        """
+        """Coefficient of friction, or its mean if it depends on speed; None for a declared efficiency."""
         return self.transmission.friction
 
     @property
@@ -109,9 +107,7 @@ class SlidingEfficiency(Result):
 
     @property
     def at_constant_load(self) -> float | None:
-        """Work output divided by work input at constant load torque; None if friction locks the pair or if no work is
-        done.
-        """
+        """Work output divided by work input at constant load torque; None if the pair locks or does no work."""
         return None if self.locks else finite(self.transmission.efficiency_at_constant_load())
 
     @property
@@ -130,12 +126,12 @@ class SlidingEfficiency(Result):
         return "locks" if self.mean is None else f"{self.mean:.6f}"
 
 
-def _gear_or_none(gear: int) -> int | None:
-    """Return the number of the faulty gear; None if `gear` is 0, which denotes the pair as a whole."""
-    return gear or None
-
-
 # -------------------------------------------------------------------------------------------------------------- verdict
+
+
+def _gear_or_none(gear: int) -> int | None:
+    """Return the number of the faulty gear, or None if `gear` is 0, which means the pair as a whole."""
+    return gear or None
 
 
 @dataclass(frozen=True, slots=True)
@@ -149,9 +145,7 @@ class ToothFault(Result):
     gear: int
     """Number of the faulty gear, 1 or 2; 0 if the fault concerns the pair as a whole."""
     X: float
-    """Arc X on the pitch surfaces at which the fault begins [module; rad for bevel gears]; NaN if the fault has no
-    position.
-    """
+    """Arc X on the pitch surfaces at which the fault begins [module; rad for bevel gears]; NaN if undefined."""
     what: str
     """Statement that describes the fault."""
     why: str
@@ -208,9 +202,7 @@ def verdict_of_faults(faults: tuple[ToothFault, ...], backlash: float) -> PairVe
 
 
 def friction_lock(friction: float, locking: float) -> Problem:
-    """Return the problem of teeth that lock because the coefficient of friction `friction` is equal to or above the
-    limit `locking`.
-    """
+    """Return the problem of teeth that friction locks: the coefficient `friction` is not below the limit `locking`."""
     return Problem(
         f"a coefficient of friction of {friction:g} locks these teeth",
         f"at a coefficient of {locking:.6g} or more the driver cannot overcome the sliding friction at some angle",
@@ -253,22 +245,14 @@ class PinFigures(Result):
 
 def pin_figures(transmission: PinTransmission) -> PinFigures:
     """Return the results of one pin coupling."""
-    error = TransmissionError.of(transmission)
-    return PinFigures(
-        transmission.r,
-        transmission.e,
-        SpeedRatio.of(transmission),
-        transmission.amplitude,
-        error,
-        SlidingEfficiency(transmission),
-    )
+    speed, error = SpeedRatio.of(transmission), TransmissionError.of(transmission)
+    efficiency = SlidingEfficiency(transmission)
+    return PinFigures(transmission.r, transmission.e, speed, transmission.amplitude, error, efficiency)
 
 
 @dataclass(frozen=True)
 class PairFigures(Result):
-    """Results of one pair for the case that one of its wheels drives. Tooth forms with further results have
-    a subclass.
-    """
+    """Results of one pair with one of its wheels driving. Some tooth forms have a subclass with further results."""
 
     KEYS: ClassVar[tuple[str | Key, ...]] = (
         *("teeth", "verdict", Key("backlash", "verdict.backlash", finite)),
@@ -301,9 +285,7 @@ def motion_figures(
 
 @dataclass(frozen=True)
 class AccountTable:
-    """Header of a table in the report on pairs, and the row of one pair. `wide` is True if the table is as wide as the
-    page.
-    """
+    """Header of a table in the report on pairs, and the row of one pair. A `wide` table fills the page."""
 
     header: tuple[str, ...]
     row: tuple[str, ...]

@@ -103,18 +103,13 @@ class PinRing(ToothForm):
 
         pins = lobes + 1
         if lobes < 3:
-            raise refused(
-                f"a disc of {lobes} lobes cannot run",
-                "with fewer than 3 lobes, too few pins press on the disc",
-                "give 3 lobes or more",
-            )
+            why = "with fewer than 3 lobes, too few pins press on the disc"
+            raise refused(f"a disc of {lobes} lobes cannot run", why, "give 3 lobes or more")
         circle = pins / 2 / _SHORTENING if self.pin_circle is None else self._modules("pin_circle", module)
         if circle <= pins / 2:
-            raise refused(
-                f"pins at {circle:.6g} modules from the axis are on or inside the pitch circle",
-                f"its radius is {pins / 2:.6g} modules, and the path of a pin would have cusps or loops",
-                "give a larger pin_circle, or a smaller module (twice the eccentricity)",
-            )
+            what = f"pins at {circle:.6g} modules from the axis are on or inside the pitch circle"
+            why = f"its radius is {pins / 2:.6g} modules, and the path of a pin would have cusps or loops"
+            raise refused(what, why, "give a larger pin_circle, or a smaller module (twice the eccentricity)")
         apart = 2 * circle * sin(pi / pins)
         # the curve of the pin centres, and so its curvature, does not depend on the pin radius
         found = CycloidalDisc(lobes, circle, 0.0)
@@ -122,19 +117,16 @@ class PinRing(ToothForm):
         usual = min(apart / _PIN_SPACING / 2, 0.9 * found.sharpest)
         pin = usual if self.pin_diameter is None else self._modules("pin_diameter", module) / 2
         if 2 * pin >= apart:
+            what = f"pins of {2 * pin:.6g} modules touch each other"
             raise refused(
-                f"pins of {2 * pin:.6g} modules touch each other",
-                f"their centres are {apart:.6g} modules apart",
-                f"give a pin_diameter below {apart:.5g} modules",
+                what, f"their centres are {apart:.6g} modules apart", f"give a pin_diameter below {apart:.5g} modules"
             )
         back = self._modules("clearance", module)
         if pin + back >= found.sharpest:
-            raise refused(
-                f"pins of {2 * pin:.6g} modules undercut the lobes",
-                f"the path of their centres has a minimum radius of curvature of {found.sharpest:.6g} modules, "
-                "and the pin radius and the clearance together must be smaller",
-                f"give a pin_diameter below {2 * (found.sharpest - back):.5g} modules, or a larger pin_circle",
-            )
+            bend = f"the path of their centres has a minimum radius of curvature of {found.sharpest:.6g} modules"
+            why = f"{bend}, and the pin radius and the clearance together must be smaller"
+            fix = f"give a pin_diameter below {2 * (found.sharpest - back):.5g} modules, or a larger pin_circle"
+            raise refused(f"pins of {2 * pin:.6g} modules undercut the lobes", why, fix)
         yielding = None if self.deflection is None else self._modules("deflection", module)
         return CycloidalDisc(lobes, circle, pin, back, yielding)
 
@@ -170,12 +162,9 @@ class PinRing(ToothForm):
         from geartrain.teeth.cycloidal_disc import DiscTransmission
 
         if z2 != z1 + 1:
-            raise refused(
-                f"a disc with {z1} lobes does not mesh with {z2} pins",
-                "the ring must have one pin more than the disc has lobes, so that each turn of the eccentric advances "
-                "the disc by one pin pitch",
-                f"give the ring {z1 + 1} pins",
-            )
+            rule = "the ring must have one pin more than the disc has lobes"
+            why = f"{rule}, so that each turn of the eccentric advances the disc by one pin pitch"
+            raise refused(f"a disc with {z1} lobes does not mesh with {z2} pins", why, f"give the ring {z1 + 1} pins")
         return DiscTransmission(self.disc(z1, module), friction, driver)
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
@@ -185,9 +174,8 @@ class PinRing(ToothForm):
         del shaft_angle
         if set(wheels.kinds) != {"spur"} or sum(wheels.internal) != 1:
             why = "the disc is an external spur wheel and its ring an internal one"
-            raise refused(
-                "these wheels are not a disc and a ring", why, f"declare `internal: true` for the ring, or {IDEAL}"
-            )
+            fix = f"declare `internal: true` for the ring, or {IDEAL}"
+            raise refused("these wheels are not a disc and a ring", why, fix)
         first = 2 if wheels.internal[0] else 1
         z1, z2 = wheels.counts[:: 3 - 2 * first]
         transmission = self.transmission(z1, z2, wheels.friction or 0.0, first, wheels.module)

@@ -35,9 +35,7 @@ class RubbedTransmission(TransmissionFunction):
     # ---------------------------------------------------------------------------------------------------- kinematics
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the transmission error of the underlying function [rad of the driven side] at driver angles
-        S [rad].
-        """
+        """Return the transmission error of the underlying function [rad of the driven side] at angles S [rad]."""
         return self.transmission.error(S)
 
     def speed(self, S: ArrayLike) -> Floats:
@@ -53,9 +51,7 @@ class RubbedTransmission(TransmissionFunction):
         return self.transmission.error_range()
 
     def error_moments(self) -> tuple[float, float]:
-        """Return the mean of the transmission error of the underlying function and its rms deviation from the mean [rad
-        of the driven side].
-        """
+        """Return the mean and the rms deviation of the underlying transmission error [rad of the driven side]."""
         return self.transmission.error_moments()
 
     def kinks(self) -> list[float]:
@@ -71,9 +67,7 @@ class RubbedTransmission(TransmissionFunction):
         return self.transmission.speed_leaps()
 
     def steepest_fall(self) -> float | None:
-        """Return the maximum rate at which the speed ratio of the underlying function decreases [1/rad]; None if the
-        underlying function does not give it.
-        """
+        """Return the maximum rate of decrease of the underlying speed ratio [1/rad]; None if it is not known."""
         return self.transmission.steepest_fall()
 
     @property
@@ -127,8 +121,6 @@ class RubbedTransmission(TransmissionFunction):
 
 
 def pair_friction(wheels: MeshingWheels) -> PairFriction | None:
-    """Return the friction law of a pair, applied at its pitch-line speed; None if no friction law is declared or the
-    speed is unknown.
-    """
+    """Return the friction law of a pair at its pitch-line speed; None without a law or if the speed is unknown."""
     declared, at = wheels.friction_law, wheels.pitch_line
     return None if declared is None or at is None else PairFriction(declared, at)

@@ -76,63 +76,54 @@ def _connected(first: str, edges: Iterable[tuple[str, str]]) -> list[str]:
 def _design(
     group: Iterable[str], edges: Iterable[tuple[str, str]], gears: Mapping[str, UndeclaredWheel], angle: int
 ) -> dict[str, StandardTeeth] | None:
-    """Return the standard teeth of connected wheels, keyed by wheel; None if a pair cannot run at the pressure angle
-    `angle` [deg].
+    """Return the standard teeth of a group of connected wheels with a pressure angle of `angle` degrees; None if one of
+    the pairs `edges` cannot run with them.
     """
     addenda = dict.fromkeys(group, ADDENDUM)
     for first, second in edges:
-        heights = (height for height in _ADDENDA if _runs(gears[first], gears[second], angle, height, height))
+        heights = (height for height in _ADDENDA if _runs(gears[first], gears[second], angle, (height, height)))
         if (tallest := next(heights, None)) is None:
             return None
         # the mate with the lowest limit decides, since a wheel has one addendum
         addenda[first], addenda[second] = min(addenda[first], tallest), min(addenda[second], tallest)
     # each addendum is the minimum over all mates of a wheel, so that pairs must be checked with both addenda
-    if not all(_runs(gears[one], gears[two], angle, addenda[one], addenda[two]) for one, two in edges):
+    if not all(_runs(gears[one], gears[two], angle, (addenda[one], addenda[two])) for one, two in edges):
         return None
     return {name: StandardTeeth(angle, addendum) for name, addendum in addenda.items()}
 
 
 # pairs with equal tooth numbers recur in a train and in a search
 @lru_cache(maxsize=65536)
-def _runs(first: UndeclaredWheel, second: UndeclaredWheel, angle: int, *addenda: float) -> bool:
+def _runs(first: UndeclaredWheel, second: UndeclaredWheel, angle: int, addenda: tuple[float, float]) -> bool:
     try:
         check_size(max(first.z, second.z))
-        form = _form(angle, addenda[0], addenda[1], 0.0)
+        form = standard_form(StandardTeeth(angle, addenda[0]), StandardTeeth(angle, addenda[1]), 0.0)
         return not conjugate_pair_of(form, WheelPair(first.z, second.z, second.internal)).faults
     except GearTrainError:
         return False
 
 
 def lone_mate(gear: UndeclaredWheel) -> UndeclaredWheel:
-    """Return a mate for a wheel that has no mate: an equal wheel, or, for a ring gear, a pinion with half as many
-    teeth, rounded down.
-    """
+    """Return a mate for a wheel that has none: an equal wheel, or for a ring gear a pinion with half its teeth."""
     return UndeclaredWheel(max(gear.z // 2, 1)) if gear.internal else gear
 
 
+@lru_cache(maxsize=4096)
 def standard_form(first: StandardTeeth, second: StandardTeeth, backlash: float) -> Involute:
     """Return the tooth form of a pair of standard wheels with the given backlash [module]."""
-    return _form(first.angle, first.addendum, second.addendum, backlash)
+    return Involute.model_validate(
+        {
+            "form": "involute",
+            "pressure_angle": f"{first.angle} deg",
+            "addendum": [f"{first.addendum:g}", f"{second.addendum:g}"],
+            "dedendum": f"{DEDENDUM:g}",
+            "backlash": f"{backlash:.12f}",
+        }
+    )
 
 
 def check_size(z: int) -> None:
     """Raise `GearTrainError` if a wheel has more than `MOST_TEETH` teeth."""
     if z > MOST_TEETH:
-        what, why = (
-            f"the teeth of a wheel with {z} teeth cannot be built",
-            f"the maximum is {MOST_TEETH} teeth",
-        )
+        what, why = f"the teeth of a wheel with {z} teeth cannot be built", f"the maximum is {MOST_TEETH} teeth"
         raise GearTrainError(Problem(what, why, "represent the wheel by a plain disc"))
-
-
-@lru_cache(maxsize=4096)
-def _form(angle: int, first: float, second: float, backlash: float) -> Involute:
-    return Involute.model_validate(
-        {
-            "form": "involute",
-            "pressure_angle": f"{angle} deg",
-            "addendum": [f"{first:g}", f"{second:g}"],
-            "dedendum": f"{DEDENDUM:g}",
-            "backlash": f"{backlash:.12f}",
-        }
-    )

@@ -66,18 +66,17 @@ class PeriodicPoints(BaseModel):
     )
 
     def period(self, counts: tuple[int, int]) -> float:
-        """Return the period as an angle of the driver [rad]. `counts` contains the tooth counts of the driver and of
-        the driven wheel.
-        """
+        """Return the period [rad of the driver]. `counts` are the tooth counts of driver and driven wheel."""
         z1, z2 = counts
         pitches = {"driver_pitch": 1, "driver_turn": z1, "driven_turn": z2, "cycle": lcm(z1, z2)}[self.over]
         return 2 * pi * pitches / z1
 
     def table(self, points: Sequence[tuple[Quantity, float]], counts: tuple[int, int]) -> PeriodicTable:
-        """Return the periodic function through points. Each point consists of an angle of the driver (or a fraction of
-        the period) and a value.
+        """Return the periodic function that passes through points. Each point consists of an angle of the driver (or a
+        fraction of the period) and a value.
 
-        Raises `GearTrainError` if the last point does not agree with the first one, or do not define a function.
+        Raises `GearTrainError` if the last point does not agree with the first one, or if the points do not define a
+        function.
         """
         from geartrain.numerics.periodic_function import PeriodicTable, check_points
 
@@ -91,9 +90,7 @@ class PeriodicPoints(BaseModel):
         return PeriodicTable([share * period for share in shares], values, period, self.interpolation)
 
     def _check_closed(self, values: Sequence[float], counts: tuple[int, int]) -> None:
-        """Raise `GearTrainError` if the value of the last point, at the end of the period, differs from the value of
-        the first point.
-        """
+        """Raise `GearTrainError` if a last point at the end of the period differs from the first point in value."""
         gap, turned = values[-1] - values[0], self.period(counts) * counts[0] / counts[1]
         if abs(gap) <= 1e-12 * max(map(abs, values)):
             return
@@ -183,7 +180,7 @@ class LiveFunction:
 
     @classmethod
     def read(cls, raw: object) -> LiveFunction:
-        """Return a transmission function that is given as a Python object, or by its name in plain data."""
+        """Return a transmission function from a Python object, or from its name in plain data."""
         from geartrain.teeth.given_transmission import TransmissionProtocol
 
         found = cls._living.get(raw, raw) if isinstance(raw, str) else raw
@@ -262,9 +259,7 @@ class GivenError(ToothForm):
         None, description="Efficiency over a period, instead of `efficiency`"
     )
     backlash: Annotated[Angle, _POSITIVE] = Field(
-        "0",
-        validate_default=True,
-        description="Angle by which the driven wheel is ahead while the driver turns back",
+        "0", validate_default=True, description="Angle by which the driven wheel is ahead while the driver turns back"
     )
     function: SkipJsonSchema[LiveFunction | None] = Field(
         None, repr=False, description="Transmission function defined in Python, set by `GearTrain.with_tooth_form`"
@@ -349,8 +344,8 @@ class GivenError(ToothForm):
         return GivenTransmission(function, counts, self.driver, self.backlash.si, efficiencies, self.driver)
 
     def _efficiencies(self, counts: tuple[int, int]) -> Efficiencies | None:
-        """Return the efficiencies for the case that the wheel `driver` drives and for the case that the other wheel
-        drives; None if there are no losses.
+        """Return the efficiencies for the case that the declared wheel `driver` drives and for the case that its mate
+        drives; None without losses.
         """
         from geartrain.numerics.periodic_function import HarmonicSeries
         from geartrain.teeth.given_transmission import checked_efficiency

@@ -1,6 +1,4 @@
-"""Base class of tooth forms, whose method `mesh` returns the gear mesh of two wheels, and field types
-for declarations.
-"""
+"""Base class of tooth forms, whose method `mesh` returns the mesh of two wheels, and types of their fields."""
 
 from __future__ import annotations
 
@@ -26,12 +24,12 @@ ShaftAngle = Callable[[], float | None]
 
 
 def twice(raw: object) -> object:
-    """Return a pair of two equal values if a single value is given. A pair is returned unchanged."""
+    """Return a pair of two equal values if a single value is given, or a given pair itself."""
     return raw if isinstance(raw, list | tuple) else (raw, raw)
 
 
 def number_of_wheel(raw: object) -> object:
-    """Convert "1" or "2" to an integer, because a declaration gives numbers as strings."""
+    """Convert the texts "1" and "2" to numbers, because declarations name the two wheels of a pair by such texts."""
     return int(raw) if raw in ("1", "2") else raw
 
 
@@ -125,9 +123,7 @@ class ToothForm(BaseModel, ABC):
 
     @classmethod
     def _problem(cls, item: Any) -> Problem:
-        """Return a validation error of pydantic as a problem. If the tooth form provides a remedy for this error, the
-        problem contains it.
-        """
+        """Return a validation error of pydantic as a problem, with the remedy if the tooth form provides one."""
         context = item.get("ctx") or {}
         # errors of a whole model have no location; their type may be the name of the field
         place = item["loc"][0] if item["loc"] else item["type"] if item["type"] in cls.model_fields else ""
@@ -186,7 +182,7 @@ class ToothForm(BaseModel, ABC):
 
     @property
     def rack_angle(self) -> float | None:
-        """Pressure angle of the rack that cuts these teeth [rad]; None for teeth that are not cut by a rack."""
+        """Pressure angle of the rack that generates these teeth [rad]; None if no rack does."""
         return None
 
     def own_backlash(self, pair: str) -> Problem | None:

@@ -30,7 +30,7 @@ class ToothTransmission(TransmissionFunction):
 
     @abstractmethod
     def _driven(self, driver: int, direction: int) -> Self:
-        """Return the transmission function of the same pair for another driving wheel or direction of rotation."""
+        """Return the transmission function of the same pair with the given driving wheel and direction of rotation."""
 
     @property
     def reversed(self) -> Self:

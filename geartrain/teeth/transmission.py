@@ -50,20 +50,13 @@ def check_friction(friction: float) -> float:
     Raise `RangeError` if the coefficient is negative, infinite or NaN.
     """
     if not 0 <= friction < inf:
-        raise RangeError(
-            Problem(
-                f"a coefficient of friction of {friction:g} is out of range",
-                "it must be finite and not negative",
-                "give 0 or more, such as 0.1",
-            )
-        )
+        what = f"a coefficient of friction of {friction:g} is out of range"
+        raise RangeError(Problem(what, "it must be finite and not negative", "give 0 or more, such as 0.1"))
     return friction
 
 
 class SpeedLeap(NamedTuple):
-    """Step of the speed ratio at an impact of teeth: the ratio before the impact, and the larger ratio after the
-    impact.
-    """
+    """Step of the speed ratio at an impact of teeth: the ratio before, and the larger ratio after the impact."""
 
     before: float
     after: float
@@ -75,20 +68,14 @@ class SpeedLeap(NamedTuple):
 
 
 class ContactRubbing(NamedTuple):
-    """Sliding and friction terms of the teeth of a pair at given driver angles. The arrays have one row for each
-    contact, with NaN where there is no contact.
-    """
+    """Sliding speed and friction terms, arrays with one row for each contact of a pair; NaN without contact."""
 
     sliding: Floats
     """Sliding speed divided by pitch-line speed, 0 or more."""
     into: Floats
-    """Change of the input power of a contact per unit friction coefficient, divided by the input power without
-    friction.
-    """
+    """Relative change of the input power of a contact per unit friction coefficient."""
     out: Floats
-    """Change of the output power of a contact per unit friction coefficient, divided by the output power without
-    friction.
-    """
+    """Relative change of the output power of a contact per unit friction coefficient."""
 
     def efficiency(self, friction: float | Floats) -> Floats:
         """Return the efficiency at each driver angle; NaN if the teeth do not touch or if friction locks one of the
@@ -222,9 +209,7 @@ class TransmissionFunction(Shown, ABC):
         """Return the minimum and the maximum transmission error over a period [rad of the driven side]."""
 
     def error_moments(self) -> tuple[float, float]:
-        """Return the mean of the transmission error and its rms deviation from the mean [rad of the driven side],
-        computed by quadrature.
-        """
+        """Return the mean of the transmission error and its rms deviation from the mean [rad of the driven side]."""
         S, weights = self.graded_nodes(self.speed)
         error = self.error(S)
         mean = float(weights @ error)
@@ -239,9 +224,7 @@ class TransmissionFunction(Shown, ABC):
         return float((weights * efficiency).sum() / weights.sum())
 
     def efficiency_at_constant_load(self) -> float:
-        """Return work output divided by work input at constant load torque; NaN if friction locks the pair, or if the
-        load does no work because the mean ratio is 0.
-        """
+        """Return work output over work input at constant load torque; NaN if the pair locks or its mean ratio is 0."""
         if self.locks or not self.ratio:
             return nan
         weights, efficiency, speed = self._efficiencies
@@ -265,9 +248,7 @@ class TransmissionFunction(Shown, ABC):
 
     @cached_property
     def _efficiencies(self) -> tuple[Floats, Floats, Floats]:
-        """Weights of the quadrature nodes at which there is contact, and the efficiency and the speed ratio at these
-        nodes.
-        """
+        """Weights, efficiencies and speed ratios at those quadrature nodes over one period at which teeth touch."""
         import numpy as np
 
         S, weights = self.graded_nodes(lambda S: self.speed(S) / self.efficiency(S))
@@ -324,9 +305,7 @@ class TransmissionFunction(Shown, ABC):
 
     @property
     def locking_friction(self) -> float:
-        """Minimum coefficient of friction at which the pair locks at some driver angle; infinite if the pair never
-        locks.
-        """
+        """Minimum coefficient of friction at which the pair locks at some angle; infinite if it never locks."""
         return inf
 
     @property
@@ -358,14 +337,12 @@ class TransmissionFunction(Shown, ABC):
         raise RangeError(Problem(what, why, "give the coefficient of friction as a number"))
 
     def kinks(self) -> list[float]:
-        """Return the driver angles [rad] at which the transmission function or a derivative is discontinuous; the
-        default is an empty list.
-        """
+        """Return the driver angles [rad] at which the function or a derivative is discontinuous; by default none."""
         return []
 
     def smooth_intervals(self) -> list[tuple[float, float]]:
-        """Return the intervals of driver angle between the kinks of one period [rad]; intervals shorter than 1e-13
-        periods are omitted.
+        """Return the intervals of the driver angle [rad] between successive kinks within a period. Intervals that are
+        as short as rounding errors are omitted.
         """
         # a function without kinks is smooth over a whole period, from 0
         cuts = sorted({kink % self.period for kink in self.kinks()} or {0.0})
@@ -373,9 +350,7 @@ class TransmissionFunction(Shown, ABC):
         return [(low, high) for low, high in edges if high - low > _NARROW * self.period]
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...] | None:
-        """Return all upward steps of the speed ratio within one period, at which the teeth impact; None if the steps
-        are not computed.
-        """
+        """Return all upward steps of the speed ratio (impacts) within one period; None if they are not computed."""
         return None
 
     def steepest_fall(self) -> float | None:
@@ -403,9 +378,7 @@ class TransmissionFunction(Shown, ABC):
         return self.error(S), self.speed(S)
 
     def reversed_motion(self) -> TransmissionFunction:
-        """Return the transmission function that applies while the driver turns backwards; the default is this function
-        itself.
-        """
+        """Return the transmission function while the driver turns backwards; by default this function itself."""
         return self
 
     def mirrored(self) -> TransmissionFunction:
@@ -472,7 +445,7 @@ class ExactRatio(TransmissionFunction):
         return self._constant(S, float(self.ratio))
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """Return the sliding speed and the friction terms of a single contact that does not slide, which are 0."""
+        """Return sliding speed and friction terms of a single contact, all 0 because losses are not modelled."""
         return ContactRubbing(*(self._constant(S, 0.0)[None] for _ in range(3)))
 
     def speed_range(self) -> tuple[float, float]:
@@ -480,21 +453,15 @@ class ExactRatio(TransmissionFunction):
         return float(self.ratio), float(self.ratio)
 
     def error_range(self) -> tuple[float, float]:
-        """Return the minimum and the maximum transmission error [rad of the driven side], which are equal because the
-        error is constant.
-        """
+        """Return the minimum and the maximum transmission error [rad of the driven side]; both are equal."""
         return self.lag, self.lag
 
     def error_moments(self) -> tuple[float, float]:
-        """Return the mean of the transmission error [rad of the driven side] and its rms deviation from the mean, which
-        is 0.
-        """
+        """Return the transmission error [rad of the driven side], and 0 as its rms deviation from the mean."""
         return self.lag, 0.0
 
     def steepest_fall(self) -> float:
-        """Return the maximum rate at which the speed ratio decreases [1/rad]. It is 0, because the ratio
-        is constant.
-        """
+        """Return the maximum rate at which the speed ratio decreases [1/rad]: 0, because it is constant."""
         return 0.0
 
     @staticmethod

@@ -63,9 +63,7 @@ class CellTable:
 
     @property
     def breaks(self) -> Floats:
-        """Boundaries of the cells in ascending order [rad]. They are multiples of the uniform cell width, and the kinks
-        of the function.
-        """
+        """Boundaries of the cells [rad] in ascending order: multiples of the cell width, and the kinks."""
         uniform = np.arange(self.cells + 1) * (self.period / self.cells)
         return np.sort(np.concatenate((uniform, self.kinks)))
 
@@ -108,7 +106,7 @@ class CellTable:
 
 
 def folded_kinks(transmission: TransmissionFunction) -> Floats:
-    """Return the distinct kinks of a transmission function modulo its period, in ascending order [rad]."""
+    """Return the different kinks of a transmission function, reduced to one period and sorted [rad]."""
     return np.unique(np.mod(np.asarray(transmission.kinks(), dtype=float), transmission.period))
 
 

@@ -1,6 +1,4 @@
-"""Teeth of uniform temperature: the frictional heat per area of the profile is uniform, and the lubricant removes it
-locally.
-"""
+"""Teeth of uniform temperature: uniform frictional heat per area of the profile, removed locally by the lubricant."""
 
 from __future__ import annotations
 
@@ -72,11 +70,8 @@ class UniformTemperature(ConjugateToothForm):
             check_above_0(self, name, name)
         if self.minimum_angle is not None:
             if self.reading != "c":
-                raise bad(
-                    "pressure_angle",
-                    "minimum_angle applies only to reading c",
-                    "give `reading: c`, or remove `minimum_angle`",
-                )
+                fix = "give `reading: c`, or remove `minimum_angle`"
+                raise bad("pressure_angle", "minimum_angle applies only to reading c", fix)
             check_angle("minimum_angle", self.minimum_angle)
         check_arcs(self.arcs)
         return self
@@ -93,9 +88,7 @@ class UniformTemperature(ConjugateToothForm):
         return self._standard(PathOfContact(pitch, approach, recess), wheels)
 
     def _sides(self, pitch: PitchSurfaces, gamma: float) -> tuple[PathSide, PathSide]:
-        """Return the approach side and the recess side for a given gamma, which is the sum A + B of the pitch-surface
-        curvatures divided by the heat.
-        """
+        """Return the approach and recess sides for gamma, the sum A + B of the pitch curvatures divided by the heat."""
         from geartrain.teeth.conjugate.optimal_sides import bounded_heat, involute, uniform_heat
 
         psi = (self.minimum_angle or _USUAL).si
@@ -108,11 +101,9 @@ class UniformTemperature(ConjugateToothForm):
             elif self.reading == "c":
                 found.append(bounded_heat(pitch, b, gamma, X, psi))
             elif b + gamma <= 0:
-                raise refused(
-                    f"a heat of {(pitch.A + pitch.B) / gamma:.6g} exceeds the maximum of these teeth",
-                    "near the pitch point, the contact would come to rest on the profile",
-                    "give a smaller heat or a larger depth",
-                )
+                what = f"a heat of {(pitch.A + pitch.B) / gamma:.6g} exceeds the maximum of these teeth"
+                why = "near the pitch point, the contact would come to rest on the profile"
+                raise refused(what, why, "give a smaller heat or a larger depth")
             else:
                 found.append(uniform_heat(pitch, b, gamma, X))
         return found[0], found[1]
@@ -129,8 +120,7 @@ class UniformTemperature(ConjugateToothForm):
         else:
             wanted = depth(PathOfContact(pitch, involute(arcs[0], _INVOLUTE), involute(arcs[1], _INVOLUTE)))
         # near the pitch point a side is a cycloid of rolling radius 1 / (b + gamma) and height X^2 (b + gamma) / 2
-        start = max(
-            2 * wanted / (arcs[0] * arcs[0] + arcs[1] * arcs[1]) - (pitch.A + pitch.B) / 2, (pitch.A + pitch.B) / 2
-        )
+        half = (pitch.A + pitch.B) / 2
+        start = max(2 * wanted / (arcs[0] * arcs[0] + arcs[1] * arcs[1]) - half, half)
         gamma = to_depth(lambda g: depth(PathOfContact(pitch, *self._sides(pitch, g))), wanted, start, sum(arcs))
         return self._sides(pitch, gamma)

@@ -3,22 +3,21 @@
 from __future__ import annotations
 
 from math import atan2, cos, degrees, sin
+from typing import Any
 
 import numpy as np
 import pytest
 import shapely
-from numpy.typing import NDArray
 from shapely.affinity import rotate
 from shipped import train as load
 
 from geartrain import load as load_text
 from geartrain.scene import ManufacturingSizes, SolidModel, make_scene
 
-Points = NDArray[np.float64]
 
-
-def lean(tooth: Points, tip: float, root: float, sense: int) -> float:
+def lean(blank: Any, sense: int) -> float:
     """Angle (deg) of the leading face of one tooth from the radius of its point, above 0 where the point is ahead."""
+    tooth, tip, root = blank.contours[0].points[:4], blank.tip_radius, blank.root_radius
     angles, radii = sense * np.arctan2(*tooth.T[::-1]), np.hypot(*tooth.T)
     head = max(angle for angle, r in zip(angles, radii, strict=True) if abs(r - tip) < 1e-9)
     foot = max(angle for angle, r in zip(angles, radii, strict=True) if abs(r - root) < 1e-9)
@@ -37,9 +36,7 @@ inputs: {{a: {-sense}}}
 escapement: {{link: e, teeth: {z}, beat: 1 s}}
 """
     )
-    (blank,) = (
-        each for name, each in SolidModel(train, ManufacturingSizes()).blanks.wheels.items() if name == "points"
-    )
+    blank = SolidModel(train, ManufacturingSizes()).blanks.wheels["points"]
     shape = shapely.Polygon(blank.contours[0].flattened(1e-4))
     assert shape.is_valid
     assert shape.exterior.is_ccw
@@ -50,7 +47,7 @@ escapement: {{link: e, teeth: {z}, beat: 1 s}}
     assert shapely.Point(0, 0).distance(shape.exterior) == pytest.approx(root, abs=1e-3)
     ring = shapely.Point(0, 0).buffer(0.9995 * tip, quad_segs=720).exterior.intersection(shape)
     assert len(ring.geoms) in (z, z + 1), "so many points, one of them perhaps cut where the ring begins"
-    assert lean(blank.contours[0].points[:4], tip, root, sense) == pytest.approx(6.0, abs=1e-9)
+    assert lean(blank, sense) == pytest.approx(6.0, abs=1e-9)
 
 
 @pytest.mark.parametrize("name", ["longcase-clock", "longcase-clock-cycloidal"])
@@ -61,8 +58,7 @@ def test_the_escape_wheel_of_a_train_leans_the_way_it_turns(name: str) -> None:
     work = SolidModel(train, ManufacturingSizes())
     (blank,) = (each for each in work.blanks.wheels.values() if (each.link, each.teeth) == (escapement.link, 30))
     sense = 1 if train.solve().speeds[escapement.link] > 0 else -1
-    leaning = lean(blank.contours[0].points[:4], blank.tip_radius, blank.root_radius, sense)
-    assert leaning == pytest.approx(6.0, abs=1e-9)
+    assert lean(blank, sense) == pytest.approx(6.0, abs=1e-9)
     assert blank.tip_radius == pytest.approx(blank.pitch_radius)
     assert len(blank.contours[0].points) == 4 * 30
     assert any("no anchor is declared" in each.why for each in work.blanks.notices)
@@ -73,9 +69,7 @@ def test_the_escape_wheel_of_a_train_leans_the_way_it_turns(name: str) -> None:
 
 # a pinion of 12 in a ring of 120, carried round at 1: relative to its carriage it turns 10 times as fast as the ring
 @pytest.mark.parametrize(("ring", "speed", "passed"), [("9/10", 0, -1), ("19/20", 0.5, -0.5), ("11/10", 2, 1)])
-def test_a_carried_escape_wheel_leans_the_way_it_turns_relative_to_its_carriage(
-    ring: str, speed: float, passed: float
-) -> None:
+def test_a_carried_escape_wheel_leans_as_it_turns_on_its_carriage(ring: str, speed: float, passed: float) -> None:
     train = load_text(
         f"""
 frame: plate
@@ -92,8 +86,7 @@ escapement: {{link: escape, teeth: 20, beat: 1 s}}
     )
     assert train.solve()["escape"] == speed
     (blank,) = (each for each in SolidModel(train, ManufacturingSizes()).blanks.wheels.values() if each.teeth == 20)
-    leaning = lean(blank.contours[0].points[:4], blank.tip_radius, blank.root_radius, 1 if passed > 0 else -1)
-    assert leaning == pytest.approx(6.0, abs=1e-9)
+    assert lean(blank, 1 if passed > 0 else -1) == pytest.approx(6.0, abs=1e-9)
 
 
 def test_a_wheel_without_mate_is_a_disc_where_no_escapement_names_it() -> None:

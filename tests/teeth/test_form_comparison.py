@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import json
 from math import cos, pi, radians, sin, tan
 
 import pytest
-from places import DATA
 
 from geartrain.errors import GearTrainError
 from geartrain.numerics import Quantity
@@ -14,13 +12,10 @@ from geartrain.teeth import Involute, Lantern, compare_forms
 from geartrain.teeth.conjugate import WheelPair, measure
 
 PAIR = WheelPair(24, 36)
-ROWS = json.loads((DATA / "tooth_shapes.json").read_text(encoding="utf-8"))["performance"]
 
 
 @pytest.mark.parametrize("arcs", [(0.5, 0.5), (0.3, 0.9), (0.0, 1.0), (-0.1, 1.1)])
-def test_the_reference_involute_has_the_arcs_requested_for_and_the_loss_of_buckingham(
-    arcs: tuple[float, float],
-) -> None:
+def test_the_reference_involute_has_its_arcs_and_the_loss_of_buckingham(arcs: tuple[float, float]) -> None:
     found = Involute.pair_of_arcs(PAIR, arcs, {})
     first, last = (arc * pi for arc in arcs)  # a pitch is pi modules
     assert found.path.contact_ratio == pytest.approx(sum(arcs), rel=1e-15)
@@ -58,20 +53,6 @@ def test_an_involute_of_another_angle_is_compared_with_that_of_20_degrees() -> N
     # heights along the line: the path has as much travel, at another slope
     depths = [sin(psi) * cos(psi) for psi in (radians(25), radians(20))]
     assert form.ratios.free["depth"] == pytest.approx(depths[0] / depths[1], rel=1e-12)
-
-
-def test_usual_forms_cost_what_is_printed() -> None:
-    printed = {row[1].partition(" Q*")[0]: row for row in ROWS if row[0] == "spur(24,36)"}
-    names = {
-        "uniform_stress": "UHS psi0=20",
-        "uniform_temperature_b": "UT-b",
-        "least_friction": "MF psi_hi=25 u=0.15",
-    }
-    found = {form.name: form for form in compare_forms(PAIR).forms}
-    for name, short in names.items():
-        measures = found[name].measures
-        assert measures is not None
-        assert measures.one_pair.loss == pytest.approx(float(printed[short][2]), rel=1e-8)
 
 
 def test_pins_have_all_their_contact_in_recess_and_an_involute_of_their_arcs_beside_them() -> None:

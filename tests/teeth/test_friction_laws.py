@@ -39,33 +39,24 @@ def test_buckinghams_law_has_the_three_values_that_smith_prints() -> None:
 
 
 def test_dokoss_law_falls_evenly_over_seven_decades_and_is_level_beyond() -> None:
-    transmission = DokosFriction.model_validate({"law": "dokos", "slowest": "2 mm/s"})
-    assert transmission.coefficient(np.array([0.0, 0.002, 2e4, 1e9])) == pytest.approx(
-        [0.53, 0.53, 0.18, 0.18], rel=1e-14
-    )
-    decades = transmission.coefficient(0.002 * 10.0 ** np.arange(8))
+    law = DokosFriction.model_validate({"law": "dokos", "slowest": "2 mm/s"})
+    ends = law.coefficient(np.array([0.0, 0.002, 2e4, 1e9]))
+    assert ends == pytest.approx([0.53, 0.53, 0.18, 0.18], rel=1e-14)
+    decades = law.coefficient(0.002 * 10.0 ** np.arange(8))
     assert np.diff(decades) == pytest.approx([-0.05] * 7, rel=1e-12)
 
 
 def test_stribecks_law_is_static_at_rest_and_viscous_in_the_end() -> None:
-    given = {
-        "law": "stribeck",
-        "static": "0.2",
-        "kinetic": "0.08",
-        "speed": "10 mm/s",
-        "exponent": "1",
-        "viscous": "1/50",
-    }
-    transmission = StribeckFriction.model_validate(given)
+    sizes = {"static": "0.2", "kinetic": "0.08", "speed": "10 mm/s", "exponent": "1", "viscous": "1/50"}
+    law = StribeckFriction.model_validate({"law": "stribeck", **sizes})
     expected = [0.2, 0.08 + 0.12 * exp(-1) + 0.0002, 0.08 + 0.02 * 5]
-    assert transmission.coefficient(np.array([0.0, 0.01, 5.0])) == pytest.approx(expected, rel=1e-13)
+    assert law.coefficient(np.array([0.0, 0.01, 5.0])) == pytest.approx(expected, rel=1e-13)
 
 
 def test_a_table_is_joined_by_straight_lines_and_level_outside() -> None:
-    transmission = TabulatedFriction.model_validate(
-        {"law": "table", "speeds": ["60 ft/min", "120 ft/min"], "coefficients": ["0.1", "0.05"]}
-    )
-    assert transmission.coefficient(np.array([0.0, 90, 500]) * FT_MIN) == pytest.approx([0.1, 0.075, 0.05])
+    given = {"law": "table", "speeds": ["60 ft/min", "120 ft/min"], "coefficients": ["0.1", "0.05"]}
+    found = TabulatedFriction.model_validate(given).coefficient(np.array([0.0, 90, 500]) * FT_MIN)
+    assert found == pytest.approx([0.1, 0.075, 0.05])
 
 
 FORMS: dict[str, tuple[Any, tuple[int, int]]] = {
@@ -76,9 +67,6 @@ FORMS: dict[str, tuple[Any, tuple[int, int]]] = {
     "off design": (UniformStress.declared({"centre_distance": "30.02"}), (24, 36)),
     "circular arc": (CircularArc.declared({}), (60, 8)),
 }
-LEVEL = TabulatedFriction.model_validate(
-    {"law": "table", "speeds": ["0 m/s", "1 m/s"], "coefficients": ["1/10", "1/10"]}
-)
 FALLING = StribeckFriction.model_validate({"law": "stribeck", "static": "0.2", "kinetic": "0.05", "speed": "20 mm/s"})
 
 
@@ -136,9 +124,8 @@ def test_the_mean_under_a_law_is_that_of_a_fine_grid(form: str) -> None:
 
 def test_faster_teeth_lose_less_where_friction_falls_with_speed_and_tend_to_the_number_at_the_end() -> None:
     transmission = transmission_of("involute")
-    found = [
-        RubbedTransmission(transmission, PairFriction(FALLING, V)).efficiency_mean() for V in (0, 0.01, 0.1, 1, 100)
-    ]
+    laws = [PairFriction(FALLING, V) for V in (0, 0.01, 0.1, 1, 100)]
+    found = [RubbedTransmission(transmission, law).efficiency_mean() for law in laws]
     assert found == sorted(found)
     assert found[0] == pytest.approx(transmission_of("involute", 0.2).efficiency_mean(), rel=1e-14)
     assert found[-1] == pytest.approx(transmission_of("involute", 0.05).efficiency_mean(), abs=1e-6)
@@ -182,16 +169,14 @@ def test_each_pair_of_a_train_loses_by_its_own_pitch_line_speed() -> None:
     assert [mesh.wheels.pitch_line for mesh in train.meshes] == pytest.approx(speeds, rel=1e-14)
     product = 1.0
     for (z1, z2), V in zip(((24, 36), (20, 60)), speeds, strict=True):
-        product *= RubbedTransmission(
-            Involute.declared({}).transmission(z1, z2), PairFriction(FALLING, V)
-        ).efficiency_at_constant_load()
+        rubbed = RubbedTransmission(Involute.declared({}).transmission(z1, z2), PairFriction(FALLING, V))
+        product *= rubbed.efficiency_at_constant_load()
     assert efficiency(TRAIN.replace("FRICTION", STRIBECK)) == pytest.approx(product, rel=1e-12)
 
 
 def test_a_law_of_the_pitch_line_is_a_number_for_each_pair() -> None:
-    coefficients = BuckinghamFriction(law="buckingham").coefficient(
-        np.array([2 * pi * 2 * 0.012, 2 * pi * 4 / 3 * 0.010])
-    )
+    speeds = np.array([2 * pi * 2 * 0.012, 2 * pi * 4 / 3 * 0.010])
+    coefficients = BuckinghamFriction(law="buckingham").coefficient(speeds)
     text = TRAIN.replace("FRICTION", "0")
     for pair, f in zip(("[p, q]", "[r, s]"), coefficients, strict=True):
         text = text.replace(f"pair: {pair}", f"pair: {pair}, friction: {float(f)!r}")
@@ -249,11 +234,7 @@ links:
   planet: {wheels: {p: {teeth: 18, module: 1 mm}}}
   ring: {wheels: {r: {teeth: 60, internal: true, module: 1 mm}}}
   arm: {}
-revolutes:
-  - {pair: [frame, sun], axis: A}
-  - {pair: [frame, ring], axis: A}
-  - {pair: [frame, arm], axis: A}
-  - {pair: [arm, planet], axis: P}
+revolutes: {A: [frame, sun, ring, arm], P: [arm, planet]}
 tooth_form: {form: involute, addendum: 0.6}
 friction: {law: dokos}
 gears: [{pair: [s, p]}, {pair: [p, r]}]

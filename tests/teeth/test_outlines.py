@@ -137,9 +137,7 @@ def crossings(points: Points, radius: float) -> Points:
     ("form", "suffix"),
     [*((form, ".dxf") for form in TIPS), ("uniform_stress", ".svg"), ("involute", ".svg"), ("involute", ".csv")],
 )
-def test_a_wheel_read_back_has_the_printed_tips_its_teeth_and_their_thickness(
-    form: str, suffix: str, tmp_path: File
-) -> None:
+def test_a_wheel_read_back_has_its_tips_teeth_and_thickness(form: str, suffix: str, tmp_path: File) -> None:
     (x1, y1), (x2, y2) = TIPS[form]
     tips = hypot(x1, y1 + 12), hypot(x2, 18 - y2)
     for gear, z in ((1, 24), (2, 36)):
@@ -157,9 +155,7 @@ def test_a_wheel_read_back_has_the_printed_tips_its_teeth_and_their_thickness(
 
 
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-4])
-def test_chords_stay_within_the_tolerance_where_an_epicycloid_leaves_the_pitch_circle(
-    tolerance: float, tmp_path: File
-) -> None:
+def test_chords_stay_within_the_tolerance_at_the_pitch_circle(tolerance: float, tmp_path: File) -> None:
     """A radial flank and an epicycloid of the mate's half pitch radius, with infinite curvature where they meet."""
     asked = (60, 8, "--module", "1mm", "-p", "backlash=0.1", "--blank", f"tolerance={tolerance}mm")
     for gear, R, rho in ((1, 30.0, 2.0), (2, 4.0, 15.0)):
@@ -281,9 +277,7 @@ def points_of(wheel: WheelOutline) -> list[Points]:
 
 @given(st.integers(18, 90), st.integers(18, 90), st.floats(16, 28), st.floats(0.3, 0.7), st.floats(0, 1))
 @settings(max_examples=20, deadline=None)
-def test_involute_wheels_of_any_arcs_have_textbook_tips_and_stand_clear(
-    z1: int, z2: int, psi: float, approach: float, phase: float
-) -> None:
+def test_involutes_have_textbook_tips_and_clear(z1: int, z2: int, psi: float, approach: float, phase: float) -> None:
     recess = 1.1 - approach
     pair = involute(z1, z2, approach, recess, psi, 0.08)
     pitch = pair.path.pitch

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import cmath
-from fractions import Fraction
 from math import asin, degrees, pi
 from typing import Any
 
@@ -35,25 +34,6 @@ def test_the_slot_follows_the_direction_of_the_pin(pair: tuple[float, float]) ->
     start = 0 if pair[0] > pair[1] else pi
     assert np.allclose(transmission.angle(TURN) + start, seen - seen[0] + (0 if start == 0 else pi), atol=1e-9)
     assert round((seen[-1] - seen[0]) / (2 * pi)) == transmission.ratio
-
-
-@given(distances)
-def test_the_speed_is_the_derivative_of_the_angle(pair: tuple[float, float]) -> None:
-    transmission, step = PinToSlotTransmission(*pair), 1e-6
-    slope = (transmission.angle(TURN + step) - transmission.angle(TURN - step)) / (2 * step)
-    assert np.allclose(transmission.speed(TURN), slope, rtol=1e-5, atol=1e-5)
-    minimum, most = transmission.speed_range()
-    speeds = transmission.speed(TURN)
-    assert (speeds >= minimum * (1 + 1e-12 * np.sign(-minimum))).all()
-    assert {round(float(speeds.min()), 9), round(float(speeds.max()), 9)} == {round(minimum, 9), round(most, 9)}
-
-
-@given(distances)
-def test_the_amplitude_is_the_arcsine_of_the_lesser_over_the_greater(pair: tuple[float, float]) -> None:
-    transmission = PinToSlotTransmission(*pair)
-    sampled = np.abs(transmission.error(np.linspace(0, 2 * pi, 200_001))).max()
-    assert transmission.amplitude == pytest.approx(asin(min(pair) / max(pair)))
-    assert sampled == pytest.approx(transmission.amplitude, rel=1e-5)
 
 
 @given(distances.filter(lambda pair: pair[0] > pair[1]))
@@ -125,24 +105,8 @@ def test_the_superior_planets_turn_back_at_the_speeds_of_the_law(planet: str, mi
     assert sorted(abs(s) * np.sign(s * mean) for s in speeds) == pytest.approx([minimum, most], abs=6e-4)
 
 
-def test_the_protocol_is_that_of_all_transmissions() -> None:
-    transmission = PinToSlotTransmission(9.6, 1.1)
-    assert transmission.ratio == Fraction(1)
-    assert transmission.period == 2 * pi
-    low, high = transmission.error_range()
-    assert (low, high) == (-transmission.amplitude, transmission.amplitude)
-    mean, rms = transmission.error_moments()
-    errors = transmission.error(np.linspace(0, 2 * pi, 100_000, endpoint=False))
-    assert mean == 0
-    assert abs(errors.mean()) < 1e-15
-    assert rms == pytest.approx(np.sqrt(np.mean(errors**2)), rel=1e-12)
-    assert transmission.efficiency_mean() == 1
-
-
 @pytest.mark.parametrize("r", [2.0, 1 + 1e-6, 1 + 1e-9])
-def test_the_transmission_of_a_slot_that_drives_is_good_to_rounding_however_near_the_pin_passes_its_axis(
-    r: float,
-) -> None:
+def test_a_slot_that_drives_is_exact_to_rounding_even_if_the_pin_almost_meets_its_axis(r: float) -> None:
     transmission = SlotToPinTransmission(r, 1, 1e-6)
     angles = np.concatenate([np.linspace(0, 3, 31), pi / 2 + np.logspace(-8, -1, 15)])
     with mpmath.workdps(40):
@@ -170,13 +134,8 @@ def test_the_minimum_efficiency_is_the_minimum_of_a_scan(kind: Any, r: float, e:
 def test_a_pin_that_locks_has_no_efficiency_and_a_follower_none_at_a_constant_load() -> None:
     """A slot locks its pin from the friction at which 1 - f tan d is 0 where sin d = e/r: here tan d = 1/sqrt(3)."""
     locked = SlidingEfficiency(SlotToPinTransmission(10, 5, 1.8)).to_dict()
-    assert locked == {
-        "friction": 1.8,
-        "mean": None,
-        "at_constant_load": None,
-        "min": None,
-        "locks_at": pytest.approx(3**0.5),
-    }
+    none = dict.fromkeys(("mean", "at_constant_load", "min"))
+    assert locked == {"friction": 1.8, **none, "locks_at": pytest.approx(3**0.5)}
     follower = SlidingEfficiency(PinToSlotTransmission(5, 10, 0.1)).to_dict()
     assert follower["min"] == 0.0
     assert follower["at_constant_load"] is follower["locks_at"] is None

@@ -10,16 +10,7 @@ from typing import Any
 import mpmath as mp
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from sources.smith_profiles import (
-    big_M,
-    corrected_56,
-    corrected_63,
-    loss_63,
-    printed_56,
-    printed_63,
-    root_Q,
-    stress_55,
-)
+from sources.smith_profiles import big_M, corrected_56, corrected_63, loss_63, printed_56, printed_63, root_Q, stress_55
 
 jets = st.tuples(st.floats(9, 13.5), st.floats(14, 60), st.floats(-200, 200))
 
@@ -40,9 +31,7 @@ def test_56_is_what_the_cosine_of_33_makes_of_55_and_its_correction_what_the_sin
 
 @given(jets, st.floats(15, 80))
 @settings(max_examples=40, deadline=None)
-def test_63_is_what_the_sum_in_45_makes_with_its_sign_turned_and_the_difference_makes_it_linear(
-    jet: Any, R2: float
-) -> None:
+def test_63_is_what_the_sum_in_45_makes_with_its_sign_turned_and_the_difference_is_linear(jet: Any, R2: float) -> None:
     with mp.workdps(40):
         R1, wide, at = mp.mpf(12), mp.mpf(R2), tuple(map(mp.mpf, jet))
         true, wrong = (loss_63(R1, wide, *at, mp.sqrt, opposite=opposite) for opposite in (False, True))

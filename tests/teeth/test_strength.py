@@ -14,6 +14,7 @@ from geartrain.simulation.strength.contact_pressure import loss_over_friction
 from geartrain.simulation.strength.iso_6336 import RackWheel, ToothLoad, ToothSide, root_stress
 
 TWENTY = radians(20)
+Material = tuple[float, float]
 STEEL, BRASS, ACRYLIC = (206_000, 0.3), (100_000, 0.35), (3200, 0.35)  # Young's modulus [MPa], Poisson's ratio
 
 
@@ -21,7 +22,7 @@ def strength(
     counts: tuple[int, int],
     torque: float = 20_000,
     sizes: tuple[float, float] = (2, 20),
-    bodies: tuple[tuple[float, float], tuple[float, float]] = (STEEL, STEEL),
+    bodies: tuple[Material, Material] = (STEEL, STEEL),
     **form: str,
 ) -> PairStrength:
     """Strength of a pair: torque of the first wheel [N mm], module and face width [mm], materials of both wheels."""
@@ -63,9 +64,7 @@ def pressures(pair: PairStrength) -> dict[str, float]:
         (ACRYLIC, ACRYLIC, 24.09),
     ],
 )
-def test_factors_of_elasticity_are_those_printed(
-    first: tuple[float, float], second: tuple[float, float], printed: float
-) -> None:
+def test_factors_of_elasticity_are_those_printed(first: Material, second: Material, printed: float) -> None:
     assert strength((17, 51), bodies=(first, second)).elasticity == pytest.approx(printed, abs=0.005)
 
 
@@ -156,9 +155,7 @@ C = ((20, 40), 0.0, (3, 6), 500, (ACRYLIC, ACRYLIC))
     ],
     ids="ABC",
 )  # fmt: skip
-def test_method_b_gives_the_numbers_computed_beforehand(
-    case: tuple, contact: tuple[float, ...], pinion: tuple[float, ...], wheel: tuple[float, ...]
-) -> None:
+def test_method_b_gives_numbers_computed_beforehand(case: tuple, contact: tuple, pinion: tuple, wheel: tuple) -> None:
     counts, shift, sizes, torque, bodies = case
     pair = strength(counts, torque, sizes, bodies, shift=[str(shift), str(-shift)])
     found, (own, other) = pair.iso, (each.iso for each in pair.wheels)

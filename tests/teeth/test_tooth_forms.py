@@ -11,8 +11,9 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
+import geartrain.teeth
 from geartrain.errors import GearTrainError
-from geartrain.teeth import Cycloidal, Involute, Lantern, LeastFriction, UniformStress, UniformTemperature
+from geartrain.teeth import Involute
 from geartrain.teeth.conjugate import (
     ConjugateToothForm,
     ConjugateTransmission,
@@ -24,29 +25,17 @@ from geartrain.teeth.conjugate import (
 )
 from geartrain.teeth.conjugate.admissibility import tip_gap
 
-SHAPES = {
-    "involute": Involute,
-    "cycloidal": Cycloidal,
-    "lantern": Lantern,
-    "uniform_stress": UniformStress,
-    "uniform_temperature": UniformTemperature,
-    "least_friction": LeastFriction,
-}
 RIGHT = pi / 2
 
 
 def shape(form: str, **given: Any) -> ConjugateToothForm:
-    return SHAPES[form](form=form, **given)  # type: ignore[abstract]
+    model = getattr(geartrain.teeth, form.title().replace("_", ""))  # a form and its class have the same name
+    found: ConjugateToothForm = model(form=form, **given)
+    return found
 
 
-EVERY = [
-    shape("involute"),
-    shape("cycloidal"),
-    shape("uniform_stress"),
-    shape("uniform_temperature"),
-    shape("uniform_temperature", reading="c"),
-    shape("least_friction"),
-]
+EVERY = [shape(form) for form in ("involute", "cycloidal", "uniform_stress", "uniform_temperature", "least_friction")]
+EVERY.append(shape("uniform_temperature", reading="c"))
 
 
 def kinds(transmission: ConjugateTransmission) -> set[tuple[str, int]]:
@@ -74,7 +63,7 @@ def shifts(low: float, high: float) -> st.SearchStrategy[float]:
 
 @given(TEETH, TEETH, st.floats(15, 28), shifts(-0.2, 0.4), shifts(-0.2, 0.4), st.floats(0, 0.3))
 @settings(max_examples=60, deadline=None)
-def test_the_contact_ratio_of_an_involute_is_that_of_its_tip_circles_at_any_distance(
+def test_the_contact_ratio_is_that_of_tip_circles(
     z1: int, z2: int, angle: float, x1: float, x2: float, wider: float
 ) -> None:
     alpha = radians(angle)
@@ -109,9 +98,7 @@ def test_a_shifted_pair_is_that_of_a_worked_example() -> None:
 
 @given(st.integers(15, 40), st.integers(10, 60), shifts(-0.2, 0.5), shifts(0, 0.5), st.booleans())
 @settings(max_examples=40, deadline=None)
-def test_without_a_distance_shifted_wheels_mesh_without_backlash(
-    z1: int, more: int, x1: float, x2: float, ring: bool
-) -> None:
+def test_shifted_wheels_mesh_without_backlash(z1: int, more: int, x1: float, x2: float, ring: bool) -> None:
     """Pitch-circle thicknesses written from drawn involutes; the ring's tooth is a space of its cutter."""
     z2, alpha = z1 + more, radians(20)
     teeth, shifts = (z2 - z1, x2 - x1) if ring else (z1 + z2, x1 + x2)
@@ -449,27 +436,13 @@ BALANCED = [
 
 
 @pytest.mark.parametrize(("form", "wheels", "driver"), BALANCED)
-def test_the_efficiency_of_a_contact_is_that_of_its_forces_on_turning_bodies(
-    form: ConjugateToothForm, wheels: dict[str, Any], driver: int
-) -> None:
+def test_efficiency_is_that_of_forces_on_turning_bodies(form: ConjugateToothForm, wheels: Any, driver: int) -> None:
     path = form.path(20, 45, **wheels)
     for part in (-0.9, -0.4, 0.3, 0.95):
         X = part * path.arcs[1 if part > 0 else 0]
         for friction in (0.05, 0.3):
             found = float(efficiency(path.pitch, path.at(np.array(X)), friction, driver))
             assert found == pytest.approx(torque_balance(path, X, friction, driver), abs=2e-8)
-
-
-@given(TEETH, TEETH, st.floats(0.75, 1.05), st.floats(0.75, 1.05))
-@settings(max_examples=40, deadline=None)
-def test_the_mean_loss_of_an_involute_is_that_of_the_textbooks(z1: int, z2: int, add1: float, add2: float) -> None:
-    """pi (1/z1 + 1/z2) (1 - e + e1^2 + e2^2), two pairs taking half each while there are two."""
-    transmission = shape("involute", addendum=[add1, add2]).transmission(z1, z2, 1e-7)
-    p = transmission.path.pitch.p
-    e2, e1 = (arc / p for arc in transmission.path.arcs)
-    assume(e1 + e2 > 1 and max(e1, e2) < 1)
-    expected = pi * (1 / z1 + 1 / z2) * (1 - e1 - e2 + e1**2 + e2**2)
-    assert (1 - transmission.efficiency_mean()) / 1e-7 == pytest.approx(expected, rel=1e-6)
 
 
 @pytest.mark.parametrize("wheels", [{}, {"internal": True}, {"shaft_angle": RIGHT}])
@@ -537,9 +510,7 @@ def test_at_zero_a_tooth_of_the_driver_stands_on_the_line_of_centres() -> None:
 
 @given(st.sampled_from(EVERY), st.integers(18, 90), st.integers(18, 90), st.floats(0, 0.4), st.sampled_from([1, 2]))
 @settings(max_examples=40, deadline=None)
-def test_every_form_keeps_the_exact_ratio_and_never_gains(
-    form: ConjugateToothForm, z1: int, z2: int, friction: float, driver: int
-) -> None:
+def test_every_form_keeps_the_ratio_and_never_gains(form: Any, z1: int, z2: int, friction: float, driver: int) -> None:
     transmission = form.transmission(z1, z2, friction, driver)
     S = np.linspace(0, 3 * transmission.period, 101)
     assert float(transmission.ratio) == (z1 / z2 if driver == 1 else z2 / z1)
@@ -627,12 +598,7 @@ def test_parameters_that_make_no_teeth_are_refused_with_a_remedy(given: dict[str
         ({"form": "uniform_temperature", "depth": "30"}, (30, 60), {}, "no value of `heat` gives"),
         ({"form": "uniform_temperature", "depth": "0.1"}, (24, 36), {}, "even the maximum `heat` gives deeper teeth"),
         ({"form": "uniform_temperature", "reading": "a", "heat": "2.5"}, (30, 60), {}, "exceeds the maximum"),
-        (
-            {"form": "least_friction", "margin": "0.38"},
-            (24, 36),
-            {},
-            "too long for a contact speed margin of 0.38 and a pressure angle of 25 deg",
-        ),
+        ({"form": "least_friction", "margin": "0.38"}, (24, 36), {}, "margin of 0.38 and a pressure angle of 25 deg"),
         ({"form": "least_friction", "arcs": [3, 0]}, (24, 36), {}, "too long for a contact speed margin"),
         ({"form": "lantern"}, (30, 60), {"internal": True}, "ring of pins"),
         ({"form": "lantern", "pin_radius": "20"}, (24, 36), {}, "do not reach the pitch circle"),
@@ -642,9 +608,7 @@ def test_parameters_that_make_no_teeth_are_refused_with_a_remedy(given: dict[str
         ({"form": "lantern"}, (30, 60), {"shaft_angle": RIGHT}, "bevel lantern"),
     ],
 )
-def test_wheels_that_a_form_does_not_fit_are_refused_with_a_reason(
-    given: dict[str, Any], teeth: tuple[int, int], wheels: dict[str, Any], words: str
-) -> None:
+def test_wheels_that_a_form_does_not_fit_are_refused(given: Any, teeth: Any, wheels: Any, words: str) -> None:
     with pytest.raises(GearTrainError) as caught:
         shape(**given).transmission(*teeth, **wheels)
     (problem,) = caught.value.problems
@@ -701,8 +665,3 @@ def test_at_a_wrong_distance_other_teeth_have_a_transmission_of_their_own() -> N
     assert transmission.verdict
     tight = shape("uniform_stress", arcs="0.6", centre_distance="29.97").transmission(24, 36)
     assert tight.verdict.kind == "jam"
-
-
-def test_equal_pairs_of_a_long_train_share_one_path() -> None:
-    assert shape("least_friction").path(24, 36) is shape("least_friction").path(24, 36)
-    assert measure(shape("least_friction").path(24, 36)).contact_ratio == pytest.approx(1, rel=1e-12)

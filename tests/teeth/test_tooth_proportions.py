@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import json
 from math import pi
 
 import numpy as np
 import pytest
 from commands import call
+from models import pair
 
-from geartrain import GearTrain, GearTrainError
+from geartrain import GearTrainError
 from geartrain.teeth import Cycloidal, Involute
 from geartrain.teeth.conjugate import WheelPair, pair_outlines
 from geartrain.teeth.contact import solve
@@ -21,8 +23,8 @@ def test_clock_teeth_leave_the_backlash_of_the_standard(wheels: tuple[int, int])
     form = Cycloidal(form="cycloidal", thickness=[f"{each!r}" for each in sizes])
     transmission = form.transmission(*wheels)
     assert transmission.verdict.backlash * wheels[1] / 2 == pytest.approx(pi / 2 - 1.05)
-    pair = form.pair(WheelPair(*wheels))
-    found = solve(*pair_outlines(pair), sum(wheels) / 2, np.linspace(0, 2 * pi / wheels[0], 7))
+    outlines = pair_outlines(form.pair(WheelPair(*wheels)))
+    found = solve(*outlines, sum(wheels) / 2, np.linspace(0, 2 * pi / wheels[0], 7))
     assert found.backlash * wheels[1] / 2 == pytest.approx(pi / 2 - 1.05, abs=1e-6)
 
 
@@ -41,17 +43,8 @@ def test_equal_thickness_is_half_the_backlash_each() -> None:
     ],
 )
 def test_thickness_that_is_none_is_refused(given: dict[str, object], words: str) -> None:
-    links = {"frame": {}, "a": {"wheels": {"a1": 20}}, "b": {"wheels": {"b1": 40}}}
-    revolutes = [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "B"}]
-    train = {
-        "name": "pair",
-        "links": links,
-        "revolutes": revolutes,
-        "gears": [{"pair": ["a1", "b1"]}],
-        "inputs": {"a": 1},
-    }
     with pytest.raises(GearTrainError, match=words):
-        GearTrain.declare({**train, "tooth_form": {"form": "cycloidal", **given}})
+        pair("inputs: {a: 1}\ntooth_form: " + json.dumps({"form": "cycloidal", **given}))
 
 
 @pytest.mark.parametrize(("name", "heights"), [("full", ("1", "1.25")), ("deep", ("1", "1.4")), ("stub", ("0.8", "1"))])

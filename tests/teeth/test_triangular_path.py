@@ -10,17 +10,7 @@ from unittest.mock import patch
 import numpy as np
 import pytest
 from polygons import Judge
-from sorge import (
-    Pair,
-    Segment,
-    drawn,
-    entry_margin,
-    exit_margin,
-    first_of_all,
-    minimum_backlash,
-    mp,
-    verdict,
-)
+from sorge import Pair, Segment, drawn, entry_margin, exit_margin, first_of_all, minimum_backlash, mp, verdict
 
 from geartrain.teeth.triangular import TriangularSizes, TriangularTransmission, equal_depth, find_window, pitch_true
 
@@ -58,9 +48,8 @@ def few_teeth(random: Random, most: int = 12) -> TriangularSizes:
     while True:
         z1, z2 = random.randint(3, most), random.randint(3, most)
         beta1, beta2 = (radians(random.uniform(1, 0.999 * (90 - 180 / z))) for z in (z1, z2))
-        radii = random.choice(
-            [equal_depth(z1, z2, beta1, beta2), pitch_true(z1, z2), (1.0, z2 / z1 * random.uniform(0.7, 1.4))]
-        )
+        rules = [equal_depth(z1, z2, beta1, beta2), pitch_true(z1, z2), (1.0, z2 / z1 * random.uniform(0.7, 1.4))]
+        radii = random.choice(rules)
         sizes = TriangularSizes(z1, z2, *radii, beta1, beta2, 0.0)
         return sizes.at(sizes.maximum_excess * random.uniform(0.001, 0.999))
 
@@ -312,9 +301,8 @@ def kinds_over_the_reach(sizes: TriangularSizes, steps: int = 40) -> list[tuple[
 def agree(sizes: TriangularSizes, steps: int = 40) -> bool:
     """Whether a pair runs at just the clearances within its window."""
     window = find_window(sizes)
-    return all(
-        (kind == "runs") == (window.jam < excess < window.run) for excess, kind in kinds_over_the_reach(sizes, steps)
-    )
+    found = kinds_over_the_reach(sizes, steps)
+    return all((kind == "runs") == (window.jam < excess < window.run) for excess, kind in found)
 
 
 @pytest.mark.parametrize("number", [pytest.param(15), pytest.param(150, marks=pytest.mark.long)])

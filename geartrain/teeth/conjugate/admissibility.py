@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import partial
-from math import acos, atan2, ceil, cos, degrees, hypot, inf, sin, tan
+from math import acos, atan2, ceil, cos, degrees, hypot, inf, nan, sin, tan
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -32,9 +32,7 @@ _ROUNDING = 1e-12  # modules: a smaller overlap is not a fault
 
 
 def faults(path: PathOfContact, halves: Halves) -> tuple[ToothFault, ...]:
-    """Return all faults that prevent teeth with this path of contact from running; an empty tuple if the teeth
-    can run.
-    """
+    """Return all faults that prevent teeth with this path of contact from running; empty if there are none."""
     return (*_undercuts(path), *_pointed(path, halves), *_contact_ratio_fault(path))
 
 
@@ -53,20 +51,15 @@ def _undercuts(path: PathOfContact) -> Iterator[ToothFault]:
                 X = _dwell(path, d, U, gear, recess)
                 angle = degrees(X / path.pitch.reach_of(gear))
                 where = "recess" if recess else "approach"
-                yield ToothFault(
-                    "undercut",
-                    gear,
-                    X,
-                    f"gear {gear} is undercut",
-                    f"in {where} the contact speed on its dedendum is 0 at {abs(angle):.6g} deg from the pitch point",
-                    f"end the {where} before {abs(X) / path.pitch.p:.6g} pitches, or use more teeth or a larger "
-                    "pressure angle",
-                )
+                why = f"in {where} the contact speed on its dedendum is 0 at {abs(angle):.6g} deg from the pitch point"
+                limit = f"{abs(X) / path.pitch.p:.6g} pitches"
+                fix = f"end the {where} before {limit}, or use more teeth or a larger pressure angle"
+                yield ToothFault("undercut", gear, X, f"gear {gear} is undercut", why, fix)
 
 
 def _dwell(path: PathOfContact, d: Floats, U: Floats, gear: int, recess: bool) -> float:
-    """Return the arc X of the first sampled contact at which the speed along the profile of `gear` is 0, refined by
-    root finding.
+    """Return the arc X on the pitch surfaces at which the contact's speed along the profile of `gear` first reaches 0.
+    `d` and `U` are sampled distances from the pitch point and the speeds there, between which the result is refined.
     """
     at = int(np.argmax(U <= 0))
     if at == 0:
@@ -84,46 +77,26 @@ def _dwell(path: PathOfContact, d: Floats, U: Floats, gear: int, recess: bool) -
 def _pointed(path: PathOfContact, halves: Halves) -> Iterator[ToothFault]:
     """Yield a fault for each gear whose two tooth flanks would intersect below the tip."""
     for gear, X in ((1, path.arcs[1]), (2, -path.arcs[0])):
-        if X and (thickness := tip_thickness(path, gear, halves)) < 0:
-            z = path.pitch.teeth_of(gear)
-            name = "recess" if X > 0 else "approach"
-            # a tip of gear 1 works in recess, a tip of gear 2 in approach
-            point = _flank_crossing(path, gear, X, halves)
-            end = "end" if (X > 0) == (gear == 1) else "begin"
-            shorter = (
-                f"{end} the {name} before {abs(point) / path.pitch.p:.6g} pitches, or use a smaller pressure angle"
-            )
-            yield ToothFault(
-                "pointed",
-                gear,
-                X,
-                f"the teeth of gear {gear} come to a point before their tips",
-                f"the flanks of a tooth would cross by {-degrees(thickness):.4g} deg; the pitch is {360 / z:.4g} deg",
-                shorter if point else "give thicker teeth by less backlash or by a profile shift outwards",
-            )
+        thickness = partial(tooth_thickness, path, gear, halves)
+        if not X or (at_tip := thickness(X)) >= 0:
+            continue
+        # contact on one side only does not reach the pitch point
+        foot = path.ends(gear)[0] if path.ends(gear)[0] * X > 0 else 0.0
+        at_foot = thickness(foot)
+        # arc at which the flanks intersect; 0 if they intersect from the start
+        point = root(thickness, foot, X, at_foot, at_tip) if at_foot > 0 else 0.0
+        # a tip of gear 1 works in recess, a tip of gear 2 in approach
+        name, end = ("recess" if X > 0 else "approach"), ("end" if (X > 0) == (gear == 1) else "begin")
+        shorter = f"{end} the {name} before {abs(point) / path.pitch.p:.6g} pitches, or use a smaller pressure angle"
+        fix = shorter if point else "give thicker teeth by less backlash or by a profile shift outwards"
+        pitch = 360 / path.pitch.teeth_of(gear)
+        why = f"the flanks of a tooth would cross by {-degrees(at_tip):.4g} deg; the pitch is {pitch:.4g} deg"
+        yield ToothFault("pointed", gear, X, f"the teeth of gear {gear} come to a point before their tips", why, fix)
 
 
-def _flank_crossing(path: PathOfContact, gear: int, X: float, halves: Halves) -> float:
-    """Return the arc X of the contact at which the two flanks of a tooth of `gear` intersect; 0 if they intersect from
-    the start.
-    """
-    foot, _ = path.ends(gear)
-    foot = foot if foot * X > 0 else 0.0  # contact on one side only does not reach the pitch point
-    thickness = partial(_thickness, path, gear, halves)
-    at_foot, at_tip = thickness(foot), thickness(X)
-    return root(thickness, foot, X, at_foot, at_tip) if at_foot > 0 else 0.0
-
-
-def tip_thickness(path: PathOfContact, gear: int, halves: Halves) -> float:
-    """Return the angular thickness of the top land of a gear's tooth [rad]; negative if the flanks intersect below the
-    tip.
-    """
-    return _thickness(path, gear, halves, path.ends(gear)[1])
-
-
-def _thickness(path: PathOfContact, gear: int, halves: Halves, X: float) -> float:
-    """Return the angular thickness of a tooth of `gear` [rad] at the profile point that is in contact at arc X of the
-    pitch surfaces.
+def tooth_thickness(path: PathOfContact, gear: int, halves: Halves, X: float) -> float:
+    """Return the angular thickness of a tooth of `gear` [rad] at the profile point that is in contact at the arc X;
+    negative if the two flanks have intersected before that point.
     """
     _, forwards = path.pitch.polar(gear, path.flank(gear, X))
     # a driver's tooth is behind its flank, a driven tooth ahead of it
@@ -135,14 +108,9 @@ def _contact_ratio_fault(path: PathOfContact) -> Iterator[ToothFault]:
     ratio = path.contact_ratio
     # arcs with a sum of one pitch give 1 except for rounding
     if ratio < 1 - 1e-12:
-        yield ToothFault(
-            "contact ratio",
-            0,
-            float("nan"),
-            f"the contact ratio {ratio:.6g} is below 1",
-            "one tooth pair leaves contact before the next one enters it",
-            "lengthen approach or recess until their sum is at least one pitch",
-        )
+        why = "one tooth pair leaves contact before the next one enters it"
+        fix = "lengthen approach or recess until their sum is at least one pitch"
+        yield ToothFault("contact ratio", 0, nan, f"the contact ratio {ratio:.6g} is below 1", why, fix)
 
 
 # ------------------------------------------------------------------------------------------------------------ involutes
@@ -187,21 +155,14 @@ def _jam(pair: InvolutePair) -> Iterator[ToothFault]:
             apart = f"give a centre_distance of at least {free_distance(pair.first, pair.second):.6g} modules, or "
         except GearTrainError:
             apart = ""
-        yield ToothFault(
-            "jam",
-            0,
-            float("nan"),
-            "the teeth jam",
-            f"at the centre distance {pair.distance:.6g} modules the teeth are "
-            f"{-pair.backlash:.4g} modules thicker than the spaces",
-            f"{apart}thin the teeth with `backlash`, or reduce the profile shifts",
-        )
+        thick = f"{-pair.backlash:.4g} modules thicker than the spaces"
+        why = f"at the centre distance {pair.distance:.6g} modules the teeth are {thick}"
+        fix = f"{apart}thin the teeth with `backlash`, or reduce the profile shifts"
+        yield ToothFault("jam", 0, nan, "the teeth jam", why, fix)
 
 
 def _interference(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFault]:
-    """Yield a fault for each wheel whose tip extends beyond the point at which the line of action touches the mate's
-    base circle.
-    """
+    """Yield a fault for each wheel whose tip passes the end of the line of action on the mate's base circle."""
     across = pair.distance * sin(pair.psi)
     for gear, mate, own, X in ((1, pair.second, pair.first, -path.arcs[0]), (2, pair.first, pair.second, path.arcs[1])):
         # radius of the mate at the point where the line of action touches the base circle of this gear
@@ -212,23 +173,15 @@ def _interference(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFaul
             continue
         # the line of action touches the base circle at the arc R tan(psi) from the pitch point
         angle = degrees(tan(pair.psi))
-        most = mate.addendum - over
-        yield ToothFault(
-            "interference",
-            gear,
-            X,
-            f"the tips of gear {3 - gear} run into the roots of gear {gear}",
-            f"their contact would continue past {angle:.6g} deg from the pitch "
-            f"point, where the involute of gear {gear} begins at its base circle",
-            f"give gear {3 - gear} an addendum of at most {most:.4g} modules, shift gear {gear} outwards, or use more "
-            "teeth or a larger pressure angle",
-        )
+        what = f"the tips of gear {3 - gear} run into the roots of gear {gear}"
+        start = f"{angle:.6g} deg from the pitch point, where the involute of gear {gear} begins at its base circle"
+        lower = f"give gear {3 - gear} an addendum of at most {mate.addendum - over:.4g} modules"
+        fix = f"{lower}, shift gear {gear} outwards, or use more teeth or a larger pressure angle"
+        yield ToothFault("interference", gear, X, what, f"their contact would continue past {start}", fix)
 
 
 def _undercut(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFault]:
-    """Yield a fault for each wheel on which the rack's corner has removed a part of the flank that the mate's tip would
-    touch.
-    """
+    """Yield a fault for each wheel whose flank the rack's corner has cut away where the mate's tip touches it."""
     for gear, wheel, arc in ((1, pair.first, path.arcs[0]), (2, pair.second, path.arcs[1])):
         cut_radius = wheel.undercut()
         R = path.pitch.R1 if gear == 1 else path.pitch.R2
@@ -238,46 +191,29 @@ def _undercut(pair: InvolutePair, path: PathOfContact) -> Iterator[ToothFault]:
             # an integer raised slightly by rounding must not become the next integer
             teeth = ceil(2 * (wheel.cut - wheel.shift) / sin(wheel.psi) ** 2 - 1e-9)
             other = ", or use `form: cycloidal`, which suits pinions of few leaves" if 2 * wheel.r <= _LEAVES else ""
-            yield ToothFault(
-                "undercut",
-                gear,
-                (-1 if gear == 1 else 1) * arc,
-                f"gear {gear} is undercut",
-                f"the rack's corner cuts its involute away up to a radius of {cut_radius:.6g} modules, but contact "
-                f"extends down to {lowest:.6g}",
-                f"shift gear {gear} outwards by {minimum:.4g} modules, or give it {teeth} teeth{other}",
-            )
+            cut = f"the rack's corner cuts its involute away up to a radius of {cut_radius:.6g} modules"
+            why = f"{cut}, but contact extends down to {lowest:.6g}"
+            fix = f"shift gear {gear} outwards by {minimum:.4g} modules, or give it {teeth} teeth{other}"
+            X = -arc if gear == 1 else arc
+            yield ToothFault("undercut", gear, X, f"gear {gear} is undercut", why, fix)
 
 
 def _bottom(pair: InvolutePair) -> Iterator[ToothFault]:
-    """Yield a fault for each wheel whose tips touch the bottom of the mate's tooth spaces (bottom clearance
-    below 0).
-    """
+    """Yield a fault for each wheel whose tips touch the bottom of the mate's tooth spaces."""
     for gear in (1, 2):
         gap = pair.bottom_clearance(3 - gear)
         if gap < -_ROUNDING:
-            yield ToothFault(
-                "clearance",
-                gear,
-                float("nan"),
-                f"the tips of gear {gear} touch the bottom of the spaces of gear {3 - gear}",
-                f"they are {-gap:.4g} modules too long",
-                f"give gear {gear} a smaller addendum, gear {3 - gear} a deeper dedendum, or a larger centre distance",
-            )
+            what = f"the tips of gear {gear} touch the bottom of the spaces of gear {3 - gear}"
+            deeper = f"gear {3 - gear} a deeper dedendum, or a larger centre distance"
+            fix = f"give gear {gear} a smaller addendum, {deeper}"
+            yield ToothFault("clearance", gear, nan, what, f"they are {-gap:.4g} modules too long", fix)
 
 
 def ring_tips(path: PathOfContact) -> Iterator[ToothFault]:
-    """Yield a fault if the tips of a pinion collide with the tips of its ring gear after the teeth have
-    left contact.
-    """
+    """Yield a fault if the tips of a pinion and of its ring gear collide after their teeth have left contact."""
     gap = tip_gap(path)
     if gap < 0:
-        pitch = path.pitch
-        yield ToothFault(
-            "interference",
-            0,
-            path.arcs[1],
-            "the tips of the pinion run into the tips of the ring",
-            f"they overlap by {degrees(-gap):.4g} deg of the ring, whose pitch is {360 / pitch.z2:.4g} deg",
-            "give the ring more teeth, or both wheels shorter addenda",
-        )
+        what = "the tips of the pinion run into the tips of the ring"
+        why = f"they overlap by {degrees(-gap):.4g} deg of the ring, whose pitch is {360 / path.pitch.z2:.4g} deg"
+        fix = "give the ring more teeth, or both wheels shorter addenda"
+        yield ToothFault("interference", 0, path.arcs[1], what, why, fix)

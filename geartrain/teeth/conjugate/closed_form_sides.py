@@ -47,13 +47,9 @@ def cycloid(pitch: PitchSurfaces, X: float, rho: float) -> PathSide:
     longest = pi * sin(rho) if pitch.bevel else pi * rho
     # at exactly half the circle the pressure angle is a right angle, with cosine 0
     if longest * (1 - 1e-9) <= X:
-        raise RangeError(
-            Problem(
-                f"an arc of {X / pitch.p:.6g} pitches is longer than half the rolling circle",
-                f"after half of that circle, {longest / pitch.p:.6g} pitches, the pressure angle is 90 degrees",
-                "use a shorter arc or a larger rolling circle",
-            )
-        )
+        what = f"an arc of {X / pitch.p:.6g} pitches is longer than half the rolling circle"
+        why = f"after half of that circle, {longest / pitch.p:.6g} pitches, the pressure angle is 90 degrees"
+        raise RangeError(Problem(what, why, "use a shorter arc or a larger rolling circle"))
     if not pitch.bevel:
         piece = PathPiece(
             0.0,
@@ -101,12 +97,14 @@ def cone_reach(R: float, rho: float, tip: float) -> float:
 
 
 def pin_piece(R: float, A: float, B: float, end: float, inside: bool = False) -> PathPiece:
-    """Return the path of contact of a round pin, with the pressure angle sin psi = (L^2 + R^2 - A^2) / (2 R L).
+    """Return the path of contact of a round pin, with the pressure angle psi from sin psi = (L^2 + R^2 - A^2) / (2 R
+    L).
 
     R is the pitch radius of the lantern, A the distance of its pins from the axle, B the radius of a pin, and L the
-    distance of the pin's centre from the pitch point: L = B + d, or B - d if `inside`. If `inside` is False, the
-    contact is on the mate's addendum; if True, on the mate's dedendum, as far as its undercut. The arc X is R times the
-    angle of the pin's centre from the line of centres, less the value of this angle at the pitch point.
+    distance of the pin's centre from the pitch point. At the distance d of the contact from the pitch point, L = B + d,
+    or B - d if `inside`. If `inside` is False, the contact is on the mate's addendum; if True, on the mate's dedendum,
+    as far as its undercut. The arc X is R times the angle of the pin's centre from the line of centres, less the value
+    of this angle at the pitch point.
     """
     sign = -1.0 if inside else 1.0
 
@@ -129,9 +127,7 @@ def pin_piece(R: float, A: float, B: float, end: float, inside: bool = False) ->
 
 
 def pin_angle(R: float, A: float, B: float) -> float:
-    """Return the angle [rad] of a pin's centre from the line of centres at the instant when the pin touches the pitch
-    point.
-    """
+    """Return the angle [rad] between a pin's centre and the line of centres when the pin touches the pitch point."""
     return 2 * asin(sqrt((B - A + R) * (B + A - R) / (4 * A * R)))
 
 
@@ -149,13 +145,8 @@ def lantern(R: float, A: float, B: float, X: float, inside: bool = False) -> Pat
     # slightly less than half a turn, where the arc sine in `travel` would lose half its digits
     if not 0 <= beta <= 3.14:
         side, limit = ("dedendum", "the undercut") if inside else ("addendum", "half a turn of the lantern")
-        raise RangeError(
-            Problem(
-                f"an arc of {degrees(X / R):.6g} deg of the lantern on the mate's {side} is too long",
-                f"it must end before {limit}, at {degrees(most):.6g} deg",
-                "use a shorter arc",
-            )
-        )
+        what = f"an arc of {degrees(X / R):.6g} deg of the lantern on the mate's {side} is too long"
+        raise RangeError(Problem(what, f"it must end before {limit}, at {degrees(most):.6g} deg", "use a shorter arc"))
     L = sqrt((A - R) ** 2 + 4 * A * R * sin(beta / 2) ** 2)
     return PathSide((pin_piece(R, A, B, B - L if inside else L - B, inside),))
 
@@ -176,19 +167,15 @@ def pin_reach(R: float, A: float, B: float, mate: float, tip: float) -> float:
     sine = pin_piece(R, A, B, most).sin_psi
     at_pitch, at_most = off(0.0), off(most)
     if (at_pitch > 0) == (at_most > 0):
-        raise RangeError(
-            Problem(
-                f"the path of contact does not reach the tip radius of the mate, {tip:.6g} modules",
-                "the pins reach the far side of the lantern before they would touch this radius",
-                "give the mate a shorter addendum",
-            )
-        )
+        what = f"the path of contact does not reach the tip radius of the mate, {tip:.6g} modules"
+        why = "the pins reach the far side of the lantern before they would touch this radius"
+        raise RangeError(Problem(what, why, "give the mate a shorter addendum"))
     return root(off, 0.0, most, at_pitch, at_most)
 
 
 def pin_arc(R: float, A: float, B: float, d: float) -> float:
-    """Return the arc X [module] from the pitch point to the contact on the mate's addendum at the distance `d` from the
-    pitch point.
+    """Return the arc X [module] on the pitch circles from the pitch point to the contact at the distance `d` on the
+    mate's addendum. R, A and B are defined in `lantern`.
     """
     return float(pin_piece(R, A, B, d).travel(np.array(d)))
 
@@ -197,11 +184,8 @@ def pin_arc(R: float, A: float, B: float, d: float) -> float:
 
 
 def _extremal_piece(pitch: PitchSurfaces, D: float, start: float, end: float) -> PathPiece:
-    """Return the path of contact with minimum friction loss, S = D cos psi. It is an extremal of the loss,
-    docs/shapes.md (10).
-
-    S is d on cylinders and sin d on cones, psi is the pressure angle, and D is a constant. The arc X is D ln d, or D ln
-    tan(d/2) on cones, counted from the first contact.
+    """Return the extremal of the friction loss, the path S = D cos psi of docs/shapes.md (10), between two distances d
+    from the pitch point. S is d, or sin d on cones. The arc X on the pitch surfaces is counted from the first contact.
     """
 
     def sine(d: Floats) -> Floats:
@@ -221,8 +205,8 @@ def _extremal_piece(pitch: PitchSurfaces, D: float, start: float, end: float) ->
 
 
 def extremal(pitch: PitchSurfaces, X: float, first: float, last: float) -> PathSide:
-    """Return the extremal of minimum friction with an arc of length X, along which the pressure angle decreases from
-    `first` to `last` [rad].
+    """Return one side of the path of contact of minimum friction, docs/shapes.md (10), with an arc X on the pitch
+    surfaces and pressure angles from `first` to `last` [rad].
     """
     if not pitch.bevel:
         D = X / log(cos(last) / cos(first))
@@ -277,8 +261,8 @@ def flank_start(R: float, A: float, B: float, mate: float) -> float:
 
 
 def _cusp(R: float, A: float, B: float, mate: float, far: float) -> float | None:
-    """Return the maximum pin angle [rad] at which the contact has zero speed along the mate's flank (a cusp of the
-    flank); None if there is no cusp.
+    """Return the maximum angle [rad] of a pin, up to `far`, at which the contact has zero speed along the mate's flank,
+    so that the flank has a cusp; None if there is no cusp. R, A, B and `mate` are defined in `flank_start`.
     """
 
     # a negative distance d belongs to contacts inside the pitch point, which the same formulas describe
@@ -300,24 +284,24 @@ def _cusp(R: float, A: float, B: float, mate: float, far: float) -> float | None
 
 
 def _flank(R: float, A: float, B: float, mate: float, beta: float) -> complex:
-    """Return the point at which a pin at the angle `beta` touches the mate, as a complex number x + iy relative to the
-    mate's axis.
+    """Return the point at which a pin touches the mate's flank, as x + iy [module] from the mate's axis. `beta` is the
+    angle [rad] of the pin from the line of centres; R, A, B and `mate` are defined in `flank_start`.
     """
     G = _centre(R, A, np.array(beta))
     return complex((G * (1 - B / np.abs(G)) + 1j * mate) * np.exp(1j * R / mate * beta))
 
 
 def _nearest(R: float, A: float, mate: float, point: complex, low: float, high: float) -> float:
-    """Return the minimum distance [module] between a fixed point of the mate and the pin's centre, for pin angles from
-    `low` to `high`.
+    """Return the minimum distance [module] of a pin's centre from a point of the mate while the pin turns from the
+    angle `low` to `high` [rad]. R, A and `mate` are defined in `flank_start`.
     """
     # the mate's frame turns by R / mate t while the lantern turns by t
     return -peak(lambda t: -np.abs((_centre(R, A, t) + 1j * mate) * np.exp(1j * R / mate * t) - point), low, high)
 
 
 def _centre(R: float, A: float, beta: Floats) -> Points:
-    """Return the centre of a pin at the angle `beta` from the line of centres, as a complex number x + iy [module]
-    relative to the pitch point.
+    """Return the centre of a pin at the angle `beta` [rad] from the line of centres, as x + iy [module] from the pitch
+    point. R is the pitch radius of the lantern, and A the distance of the pin from its axle.
     """
     found: Points = 1j * R - 1j * A * np.exp(1j * beta)
     return found

@@ -44,9 +44,7 @@ class ConjugateToothForm(ToothForm):
     conjugate: ClassVar[bool] = True
     own_play: ClassVar[tuple[str, ...]] = ("backlash",)
     matched: ClassVar[str] = ""
-    """Description of the quantities, apart from the arcs of contact, that are made equal for all forms in a comparison
-    of tooth forms.
-    """
+    """Names of the quantities, other than the arcs of contact, that are equal in a comparison of tooth forms."""
 
     backlash: Length = Field(
         "0",
@@ -72,9 +70,7 @@ class ConjugateToothForm(ToothForm):
         return ConjugateFigures
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
-        """Return the mesh of a pair in which the first wheel drives. A ring gear is always gear 2 of the tooth form,
-        even if the pair names it first.
-        """
+        """Return the mesh of a pair with its first wheel driving. A ring gear is always gear 2 of the form."""
         from geartrain.teeth.conjugate.conjugate_mesh import ConjugateMesh
 
         check_wheels(self, wheels, shaft_angle)
@@ -320,9 +316,7 @@ class ConjugateToothForm(ToothForm):
         return given if abs(given - design) > _DESIGN * design else None
 
     def _standard(self, path: PathOfContact, wheels: WheelPair) -> ConjugatePair:
-        """Return a pair in which the teeth of both gears have the same thickness: half a pitch less half
-        the backlash.
-        """
+        """Return a pair whose teeth are equally thick on both gears: half a pitch less half the backlash."""
         from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
 
         half = path.pitch.p / 4 - self._backlash(path.pitch, wheels) / 4
@@ -338,9 +332,7 @@ class ConjugateToothForm(ToothForm):
 
 @lru_cache(maxsize=1024)
 def conjugate_pair_of(form: ConjugateToothForm, wheels: WheelPair) -> ConjugatePair:
-    """Return the conjugate pair of a tooth form and two wheels. The pair is computed at the first call and
-    then cached.
-    """
+    """Return the conjugate pair of a tooth form and two wheels. It is computed once and then cached."""
     return form.pair(wheels)
 
 
@@ -348,8 +340,8 @@ def conjugate_pair_of(form: ConjugateToothForm, wheels: WheelPair) -> ConjugateP
 
 
 def arcs_of(figures: tuple[Figure, Figure], pitch: PitchSurfaces) -> tuple[float, float]:
-    """Convert arcs of approach and recess given in pitches to arcs X on the pitch surfaces [module; rad for bevel
-    gears].
+    """Convert declared arcs of approach and recess [pitch] to lengths on the pitch surfaces [module; bevel
+    gears: rad].
     """
     return float(figures[0].value) * pitch.p, float(figures[1].value) * pitch.p
 
@@ -358,22 +350,16 @@ def check_arcs(arcs: tuple[Figure, Figure]) -> None:
     """Raise a validation error if an arc of contact is negative or if both arcs are 0."""
     if min(arc.value for arc in arcs) < 0 or sum(arc.value for arc in arcs) <= 0:
         text = ", ".join(arc.text for arc in arcs)
-        raise bad(
-            "arcs",
-            f"arcs [{text}] are out of range",
-            "give arcs of approach and recess in pitches, with a sum of at least 1",
-        )
+        fix = "give arcs of approach and recess in pitches, with a sum of at least 1"
+        raise bad("arcs", f"arcs [{text}] are out of range", fix)
 
 
 def check_angle(name: str, angle: Angle, below: float = 0.25) -> None:
     """Raise a validation error if a pressure angle is not between 0 and `below` turns."""
     turns = angle.si / tau
     if not 0 < turns < below:
-        raise bad(
-            "pressure_angle",
-            f"{name} {angle.text} is outside 0 to {360 * below:g} deg",
-            f"give a pressure angle between 0 and {360 * below:g} deg; 20 deg is usual",
-        )
+        fix = f"give a pressure angle between 0 and {360 * below:g} deg; 20 deg is usual"
+        raise bad("pressure_angle", f"{name} {angle.text} is outside 0 to {360 * below:g} deg", fix)
 
 
 def check_wheels(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> None:
@@ -384,7 +370,11 @@ def check_wheels(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle
     elif set(wheels.kinds) >= {"bevel", "contrate"}:
         why = "a bevel and a contrate wheel have no pair of pitch cones"
     elif "helical" in wheels.kinds:
-        if _are_skew(shaft_angle):
+        try:
+            skew = shaft_angle() is not None
+        except RangeError:
+            skew = True  # only helical wheels may have skew axes
+        if skew:
             why = "helical teeth on skew axes have point contact and slide along each other"
         elif form.form != "involute":
             why = "its wheels are helical, and only involute teeth are supported on helical wheels"
@@ -394,25 +384,16 @@ def check_wheels(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle
 
 
 def check_order(form: ToothForm, pair: tuple[str, str]) -> None:
-    """Raise `GearTrainError` if a pair names its ring gear first and either the two wheels have different tooth
-    parameters or `pins` is declared.
+    """Raise `GearTrainError` if a pair names its ring gear first and its form declares `pins` or a parameter with
+    different values for the two wheels. A ring gear is always gear 2 of the form, which would exchange these values.
     """
     given = {name: getattr(form, name) for name in type(form).model_fields}
     uneven = [name for name, value in given.items() if isinstance(value, tuple) and value[0].value != value[1].value]
     if uneven := uneven + [name for name in ("pins",) if name in form.model_fields_set]:
         ring, pinion = pair
-        raise refused(
-            f"the assignment of {' and '.join(uneven)} to its wheels is ambiguous",
-            f"the pair names its ring '{ring}' first, but this tooth form numbers the ring as its second wheel",
-            f"name the pinion first: `pair: [{pinion}, {ring}]`",
-        )
-
-
-def _are_skew(shaft_angle: ShaftAngle) -> bool:
-    try:
-        return shaft_angle() is not None
-    except RangeError:
-        return True  # the axes are skew, as helical wheels permit
+        what = f"the assignment of {' and '.join(uneven)} to its wheels is ambiguous"
+        why = f"the pair names its ring '{ring}' first, but this tooth form numbers the ring as its second wheel"
+        raise refused(what, why, f"name the pinion first: `pair: [{pinion}, {ring}]`")
 
 
 def shaft_angle_of(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> float | None:
@@ -425,9 +406,7 @@ def shaft_angle_of(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAng
         return None
     angle = shaft_angle()
     if angle is None and "bevel" in wheels.kinds:
-        raise refused(
-            f"these wheels cannot have {form.words} teeth",
-            "the shaft angle of its bevel wheels is not declared",
-            f"declare `axes` with the `direction` of both axes, or {IDEAL}",
-        )
+        why = "the shaft angle of its bevel wheels is not declared"
+        fix = f"declare `axes` with the `direction` of both axes, or {IDEAL}"
+        raise refused(f"these wheels cannot have {form.words} teeth", why, fix)
     return angle

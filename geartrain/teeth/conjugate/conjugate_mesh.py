@@ -16,7 +16,7 @@ import numpy as np
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.results import Key, Result, finite
-from geartrain.teeth.conjugate.admissibility import tip_thickness
+from geartrain.teeth.conjugate.admissibility import tooth_thickness
 from geartrain.teeth.conjugate.path_losses import SHARED, PathMeasures, measure, sliding
 from geartrain.teeth.conjugate.wheel_pair import WheelPair
 from geartrain.teeth.gear_mesh import GearMesh
@@ -28,7 +28,6 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.displaced_contact import DisplacedContact
     from geartrain.teeth.conjugate.off_design_transmission import OffDesignTransmission
     from geartrain.teeth.conjugate.path_of_contact import PathOfContact
-    from geartrain.teeth.meshing_wheels import MeshingWheels
     from geartrain.teeth.outlines.tooth_requirement import ToothRequirement
     from geartrain.teeth.outlines.wheel_outline import BlankSizes, WheelOutline
     from geartrain.teeth.outlines.wheel_requirement import LanternPins
@@ -53,14 +52,10 @@ class ConjugateDetails(NamedForm, Protocol):
     """Text that advises how to increase the contact ratio."""
 
     def bottom_clearance(self, wheels: WheelPair, gear: int) -> float | None:
-        """Return the bottom clearance between the root of `gear` and the tip of its mate [module]; None if the tooth
-        form does not define it.
-        """
+        """Return the bottom clearance between the root of `gear` and its mate's tip [module]; None if undefined."""
 
     def backlash_apart(self, wheels: WheelPair, gap: float) -> float | None:
-        """Return the backlash [module] at the design centre distance increased by `gap` [module]; None if the tooth
-        form does not define it.
-        """
+        """Return the backlash [module] if the design centre distance is increased by `gap`; None if undefined."""
 
     def lantern_pins(self, wheels: WheelPair) -> LanternPins | None:
         """Return the round pins that form the teeth of one wheel; None if both wheels have teeth."""
@@ -100,7 +95,7 @@ class ConjugateMesh(GearMesh):
 
     @property
     def separation(self) -> float:
-        """Tangent of the pressure angle at the pitch point: radial divided by tangential tooth force."""
+        """Tangent of the pressure angle at the pitch point, which is the radial tooth force over the tangential one."""
         return abs(tan(float(self.path.at(np.zeros(1)).psi[0])))
 
     @property
@@ -117,9 +112,7 @@ class ConjugateMesh(GearMesh):
         return PairSize(1.0, self.transmission.distance, self.transmission.distance / self.wheels.touching)
 
     def requirement(self, wheel: str, scale: float, tolerance: float) -> ToothRequirement:
-        """Return the requirements on a tooth of `wheel`: its designed flank, and a root that clears the tip of the
-        mate.
-        """
+        """Return the required tooth of `wheel`: its designed flank, and a root that clears the tip of the mate."""
         from geartrain.teeth.outlines.tooth_requirement import CLEARANCE, ToothRequirement
 
         del scale
@@ -135,9 +128,8 @@ class ConjugateMesh(GearMesh):
         )
 
     def wheel_outline(self, gear: int, cut: BlankSizes) -> WheelOutline:
-        """Return the outline of a wheel, with the designed flanks and a root that is determined by the sizes `cut`.
-
-        If `cut` has no bottom clearance, the bottom clearance of the tooth form is used.
+        """Return the outline of a wheel, with the designed flanks and a root cut as the sizes `cut` require. If `cut`
+        has no bottom clearance, the bottom clearance of the tooth form is used.
         """
         from geartrain.teeth.outlines.wheel_outline import outline
 
@@ -153,9 +145,7 @@ class ConjugateMesh(GearMesh):
         return outline(self.transmission.pair, own, cut, self.tooth_form.lantern_pins(wheels))
 
     def backlash_apart(self, gap: float) -> float | None:
-        """Return the backlash [module] at the centre distance increased by `gap` [module]; None if the tooth form does
-        not define it.
-        """
+        """Return the backlash [module] if the centre distance is increased by `gap` [module]; None if undefined."""
         return self.tooth_form.backlash_apart(self.wheel_pair, gap)
 
     @property
@@ -166,9 +156,7 @@ class ConjugateMesh(GearMesh):
 
     @property
     def displaced_contact(self) -> DisplacedContact:
-        """Contact of flanks that are slightly displaced from their designed positions. A change of the centre distance
-        displaces all flanks equally.
-        """
+        """Contact of slightly displaced flanks, for example at a centre distance other than the designed one."""
         from geartrain.teeth.conjugate.displaced_contact import displaced_contact
 
         pitch, transmission = self.transmission.path.pitch, self.transmission
@@ -176,11 +164,37 @@ class ConjugateMesh(GearMesh):
         return displaced_contact(transmission.pair, transmission.driver, gap)
 
     def account(self) -> PairAccount:
-        """Return the report on the pair: arcs of approach and recess, contact ratio, transmission error, backlash and
-        efficiency.
-        """
-        figures = _figures(self)
-        return PairAccount(_WORDS, (AccountTable(_HEADER, _row(self, figures), wide=True),), figures)
+        """Return the report on the pair: arcs, contact ratio, transmission error, backlash and efficiency."""
+        transmission, path, wheels = self.transmission, self.transmission.path, self.wheels
+        runs, helix, overlap = bool(self.verdict), abs(wheels.helix[0]), None
+        if helix and wheels.width is not None and wheels.module is not None:
+            # b tan(helix angle) / p, where b is the face width and p the transverse pitch
+            overlap = wheels.width * tan(helix) / (pi * wheels.module)
+        figures = ConjugateFigures(
+            self.counts,
+            self.verdict,
+            # the motion of involutes is known even if the pair cannot run
+            *motion_figures(transmission, self.rigid or runs),
+            self.efficiency(self.driver) if runs else None,
+            arcs=path.pitches if transmission.driver == 1 else path.pitches[::-1],
+            contact_ratio=path.contact_ratio,
+            pressure_angle=float(path.at(0.0).psi),
+            shaft_angle=path.pitch.R1 + path.pitch.R2 if path.pitch.bevel else None,
+            helix_angle=helix or None,
+            overlap_ratio=overlap,
+        )
+        row = (
+            self.name,
+            f"{self.driver} -> {self.driven}",
+            self.tooth_form.words,
+            " + ".join(f"{round(arc, 9):.4g}" for arc in figures.arcs),
+            f"{figures.contact_ratio:.5g}",
+            figures.error_text,
+            f"{degrees(self.verdict.backlash):.4g}",
+            *self.efficiency_texts,
+            self.verdict.kind,
+        )
+        return PairAccount(_WORDS, (AccountTable(_HEADER, row, wide=True),), figures)
 
 
 # ----------------------------------------------------------------------------------------------------------- properties
@@ -188,16 +202,11 @@ class ConjugateMesh(GearMesh):
 
 @dataclass(frozen=True)
 class ConjugateFigures(PairFigures):
-    """Results of a pair with conjugate teeth, including the designed path of contact."""
+    """Results of a pair with conjugate teeth: those of every pair, and the design at the design distance."""
 
     KEYS = (
         *PairFigures.KEYS,
-        "arcs",
-        "contact_ratio",
-        "pressure_angle",
-        "shaft_angle",
-        "helix_angle",
-        "overlap_ratio",
+        *("arcs", "contact_ratio", "pressure_angle", "shaft_angle", "helix_angle", "overlap_ratio"),
     )
 
     arcs: tuple[float, float]
@@ -214,49 +223,6 @@ class ConjugateFigures(PairFigures):
     """Overlap ratio of helical teeth; None for straight teeth, or if no face width is declared."""
 
 
-def _figures(mesh: ConjugateMesh) -> ConjugateFigures:
-    """Return the results of a pair with its actual driver. For involutes, the kinematic results are computed even if
-    the pair cannot run.
-    """
-    transmission, path = mesh.transmission, mesh.transmission.path
-    pitch, runs = path.pitch, bool(mesh.verdict)
-    return ConjugateFigures(
-        mesh.counts,
-        mesh.verdict,
-        *motion_figures(transmission, mesh.rigid or runs),
-        mesh.efficiency(mesh.driver) if runs else None,
-        arcs=path.pitches if transmission.driver == 1 else path.pitches[::-1],
-        contact_ratio=path.contact_ratio,
-        pressure_angle=float(path.at(0.0).psi),
-        shaft_angle=pitch.R1 + pitch.R2 if pitch.bevel else None,
-        helix_angle=abs(mesh.wheels.helix[0]) or None,
-        overlap_ratio=_overlap_ratio(mesh.wheels),
-    )
-
-
-def _overlap_ratio(wheels: MeshingWheels) -> float | None:
-    """Return the overlap ratio b tan(helix angle) / p, where b is the face width and p is the transverse pitch; None if
-    it is not defined.
-    """
-    if not wheels.helix[0] or wheels.width is None or wheels.module is None:
-        return None
-    return wheels.width * tan(abs(wheels.helix[0])) / (pi * wheels.module)
-
-
-def _row(mesh: ConjugateMesh, figures: ConjugateFigures) -> tuple[str, ...]:
-    return (
-        mesh.name,
-        f"{mesh.driver} -> {mesh.driven}",
-        mesh.tooth_form.words,
-        " + ".join(f"{round(arc, 9):.4g}" for arc in figures.arcs),
-        f"{figures.contact_ratio:.5g}",
-        figures.error_text,
-        f"{degrees(mesh.verdict.backlash):.4g}",
-        *mesh.efficiency_texts,
-        mesh.verdict.kind,
-    )
-
-
 # ----------------------------------------------------------------------------------------------------- design of a pair
 
 
@@ -267,9 +233,7 @@ class DesignLosses(Result):
     KEYS = (Key("", "measures"), "sliding", Key("specific_sliding", to=finite))
 
     measures: PathMeasures
-    """Loss, contact stress, heat, flash temperature and working depth. They are normalised by friction coefficient and
-    load.
-    """
+    """Loss, contact stress, heat, flash temperature and working depth, normalised by friction and load."""
     sliding: float
     """Maximum sliding speed divided by the pitch-line speed."""
     specific_sliding: float
@@ -280,9 +244,7 @@ class DesignLosses(Result):
 
 @dataclass(frozen=True)
 class SharedEfficiency(Result):
-    """Efficiency of a gear pair whose tooth pairs in contact share the load, and the assumption on this
-    load sharing.
-    """
+    """Efficiency of a gear pair whose tooth pairs in contact share the load, and the assumed load sharing."""
 
     KEYS = ("assumption", Key("", "sliding"))
 
@@ -300,14 +262,8 @@ class PairDesign(Result):
 
     KEYS = (
         *(Key("form", "mesh.form"), "teeth", Key("verdict", "mesh.verdict"), "pitch_radii", "flanks", "thickness"),
-        *(
-            "arcs",
-            Key("contact_ratio", "path.contact_ratio"),
-            "pressure_angles",
-            "losses_and_stresses",
-            "efficiency",
-            "outlines",
-        ),
+        *("arcs", Key("contact_ratio", "path.contact_ratio"), "pressure_angles", "losses_and_stresses"),
+        *("efficiency", "outlines"),
     )
 
     mesh: ConjugateMesh
@@ -337,9 +293,7 @@ class PairDesign(Result):
 
     @cached_property
     def flanks(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Radii of gear 1 and gear 2 at which the active flanks begin (root) and end (tip) [module; rad for bevel
-        gears].
-        """
+        """Radii at which the active flanks of gears 1 and 2 begin and end [module; rad for bevel gears]."""
         return self.path.radii(1), self.path.radii(2)
 
     @property
@@ -353,7 +307,8 @@ class PairDesign(Result):
         """Angular thickness of the top land of a tooth, for gear 1 and gear 2 [rad]; None for round pins."""
         pair = self.mesh.transmission.pair
         first, second = (
-            tip_thickness(self.path, gear, pair.halves) if solid else None for gear, solid in enumerate(pair.solid, 1)
+            tooth_thickness(self.path, gear, pair.halves, self.path.ends(gear)[1]) if solid else None
+            for gear, solid in enumerate(pair.solid, 1)
         )
         return first, second
 

@@ -40,9 +40,7 @@ class ConjugatePair(Shown):
     path: PathOfContact
     """Path of contact of the pair."""
     halves: Halves
-    """Half-thicknesses of the teeth of gear 1 and gear 2, as arcs X on the pitch surface [module; rad for
-    bevel gears].
-    """
+    """Half-thicknesses of the teeth of gears 1 and 2, as arcs X on the pitch surface [module; rad for bevel gears]."""
     given: tuple[ToothFault, ...] | None = None
     """Complete list of design faults, if the tooth form determines this list; None if the faults follow from the path
     of contact and the tooth thickness.
@@ -67,9 +65,7 @@ class ConjugatePair(Shown):
 
     @property
     def backlash(self) -> float:
-        """Circumferential backlash on the pitch surface [module; rad for bevel gears]. Values within rounding errors
-        are replaced by 0.
-        """
+        """Circumferential backlash on the pitch surface [module; rad for bevel gears]; 0 within rounding error."""
         p = self.path.pitch.p
         found = p - 2 * sum(self.halves)
         return found if abs(found) > _TOUCH * p else 0.0
@@ -127,7 +123,7 @@ class ConjugateTransmission(ExactRatio, ToothTransmission):
 
     @cached_property
     def _arcs(self) -> tuple[float, float]:
-        """Arcs X of approach and recess of the driver [module; rad for bevel gears]."""
+        """Arcs of approach and recess of the driver on the pitch surfaces [module; rad for bevel gears]."""
         approach, recess = self.pair.arcs
         return (approach, recess) if self.driver == 1 else (recess, approach)
 
@@ -157,17 +153,10 @@ class ConjugateTransmission(ExactRatio, ToothTransmission):
         return np.where(recess + slack >= X, np.minimum(X, recess), nan)
 
     def kinks(self) -> list[float]:
-        """Return the driver angles [rad] at which a tooth pair enters or leaves contact, or passes a kink of the path
-        of contact.
-        """
-        approach, recess = self.path.approach, self.path.recess
-        if self.driver == 2:
-            approach, recess = recess, approach
-        joints = {0.0}
-        for side, sign in ((approach, -1.0), (recess, 1.0)):
-            joints |= {sign * float(side.travel(np.array(d))) for d in side.joints}
-        first, last = -self._arcs[0], self._arcs[1]
-        cuts = {first, last, *(X for X in joints if first < X < last)}
+        """Return the driver angles [rad] at which tooth pairs enter or leave contact, or pass a kink of their path."""
+        sense, (approach, recess) = (1.0 if self.driver == 1 else -1.0), self._arcs
+        joints = (0.0, *(sense * X for X in self.path.joints))
+        cuts = {-approach, recess, *(X for X in joints if -approach < X < recess)}
         return sorted(self.direction * (X - self._half_tooth) / self._reach for X in cuts)
 
     # ------------------------------------------------------------------------------------------------------- friction

@@ -56,8 +56,8 @@ def azimuth_at(pitch: PitchSurfaces, gear: int, own: float, other: Floats) -> Fl
 
 
 def corner_contact(path: PathOfContact, gear: int, radius: Floats, azimuth: Floats) -> tuple[Floats, Floats]:
-    """Return the arcs X by which both gears have rotated when the tip of `gear` touches given points of the mate's
-    flank.
+    """Return the arcs X on the pitch surfaces by which both gears have rotated when the tip of `gear` touches given
+    points of the mate's flank.
 
     The points are given by radius and azimuth [rad] in the position of the mate at X = 0. The tip of gear 1 touches
     beyond the recess; the tip of gear 2 touches before the approach.
@@ -72,9 +72,7 @@ def corner_contact(path: PathOfContact, gear: int, radius: Floats, azimuth: Floa
 
 
 def _touched_flank(pair: ConjugatePair, gear: int) -> tuple[Floats, Floats]:
-    """Return radii, and azimuths [rad], of the part of the mate's flank that the tip of `gear` touches beyond the end
-    of the path of contact.
-    """
+    """Return radii and azimuths [rad] of the mate's flank that the tip of `gear` touches beyond the path of contact."""
     path, pitch, mate = pair.path, pair.path.pitch, 3 - gear
     last, first = path.ends(gear)
     # quadratic spacing, as the corner leaves the path along a parabola
@@ -111,16 +109,12 @@ def flank_levers(path: PathOfContact, gear: int, X: Floats) -> Floats:
 
 @dataclass(frozen=True)
 class CornerLag:
-    """Lag of the driven wheel [rad] while the corner of a tip is in contact beyond an end of the path of contact,
-    tabulated at equal steps.
-    """
+    """Lag of the driven wheel [rad] while the corner of a tip is in contact beyond an end of the path of contact."""
 
     step: float
     """Increment of the driver's angle between tabulated lags [rad]."""
     lags: Floats
-    """Lags of the driven wheel at equal increments of the driver's angle [rad], starting with 0 at the end of the path
-    of contact.
-    """
+    """Lags of the driven wheel [rad] at equal steps of the driver's angle, beginning with 0 at the end of the path."""
 
     def __call__(self, beyond: Floats) -> Floats:
         """Return the lag of the driven wheel [rad] at driver angles `beyond` the end of the path of contact [rad]; 0
@@ -136,9 +130,7 @@ class CornerLag:
 
 @dataclass(frozen=True)
 class DisplacedWheelSizes:
-    """Sizes of one wheel by which its manufacturing errors are converted to displacements [module; rad for bevel
-    gears].
-    """
+    """Sizes of a wheel that convert its manufacturing errors to displacements [module; rad for bevel gears]."""
 
     z: int
     """Number of teeth."""
@@ -180,9 +172,7 @@ class DisplacedContact:
     apart: Floats
     """Lag [rad] per unit increase of the centre distance or shaft angle."""
     normal: Floats
-    """Lag [rad] per unit of material removed along the normal of a flank. It is the reciprocal of the moment arm of the
-    normal.
-    """
+    """Lag [rad] per unit of material removed along the normal of a flank: 1 divided by the arm of the normal."""
     entering: CornerLag
     """Lag [rad] while the corner of a tip is in contact before the start of the path of contact."""
     leaving: CornerLag
@@ -213,7 +203,7 @@ class DisplacedContact:
         return 2 * pi / self.wheels[0].z, 2 * pi / self.wheels[1].z
 
     def apart_by(self, shift: float) -> DisplacedContact:
-        """Return the contact of the same teeth at a centre distance that is increased by `shift` [module]."""
+        """Return the contact of the same teeth if the centre distance is increased by `shift` [module]."""
         return replace(self, even=self.even + shift * self.apart, distance=self.distance + shift)
 
 
@@ -224,13 +214,8 @@ def displaced_contact(pair: ConjugatePair, driver: int, gap: float = 0.0) -> Dis
     """
     path, pitch, gears = pair.path, pair.path.pitch, (driver, 3 - driver)
     if sum(path.arcs) <= 0:
-        raise RangeError(
-            Problem(
-                "these teeth do not reach each other",
-                "their arcs of approach and recess sum to 0 or less",
-                "use longer arcs",
-            )
-        )
+        what, why = "these teeth do not reach each other", "their arcs of approach and recess sum to 0 or less"
+        raise RangeError(Problem(what, why, "use longer arcs"))
     # with gear 2 driving, the same contacts occur in reverse order
     sense = 1.0 if driver == 1 else -1.0
     first, last = path.ends(driver)
@@ -271,10 +256,8 @@ def _for_both(gears: tuple[int, int], value: Callable[[int], Value]) -> tuple[Va
 
 
 def _corner_lag(pair: ConjugatePair, gear: int, driver: int) -> CornerLag:
-    """Return the lag of the driven wheel while the tip of `gear` is in contact beyond an end of the path of contact.
-
-    The driver's tip is in contact while teeth leave contact; the driven wheel's tip is in contact while teeth enter
-    contact.
+    """Return the lag of the driven wheel while the tip of `gear` is in contact beyond an end of the path of contact:
+    the driver's tip while teeth leave contact, or the driven tip while they enter it.
     """
     path, pitch = pair.path, pair.path.pitch
     _, first = path.ends(gear)
@@ -293,7 +276,7 @@ def _corner_lag(pair: ConjugatePair, gear: int, driver: int) -> CornerLag:
 
 
 def _end_shift(path: PathOfContact, gear: int) -> float:
-    """Return the increase of the arc of contact X per unit increase of the tip radius of `gear`."""
+    """Return the increase of the arc of contact on the pitch surfaces per unit increase of the tip radius of `gear`."""
     # a one-sided difference, because the path is undefined beyond the tip
     foot, tip = path.ends(gear)
     step = _END_STEP * (foot - tip)

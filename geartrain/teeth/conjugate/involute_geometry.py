@@ -18,7 +18,7 @@ _ROUNDING = 1e-12  # modules: a negative arc of less counts as 0
 
 
 def inv(angle: float) -> float:
-    """Return the involute function of an angle x [rad], tan x - x."""
+    """Return the involute function tan x - x of an angle x [rad]."""
     return tan(angle) - angle
 
 
@@ -31,9 +31,7 @@ def inv_angle(value: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class InvoluteWheel:
-    """Involute wheel that is cut by a rack: tooth count, profile shift [module], addendum [module], dedendum [module],
-    pressure angle [rad].
-    """
+    """Involute wheel that is cut by a rack with the pressure angle psi [rad]. Lengths are in modules."""
 
     z: float
     psi: float
@@ -71,9 +69,7 @@ class InvoluteWheel:
         return (pi / 2 + sign * 2 * self.shift * tan(self.psi)) / self.z + sign * (inv(self.psi) - inv(psi))
 
     def undercut(self) -> float:
-        """Return the radius up to which the rack's corner cuts away the involute [module]; 0 if it cuts nothing away,
-        and for ring gears.
-        """
+        """Return the radius up to which the rack's corner cuts the involute away [module]; 0 if it cuts none away."""
         u = self.cut - self.shift
         if self.ring or u <= self.r * sin(self.psi) ** 2:
             return 0.0
@@ -97,17 +93,13 @@ class InvoluteWheel:
 
 @dataclass(frozen=True, slots=True)
 class InvolutePair:
-    """Pair of involute wheels at a centre distance [module]. The first wheel drives, and the second may be a
-    ring gear.
-    """
+    """Pair of involute wheels at a centre distance [module]. The second wheel may be a ring gear."""
 
     first: InvoluteWheel
     second: InvoluteWheel
     distance: float
     thinned: float = 0.0
-    """Total reduction of the tooth thicknesses of both wheels relative to a pair without backlash, as an arc X
-    [module].
-    """
+    """Sum by which the teeth of both wheels are thinner than without backlash, as an arc X [module]."""
 
     @property
     def psi(self) -> float:
@@ -135,9 +127,7 @@ class InvolutePair:
         return self.pitch.p - 2 * sum(self.halves)
 
     def bottom_clearance(self, gear: int) -> float:
-        """Return the distance between the root circle of one wheel and the tip circle of its mate [module]; negative if
-        the circles overlap.
-        """
+        """Return the gap from a wheel's root circle to its mate's tip circle [module]; negative if they overlap."""
         own, mate = (self.first, self.second) if gear == 1 else (self.second, self.first)
         if not self.second.ring:
             return self.distance - mate.tip - own.root
@@ -160,10 +150,9 @@ class InvolutePair:
             # an arc that is 0 except for rounding must not be negative
             found.append(0.0 if -_ROUNDING < over < 0 else over / cos(psi))
         if sum(found) <= 0:
-            why = (
-                f"at a centre distance of {self.distance:.6g} modules the tip circles, of radii {self.first.tip:.6g} "
-                f"and {self.second.tip:.6g}, leave no contact on the line of action"
-            )
+            tips = f"of radii {self.first.tip:.6g} and {self.second.tip:.6g}"
+            at = f"at a centre distance of {self.distance:.6g} modules"
+            why = f"{at} the tip circles, {tips}, leave no contact on the line of action"
             fix = "use larger addenda, a smaller centre distance, or profile shifts that bring the tips closer"
             raise RangeError(Problem("the teeth do not reach each other", why, fix))
         return found[0], found[1]
@@ -206,7 +195,8 @@ def spherical_arc(R: float, psi: float, tip: float) -> float:
 
 
 def cone_height(R: float, z: float, height: float) -> float:
-    """Return the angle [rad] above the pitch cone with half-angle `R` that corresponds to a height in modules of the
+    """Return the angle [rad on the unit sphere] between the pitch cone of a bevel gear and a point above it. `R` is the
+    half-angle of the pitch cone [rad], `z` the tooth number, and `height` the height of the point in modules of the
     large end.
     """
     return atan(height * 2 * sin(R) / z)

@@ -18,7 +18,6 @@ from geartrain.teeth.contact.outline_transmission import OutlineGears, OutlineTr
 if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
     from geartrain.teeth.conjugate.conjugate_transmission import ConjugatePair
-    from geartrain.teeth.conjugate.path_of_contact import PathOfContact
 
 _STRAIGHT = 0.5  # modules of root beneath a flank, at most a third of its radius
 
@@ -52,9 +51,7 @@ class OffDesignTransmission(OutlineTransmission):
 
 @lru_cache(maxsize=64)
 def _outline_gears(pair: ConjugatePair, distance: float) -> OutlineGears:
-    """Return the outlines of a pair at a centre distance [module]. The result is cached, together with its contact
-    results.
-    """
+    """Return the outlines of a pair at a centre distance [module], cached together with their contact."""
     return OutlineGears(*pair_outlines(pair), distance, sum(pair.halves), pair.backlash, pair.faults)
 
 
@@ -90,44 +87,20 @@ def pair_outlines(pair: ConjugatePair) -> tuple[GearOutline, GearOutline]:
 
 
 def _outline(pair: ConjugatePair, gear: int, z: int, R: float) -> GearOutline:
-    half = pair.halves[gear - 1] / abs(R)
-    turn = np.exp(-1j * half)
+    turn = np.exp(-1j * pair.halves[gear - 1] / abs(R))
 
     def flank(X: Floats) -> Floats:
-        points = _body_points(pair.path, gear, X)
-        place = (points[:, 0] + 1j * points[:, 1]) * turn
+        x, y = pair.path.flank(gear, X).T
+        # in the frame of the wheel, x points towards the tooth space ahead and y outwards
+        place = (x + 1j * (y + R) if gear == 1 else -x + 1j * (abs(R) - y * np.sign(R))) * turn
         return np.stack([place.real, place.imag], axis=1)
 
     foot, tip = pair.path.ends(gear)
-    cuts = sorted({0.0, foot, tip, *_joints(pair.path)}, reverse=foot > tip)
-    curves = [OutlineCurve(flank, a, b) for a, b in pairwise(cuts)]
-    return GearOutline((ToothFlanks.symmetric((_root_line(flank, foot, tip), *curves)),), z, ring=R < 0)
-
-
-def _body_points(path: PathOfContact, gear: int, X: Floats) -> Floats:
-    """Return the points (x, y) of a flank [module] in the wheel's frame, in which x points towards the tooth space
-    ahead and y outwards.
-    """
-    points = path.flank(gear, X)
-    if gear == 1:
-        return np.asarray(points + np.array([0.0, path.pitch.R1]))
-    R = path.pitch.R2
-    return np.stack([-points[:, 0], abs(R) - points[:, 1] * np.sign(R)], axis=1)
-
-
-def _joints(path: PathOfContact) -> list[float]:
-    ends = ((-1.0, path.approach), (1.0, path.recess))
-    return [sign * float(side.travel(np.array(d))) for sign, side in ends for d in side.joints]
-
-
-def _root_line(flank: object, foot: float, tip: float) -> OutlineCurve:
-    """Return the root flank of a tooth: a straight line that continues the lower end of the active
-    flank tangentially.
-    """
-    assert callable(flank)
-    # small enough for the tangent, large enough that the difference exceeds rounding
+    # the root is straight: the tangent at the lower end of the active flank, from a difference that exceeds rounding
     start, near = flank(np.array([foot, foot + 1e-4 * (tip - foot)]))
     way = start - near
-    length = min(_STRAIGHT, float(np.hypot(*start)) / 3)
-    end = start + way / np.hypot(*way) * length
-    return OutlineCurve(lambda t: end + t[:, None] * (start - end))
+    end = start + way / np.hypot(*way) * min(_STRAIGHT, float(np.hypot(*start)) / 3)
+    root = OutlineCurve(lambda t: end + t[:, None] * (start - end))
+    cuts = sorted({0.0, foot, tip, *pair.path.joints}, reverse=foot > tip)
+    curves = [OutlineCurve(flank, a, b) for a, b in pairwise(cuts)]
+    return GearOutline((ToothFlanks.symmetric((root, *curves)),), z, ring=R < 0)

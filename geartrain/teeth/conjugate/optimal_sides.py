@@ -88,11 +88,9 @@ def stress_law(pitch: PitchSurfaces, a: float, b: float, psi: float) -> ValueAnd
 
 
 def _piece_over_arc(made: Callable[[float], PathPiece], guess: float, X: float, start: float = 0.0) -> PathPiece:
-    """Return the piece of a path of contact that ends at the arc X. Newton's method determines the distance d of this
-    end from the pitch point.
-
-    `made` returns the piece that ends at a given distance d. An end that cannot be reached is bisected towards the last
-    end that was reached.
+    """Return a piece of a path of contact that ends at the arc X on the pitch surfaces. `made` returns the piece that
+    ends at a distance from the pitch point, which is found by Newton's method from `guess`. If a distance cannot be
+    reached, it is bisected towards the last one that was.
     """
     low, end, last = start, guess, inf
     for _ in range(_TRIES):
@@ -115,10 +113,9 @@ def _piece_over_arc(made: Callable[[float], PathPiece], guess: float, X: float, 
 def _solutions(
     pitch: PitchSurfaces, f: ValueAndSlope, first: float, start: float = 0.0, piece_maker: PieceMaker | None = None
 ) -> Callable[[float], PathPiece]:
-    """Return a function that solves S v' + f(d, v) = 0 up to a given distance d, and returns the solution as a piece of
-    a path of contact.
-
-    Each solution is the initial guess of the next one.
+    """Return a function that solves S v' + f(d, v) = 0 from the distance `start` up to a distance d from the pitch
+    point, with v = `first` at `start`. It returns the solution as a piece of a path of contact. S is d, or sin d for
+    bevel gears. Each solution is the initial guess of the next one.
     """
     last: Chebyshev | None = None
 
@@ -131,17 +128,15 @@ def _solutions(
 
 
 def _sine_piece(pitch: PitchSurfaces, f: ValueAndSlope, v: Chebyshev, end: float) -> PathPiece:
-    """Return the piece of a path of contact that corresponds to a solution v = sin psi as a function of the distance d,
-    where psi is the pressure angle.
+    """Return the piece of a path of contact, up to the distance `end` from the pitch point, on which the pressure angle
+    psi at the distance d is given by sin psi = v(d). `v` is a solution of the differential equation S v' + f(d, v) = 0.
     """
     return sampled(v, _slope(pitch, f, v), v.domain[0], end, max(len(v.coef), 64))
 
 
 def _slope(pitch: PitchSurfaces, f: ValueAndSlope, v: Chebyshev) -> Callable[[Floats], Floats]:
-    """Return a function that computes the derivative v' of a solution v of S v' + f(d, v) = 0.
-
-    The function uses the differential equation, except close to the pitch point, where the equation gives 0/0 and a
-    series is used.
+    """Return a function for the derivative v' of a solution v of S v' + f(d, v) = 0. Close to the pitch point, where
+    the differential equation gives 0/0, the derivative of the Chebyshev series is used.
     """
     steep = v.deriv()
 
@@ -185,8 +180,8 @@ def heat_law(pitch: PitchSurfaces, beta: float, gamma: float) -> ValueAndSlope:
 
 
 def _quotient_piece(pitch: PitchSurfaces, f: ValueAndSlope, g: Chebyshev, end: float) -> PathPiece:
-    """Return the piece of a path of contact that corresponds to a solution g = sin psi / S of 2 S' g + S g' = beta +
-    gamma / cos psi.
+    """Return the piece of a path of contact, up to the distance `end` from the pitch point, on which the pressure angle
+    psi at the distance d is given by sin psi = S g(d). `g` is a solution of the differential equation of `heat_law`.
     """
     steep = _slope(pitch, f, g)
     return sampled(
@@ -266,23 +261,15 @@ def least_friction(
 
 
 def _too_long_error(pitch: PitchSurfaces, X: float, psi: float, u: float) -> RangeError:
-    return RangeError(
-        Problem(
-            f"an arc of {X / pitch.p:.6g} pitches is too long for a contact speed margin of {u:g} and a pressure "
-            f"angle of {degrees(psi):.6g} deg",
-            "even at the minimum contact speed, the pressure angle would exceed its maximum before the end of the arc",
-            "use a shorter arc, more teeth, a smaller margin or a larger pressure angle",
-        )
-    )
+    limits = f"a contact speed margin of {u:g} and a pressure angle of {degrees(psi):.6g} deg"
+    what = f"an arc of {X / pitch.p:.6g} pitches is too long for {limits}"
+    why = "even at the minimum contact speed, the pressure angle would exceed its maximum before the end of the arc"
+    return RangeError(Problem(what, why, "use a shorter arc, more teeth, a smaller margin or a larger pressure angle"))
 
 
 def _first_variation(pitch: PitchSurfaces, piece: PathPiece, loss: Weight) -> float:
-    """Return the first variation of the friction loss over the piece of minimum contact speed, docs/shapes.md (13)
-    or (19).
-
-    The first variation is the integral over d of eta / (S^2 cos psi) (2 S / cos^3 psi - lambda / cos^2 psi). Here psi
-    is the pressure angle, S is d or sin d, eta = S sin psi, and lambda is S / cos psi at the end of the piece. The S in
-    the last two terms is replaced by `loss` if friction depends on speed.
+    """Return the first variation of the friction loss over the piece of minimum contact speed, docs/shapes.md (13) or
+    (19): the integral of `variation_integrand` over the distance d from the pitch point.
     """
     x, weights = _GAUSS
     d = piece.start + (piece.end - piece.start) * (x + 1) / 2
@@ -293,12 +280,7 @@ def _first_variation(pitch: PitchSurfaces, piece: PathPiece, loss: Weight) -> fl
 
 
 def solved(
-    pitch: PitchSurfaces,
-    f: ValueAndSlope,
-    first: float,
-    end: float,
-    start: float = 0.0,
-    near: Chebyshev | None = None,
+    pitch: PitchSurfaces, f: ValueAndSlope, first: float, end: float, start: float = 0.0, near: Chebyshev | None = None
 ) -> Chebyshev:
     """Return the solution v(d) of S v' + f(d, v) = 0 on [start, end] with v = `first` at `start`, computed by Chebyshev
     collocation. S is d, or sin d for bevel gears.
@@ -341,10 +323,8 @@ def fitted(
 
 
 def _collocated(pitch: PitchSurfaces, f: ValueAndSlope, first: float, d: Floats, v: Floats) -> Floats:
-    """Return the solution v of the differential equation in `solved` at the Chebyshev nodes d, with v = `first` at
-    the first node.
-
-    Damped Newton steps start at the guess `v` and stop when rounding errors prevent further improvement.
+    """Return the solution v of the differential equation in `solved` at the Chebyshev nodes d, with v = `first` at the
+    first node, by damped Newton steps from the guess `v`.
     """
     matrix = pitch.S(d)[:, None] * differentiation(len(d)) * (2 / (d[-1] - d[0]))
     # the condition v = first replaces the first row, which is degenerate: S is 0 at the pitch point
@@ -381,21 +361,17 @@ def _collocated(pitch: PitchSurfaces, f: ValueAndSlope, first: float, d: Floats,
 
 
 def unreachable_end(end: float) -> RangeError:
-    """Return the error that reports an end of the path of contact which cannot be reached."""
-    return RangeError(
-        Problem(
-            f"the path of contact does not reach {end:.6g} (modules; bevel gears: rad) from the pitch point",
-            "its pressure angle would reach 90 deg before that distance",
-            "use shorter arcs, more teeth, or a smaller pressure angle",
-        )
-    )
+    """Return the error for a path of contact that cannot extend to the distance `end` from the pitch point."""
+    what = f"the path of contact does not reach {end:.6g} (modules; bevel gears: rad) from the pitch point"
+    why = "its pressure angle would reach 90 deg before that distance"
+    return RangeError(Problem(what, why, "use shorter arcs, more teeth, or a smaller pressure angle"))
 
 
 # ------------------------------------------------------------------------------------------- conditions of minimum loss
 
 
 def variation_integrand(pitch: PitchSurfaces, piece: PathPiece, d: Floats, loss: Weight) -> Floats:
-    """Return the integrand of the first variation of the friction loss at distances d.
+    """Return the integrand of the first variation of the friction loss at distances d from the pitch point.
 
     The integrand is the additional loss if the path of contact is higher at d, minus the loss saved because the arc
     becomes longer.
@@ -421,14 +397,8 @@ def check_pieces(pitch: PitchSurfaces, piece: PathPiece, weight: Weight) -> None
 
 
 def other_shape_error(why: str) -> RangeError:
-    """Return the error that reports a friction law for which a constant pressure angle and a minimum contact speed do
-    not minimise the loss.
-    """
-    return RangeError(
-        Problem(
-            "with this friction law, teeth of minimum loss do not consist of a constant pressure angle and a minimum "
-            "contact speed",
-            why,
-            "use another pitch_line_speed, a friction law that falls less steeply, or a smaller pressure angle",
-        )
-    )
+    """Return the error for a friction law under which teeth of minimum loss have a shape that is not modelled."""
+    shape = "a constant pressure angle and a minimum contact speed"
+    what = f"with this friction law, teeth of minimum loss do not consist of {shape}"
+    fix = "use another pitch_line_speed, a friction law that falls less steeply, or a smaller pressure angle"
+    return RangeError(Problem(what, why, fix))

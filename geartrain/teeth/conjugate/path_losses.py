@@ -84,9 +84,7 @@ class PathLosses(Result):
     point; 0 if there are no such contacts.
     """
     heat: float
-    """Maximum frictional heat per area of either profile, divided by the product of friction coefficient and tangential
-    force.
-    """
+    """Maximum frictional heat per area of a profile, divided by friction coefficient and tangential force."""
     flash: float
     """Maximum of F_n^(3/4) kr^(1/4) |sqrt U1 - sqrt U2| along the path of contact. Blok's flash temperature is
     proportional to this quantity. F_n is the normal force, kr is the relative curvature, and U1 and U2 are the contact
@@ -126,7 +124,7 @@ class PathMeasures(Result):
     def over(self, other: PathMeasures) -> PathRatios:
         """Return the ratio of each quantity to the same quantity of another path of contact.
 
-        other   results of the reference path, for example of an involute
+        other   results of the reference path, for example of the path of an involute
         """
         free = {name: getattr(self, name) / getattr(other, name) for name in FREE}
         return PathRatios(self.one_pair.over(other.one_pair), self.shared.over(other.shared), free)
@@ -180,13 +178,11 @@ def measure(path: PathOfContact) -> PathMeasures:
 
 
 Stretch = tuple[float, float, int]
-"""Interval of the arc X: its first value, its last value, and the number of tooth pairs in contact within
-the interval.
-"""
+"""Interval of the arc X: first value, last value, and number of tooth pairs in contact within the interval."""
 
 
 def sharing(path: PathOfContact) -> list[Stretch]:
-    """Return the intervals of the arc X in which the number of tooth pairs in contact is constant."""
+    """Return the intervals of the arc X on the pitch surfaces in which the number of tooth pairs is constant."""
     p, (approach, recess) = path.pitch.p, path.arcs
     whole = floor(path.contact_ratio)
     cuts = sorted(
@@ -203,8 +199,8 @@ def sharing(path: PathOfContact) -> list[Stretch]:
 
 
 def _losses_of(path: PathOfContact, assumption: str, stretches: list[Stretch]) -> PathLosses:
-    """Return the losses and loads for the case that the tooth pairs in contact in each interval share the
-    load equally.
+    """Return loss, stress, heat and flash temperature if tooth pairs in contact share the load equally, in each of the
+    given intervals of the arc X on the pitch surfaces.
     """
     pitch = path.pitch
     # the pressure is unbounded at the pitch point of some forms, so it is also computed beyond a tenth of a pitch; less
@@ -228,8 +224,8 @@ def _losses_of(path: PathOfContact, assumption: str, stretches: list[Stretch]) -
 
 
 def _sliding_between(path: PathOfContact, low: float, high: float) -> float:
-    """Return the sliding integral J, the integral of S / cos^2 psi over d, for arcs X from `low` to `high`,
-    docs/shapes.md (7). S is d, or sin d for bevel gears.
+    """Return the sliding integral J of docs/shapes.md (7) between two arcs X on the pitch surfaces: the integral of S /
+    cos^2 psi over the distance d, with the pressure angle psi. S is d, or sin d for bevel gears.
     """
     x, weights = _GAUSS
     total = 0.0
@@ -267,8 +263,8 @@ def maximum(
     low: float = -inf,
     high: float = inf,
 ) -> float:
-    """Return the maximum of the contact quantity `what` over contacts with |X| >= `beyond` and X from `low` to `high`;
-    -inf if there are no such contacts.
+    """Return the maximum of the contact quantity `what` over contacts whose arc X on the pitch surfaces is from `low`
+    to `high`, with |X| at least `beyond`; -inf if there are no such contacts.
 
     Each piece of the path is scanned on a grid, and the bracket of its maximum is then refined.
     """
@@ -304,8 +300,8 @@ def peak(f: Callable[[Floats], Floats], first: float, last: float) -> float:
 
 
 def powers(pitch: PitchSurfaces, contact: PathContact, friction: float, driver: int = 1) -> tuple[Floats, Floats]:
-    """Return the input power and the output power of a contact, each divided by normal force and pitch-line speed, if
-    gear `driver` drives.
+    """Return the input and the output power of a contact, divided by normal force and pitch-line speed, if the gear
+    with the number `driver` drives.
     """
     rising, S = pitch.S_slope(contact.d) * contact.sin_psi, pitch.S(contact.d)
     rub = np.sign(contact.d) * (friction if driver == 1 else -friction)

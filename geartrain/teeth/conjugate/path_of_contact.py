@@ -104,19 +104,17 @@ class PathSide:
 
     @property
     def start(self) -> float:
-        """Distance of the contact closest to the pitch point from this point [module]; 0 if the side begins at the
-        pitch point.
-        """
+        """Distance of the innermost contact from the pitch point [module]; 0 if the side begins at the pitch point."""
         return self.pieces[0].start
 
     @property
     def end(self) -> float:
-        """Distance of the contact farthest from the pitch point from this point [module]."""
+        """Distance of the outermost contact from the pitch point [module]."""
         return self.pieces[-1].end
 
     @cached_property
     def arc(self) -> float:
-        """Arc X along the pitch surfaces that corresponds to the whole side [module]."""
+        """Arc X on the pitch surfaces by which the gears turn while the contact moves along the whole side [module]."""
         return float(self.travel(np.array(self.end)))
 
     @property
@@ -129,32 +127,28 @@ class PathSide:
         return self._by_piece(d, [piece.sin_psi for piece in self.pieces])
 
     def slope(self, d: Floats) -> Floats:
-        """Return the derivative of the sine of the pressure angle with respect to the distance d from the
-        pitch point.
-        """
+        """Return the derivative of the sine of the pressure angle with respect to the distance d [1/module]."""
         return self._by_piece(d, [piece.slope for piece in self.pieces])
 
     def travel(self, d: Floats) -> Floats:
-        """Return the arc X along the pitch surfaces [module] that corresponds to the motion of the contact from `start`
-        to the distance d.
-        """
+        """Return the arc on the pitch surfaces [module] by which gears turn while the contact moves to distance d."""
         found: Floats = self._offsets[self._which(d)] + self._by_piece(d, [piece.travel for piece in self.pieces])
         return found
 
     @cached_property
     def _offsets(self) -> Floats:
-        """Arcs X along the pitch surfaces at the starts of the pieces [module]."""
+        """Arcs X on the pitch surfaces by which the gears have turned when the contact enters each piece [module]."""
         return np.cumsum([0.0, *(float(piece.travel(np.array(piece.end))) for piece in self.pieces[:-1])])
 
     def _which(self, d: Floats) -> Indices:
-        """Return the index of the piece that contains each distance d. A distance at which two pieces meet belongs to
-        the outer piece.
+        """Return the index of the piece that contains the contact at each distance d from the pitch point; where two
+        pieces meet, the index of the outer piece.
         """
         return np.searchsorted(self.joints[:-1], d, side="right")
 
     def distance(self, X: Floats) -> Floats:
-        """Return the distance d of the contact from the pitch point at the arc X along the pitch surfaces. Newton's
-        method is used, with dd/dX = cos psi.
+        """Return the distance of the contact from the pitch point when the gears have turned by the arc X on the pitch
+        surfaces [module]. Newton's method is used.
         """
         X = np.asarray(X, dtype=float)
         arc = self.arc
@@ -179,8 +173,8 @@ class PathSide:
 
 @dataclass(frozen=True)
 class PathContact(Shown):
-    """Geometry, speeds, stress and heat of the contacts at given pitch-line displacements X. All arrays have the same
-    shape. Contacts with X < 0 are in approach, contacts with X > 0 in recess.
+    """Geometry, speeds, stress and heat of the contacts at given displacements X of the pitch line. All arrays have the
+    same shape. Contacts with X < 0 are in approach, contacts with X > 0 in recess.
     """
 
     X: Floats
@@ -210,17 +204,11 @@ class PathContact(Shown):
     kr: Floats
     """Relative curvature k1 - k2 of the two profiles [1/module]."""
     H: Floats
-    """Relative curvature `kr` of the profiles divided by cos psi. The Hertzian pressure is proportional to the square
-    root of this quotient.
-    """
+    """Relative curvature `kr` divided by cos psi; the Hertzian pressure is proportional to its square root."""
     Q1: Floats
-    """Frictional heat per area of the profile of gear 1, divided by the product of friction coefficient and tangential
-    force.
-    """
+    """Frictional heat per area of the profile of gear 1, divided by friction coefficient and tangential force."""
     Q2: Floats
-    """Frictional heat per area of the profile of gear 2, divided by the product of friction coefficient and tangential
-    force.
-    """
+    """Frictional heat per area of the profile of gear 2, divided by friction coefficient and tangential force."""
     flash: Floats
     """Quantity F_n^(3/4) kr^(1/4) |sqrt U1 - sqrt U2|, where F_n is the normal force at unit tangential force. Blok's
     flash temperature of equal materials is proportional to this quantity.
@@ -270,7 +258,7 @@ class PathOfContact(Shown):
 
     @cached_property
     def arcs(self) -> tuple[float, float]:
-        """Arcs X of approach and recess in which the teeth touch [module]. One of the two arcs may be negative."""
+        """Arcs of approach and recess on the pitch surfaces [module] in which the teeth touch. One may be negative."""
         return (self.approach.arc, self.recess.arc) if self.real is None else self.real
 
     @property
@@ -278,6 +266,14 @@ class PathOfContact(Shown):
         """Arcs of approach and recess in which the teeth touch [pitch]. One of the two arcs may be negative."""
         approach, recess = self.arcs
         return approach / self.pitch.p, recess / self.pitch.p
+
+    @property
+    def joints(self) -> list[float]:
+        """Arcs X on the pitch surfaces at which the contact passes from one piece to the next or leaves the last piece
+        [module]; negative in approach.
+        """
+        sides = ((-1.0, self.approach), (1.0, self.recess))
+        return [sign * float(side.travel(np.array(d))) for sign, side in sides for d in side.joints]
 
     def span(self, recess: bool, low: float = -inf, high: float = inf) -> tuple[float, float] | None:
         """Return the range of distances d in which the teeth touch on one side; None if the teeth do not touch on that
@@ -392,19 +388,15 @@ class PathOfContact(Shown):
         return self._contact(sign * side.travel(d), sign * d, side.sin_psi(d), sign * side.slope(d))
 
     def _contact(self, X: Floats, d: Floats, sine: Floats, q: Floats) -> PathContact:
-        """Return the speeds, curvatures, stress and heat of contacts at arcs X and distances d. `sine` is the sine of
-        the pressure angle psi, and `q` is d(psi)/dX. See docs/shapes.md (2) to (5).
-
-        The contact speeds along the profiles are U1 = w + A S and U2 = w - B S, where w is the derivative of S sin psi
-        with respect to d, S is d (sin d for bevel gears), and A and B are the curvatures of the pitch surfaces. The
-        relative curvature is kr = (A + B) sin psi / (U1 U2).
+        """Return speeds, curvatures, stress and heat of contacts at arcs X and distances d, docs/shapes.md (2) to (5).
+        `sine` is the sine of the pressure angle psi, and `q` is d(psi)/dX.
         """
         pitch = self.pitch
         A, B = pitch.A, pitch.B
         S, slope = pitch.S(d), pitch.S_slope(d)
         # rounding may make a sine exceed 1 where the pressure angle is a right angle
         cosine = np.sqrt(np.maximum(1 - sine * sine, 0.0))
-        w = slope * sine + S * q
+        w = slope * sine + S * q  # derivative of S sin psi with respect to d
         U1, U2 = w + A * S, w - B * S
         bend = S * sine if pitch.bevel else 0.0
         # U is 0 at a cusp, with infinite curvature and pressure, and negative beyond it, where its root is NaN

@@ -33,9 +33,7 @@ class PitchSurfaces:
 
     @classmethod
     def spur(cls, z1: float, z2: float, internal: bool = False) -> PitchSurfaces:
-        """Return the pitch cylinders of gears on parallel axes with module 1. If `internal` is True, gear 2 is a ring
-        gear.
-        """
+        """Return the pitch cylinders of gears on parallel axes with module 1. An `internal` gear 2 is a ring gear."""
         return cls(z1, z2, z1 / 2, -z2 / 2 if internal else z2 / 2)
 
     @classmethod
@@ -54,21 +52,17 @@ class PitchSurfaces:
 
     @property
     def B(self) -> float:
-        """Curvature of the pitch surface of gear 2: 1/R2 [1/module], or cot R2 on cones; negative for ring gears, 0 for
-        crown gears.
-        """
+        """Curvature of the pitch surface of gear 2: 1/R2 [1/module], or cot R2 on cones; negative for ring gears."""
         return 1 / tan(self.R2) if self.bevel else 1 / self.R2
 
     @property
     def reach(self) -> float:
-        """Arc X along the pitch surfaces per radian of rotation of gear 1: R1, or sin R1 on cones."""
+        """Arc on the pitch surfaces per radian of rotation of gear 1: R1, or sin R1 on cones."""
         return sin(self.R1) if self.bevel else self.R1
 
     @property
     def reach2(self) -> float:
-        """Arc X along the pitch surfaces per radian of rotation of gear 2: R2 (negative for a ring gear), or sin R2 on
-        cones.
-        """
+        """Arc on the pitch surfaces per radian of rotation of gear 2: R2 (below 0 for rings), or sin R2 on cones."""
         return sin(self.R2) if self.bevel else self.R2
 
     def teeth_of(self, gear: int) -> float:
@@ -76,7 +70,7 @@ class PitchSurfaces:
         return self.z1 if gear == 1 else self.z2
 
     def reach_of(self, gear: int) -> float:
-        """Return the absolute value of the arc X along the pitch surfaces per radian of rotation of gear 1 or 2."""
+        """Return the absolute value of the arc on the pitch surfaces per radian of rotation of gear 1 or 2."""
         return self.reach if gear == 1 else abs(self.reach2)
 
     def axle_of(self, gear: int) -> float:
@@ -109,8 +103,8 @@ class PitchSurfaces:
         return found
 
     def point(self, d: Floats, sin_psi: Floats, cos_psi: Floats) -> Floats:
-        """Return contact points in the fixed frame: arrays (..., 2) relative to the pitch point, or (..., 3) on the
-        unit sphere for bevel gears.
+        """Return contact points in the fixed frame, from their distance `d` from the pitch point and their pressure
+        angle psi. The shape is (..., 2) from the pitch point, or (..., 3) on the unit sphere.
         """
         S = self.S(d)
         if not self.bevel:
@@ -121,9 +115,18 @@ class PitchSurfaces:
         """Transform points from the fixed frame to the frame that a gear has at X = 0, by a rotation about the gear's
         axle.
 
-        The angle of rotation is X / reach for gear 1 and -X / reach2 for gear 2.
+        The angle of rotation is X / reach for gear 1 and -X / reach2 for gear 2 (for cones, by Rodrigues' formula).
         """
-        return self._turned(points, X / self.reach if gear == 1 else -X / self.reach2, self.axle_of(gear))
+        angle, R = X / self.reach if gear == 1 else -X / self.reach2, self.axle_of(gear)
+        cosine, sine = np.cos(angle), np.sin(angle)
+        if not self.bevel:
+            x, y = points[..., 0], points[..., 1] - R
+            return np.stack([x * cosine - y * sine, x * sine + y * cosine + R], axis=-1)
+        axis, _ = self._axis_and_up(gear)
+        along = (points @ axis)[..., None] * axis
+        across = np.cross(np.broadcast_to(axis, points.shape), points)
+        turned: Floats = along + (points - along) * cosine[..., None] + across * sine[..., None]
+        return turned
 
     def polar(self, gear: int, points: Floats) -> tuple[Floats, Floats]:
         """Return radii and azimuths [rad] of points of the fixed frame about the axle of a gear.
@@ -143,9 +146,7 @@ class PitchSurfaces:
         return np.arctan2(np.hypot(x, outwards), points @ axis), np.arctan2(x, outwards)
 
     def from_polar(self, gear: int, radius: float, azimuth: Floats) -> Floats:
-        """Return points of the fixed frame that have the given radius and azimuths about the axle of a gear. This is
-        the inverse function of `polar`.
-        """
+        """Return points of the fixed frame from radius and azimuths about a gear's axle, the inverse of `polar`."""
         if not self.bevel:
             up = self.axle_of(gear) + self._side(gear) * radius * np.cos(azimuth)
             return np.stack([radius * np.sin(azimuth), up], axis=-1)
@@ -164,19 +165,3 @@ class PitchSurfaces:
         """
         R, side = self.axle_of(gear), self._side(gear)
         return np.array([0.0, sin(R), cos(R)]), np.array([0.0, side * cos(R), -side * sin(R)])
-
-    def _turned(self, points: Floats, angle: Floats, R: float) -> Floats:
-        """Return points rotated by `angle` [rad] about an axle (for bevel gears, by Rodrigues' formula).
-
-        For bevel gears, the axle is at the angle `R` from the pitch point; for spur gears, it is at the height `R`
-        above the pitch point.
-        """
-        cosine, sine = np.cos(angle), np.sin(angle)
-        if not self.bevel:
-            x, y = points[..., 0], points[..., 1] - R
-            return np.stack([x * cosine - y * sine, x * sine + y * cosine + R], axis=-1)
-        axis = np.array([0.0, sin(R), cos(R)])
-        along = (points @ axis)[..., None] * axis
-        across = np.cross(np.broadcast_to(axis, points.shape), points)
-        turned: Floats = along + (points - along) * cosine[..., None] + across * sine[..., None]
-        return turned

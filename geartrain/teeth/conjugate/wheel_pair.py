@@ -81,9 +81,7 @@ class WheelPair(Shown):
 
     @property
     def pitch(self) -> PitchSurfaces:
-        """Pitch surfaces of both wheels at the design distance. Raises `GearTrainError` if the wheels cannot form a
-        pair.
-        """
+        """Pitch surfaces of both wheels at the design distance. Raises `GearTrainError` for an impossible pair."""
         from geartrain.teeth.conjugate.pitch_surfaces import PitchSurfaces
 
         self.check()
@@ -100,35 +98,24 @@ class WheelPair(Shown):
         """Raise `GearTrainError` if the two wheels cannot form a pair."""
         for z in (self.z1, self.z2):
             if z < FEWEST:
-                raise refused(
-                    f"a wheel of {z} {'tooth' if z == 1 else 'teeth'} cannot have conjugate teeth",
-                    "with so few teeth, a tooth pair leaves contact before the next one can engage",
-                    f"give at least {FEWEST} teeth, or another tooth_form",
-                )
+                what = f"a wheel of {z} {'tooth' if z == 1 else 'teeth'} cannot have conjugate teeth"
+                why = "with so few teeth, a tooth pair leaves contact before the next one can engage"
+                raise refused(what, why, f"give at least {FEWEST} teeth, or another tooth_form")
         if self.internal and self.z2 <= self.z1:
-            raise refused(
-                f"a ring of {self.z2} teeth cannot contain a wheel of {self.z1} teeth",
-                "the pitch circle of the ring must be larger than the pitch circle of the wheel",
-                f"give the ring more than {self.z1} teeth",
-            )
+            what = f"a ring of {self.z2} teeth cannot contain a wheel of {self.z1} teeth"
+            why = "the pitch circle of the ring must be larger than the pitch circle of the wheel"
+            raise refused(what, why, f"give the ring more than {self.z1} teeth")
         if self.internal and self.bevel:
-            raise refused(
-                "a ring cannot have a shaft angle",
-                "its axis is parallel to the axis of its pinion",
-                "omit the shaft angle",
-            )
+            why = "its axis is parallel to the axis of its pinion"
+            raise refused("a ring cannot have a shaft angle", why, "omit the shaft angle")
         if max(self.z1, self.z2) > MOST_TEETH:
-            raise refused(
-                f"a wheel cannot have {max(self.z1, self.z2)} conjugate teeth",
-                "a tooth would be smaller than the rounding error of the radius",
-                f"give at most {MOST_TEETH:g} teeth",
-            )
+            what = f"a wheel cannot have {max(self.z1, self.z2)} conjugate teeth"
+            why = "a tooth would be smaller than the rounding error of the radius"
+            raise refused(what, why, f"give at most {MOST_TEETH:g} teeth")
         if self.shaft_angle is not None and not _MINIMUM_ANGLE <= self.shaft_angle <= pi - _MINIMUM_ANGLE:
-            raise refused(
-                f"a shaft angle of {degrees(self.shaft_angle):.6g} deg is out of range",
-                "axes of bevel wheels meet at an angle between 0 and 180 deg",
-                "give an angle in this range, or declare a spur pair on parallel axes",
-            )
+            what = f"a shaft angle of {degrees(self.shaft_angle):.6g} deg is out of range"
+            why = "axes of bevel wheels meet at an angle between 0 and 180 deg"
+            raise refused(what, why, "give an angle in this range, or declare a spur pair on parallel axes")
 
     def modules(self, length: Quantity, name: str) -> float:
         """Convert a declared length to transverse modules. A number without a unit is a length in normal modules.

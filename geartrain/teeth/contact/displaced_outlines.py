@@ -10,7 +10,7 @@ constant.
 from __future__ import annotations
 
 from functools import lru_cache
-from math import radians
+from math import inf, radians
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -90,10 +90,8 @@ class ToothPairSearch:
         return ToothPairContact(x, ratio * x + self.offset - angle, point, normal, angle, corner)
 
     def _normals(self, point: Floats, along: Floats, speed: Floats) -> Floats:
-        """Return the unit normals of contacts. Each normal passes through the point that divides the line of centres in
-        the ratio of speeds.
-
-        If the contact is at that point itself, the result is the normal of the flank.
+        """Return the unit normals of contacts, which pass through the point that divides the line of centres in the
+        ratio of speeds. At that point itself, the normal of the flank is returned.
         """
         with np.errstate(all="ignore"):
             to = np.stack([self.distance * speed / (1 + speed) - point[0], -point[1]])
@@ -120,12 +118,15 @@ def displaced_outlines(gears: OutlineGears, driver: int) -> DisplacedContact:
     nx, ny = found.normal
     # reciprocal of the moment arm about the driven axle
     normal = 1 / np.abs((px - axles[0, 1]) * ny - py * nx)
-    working = _leading_places(found, first.pitch)
+    # the contacts at which this tooth pair drives, rather than the pair one pitch ahead or behind
+    others = [np.interp(found.x + way * first.pitch, found.x, found.lag, left=inf, right=inf) for way in (-1, 1)]
+    working = np.flatnonzero(found.lag <= np.minimum(*others))
+    tables = search.pair.touch_search.first, search.pair.touch_search.second
     sizes, levers, longer = [], [], []
     for gear, wheel in enumerate((first, second)):
         radius = np.hypot(px - axles[0, gear], py)
-        tip = (search.pair.touch_search.first if gear == 0 else search.pair.touch_search.second).reach[1]
-        sizes.append(_sizes(wheel, radius[working], tip, _half_widths(search, found, gear)[working]))
+        half = _half_widths(search, found, gear)[working]
+        sizes.append(_sizes(wheel, radius[working], tables[gear].reach[1], half))
         pitch_x, pitch_y = _pitch_points(search, found, gear)
         levers.append(normal * ((py - pitch_y) * nx - (px - pitch_x) * ny))
         rise = np.gradient(radius, found.x)[-1 if gear == 0 else 0] * (1 if gear == 0 else -1)
@@ -151,9 +152,7 @@ def displaced_outlines(gears: OutlineGears, driver: int) -> DisplacedContact:
 
 
 def _ends(search: ToothPairSearch) -> tuple[float, float, float, float]:
-    """Return four driver angles [rad]: the ends of the range in which flanks touch, and the ends of the larger range
-    that includes tip contact.
-    """
+    """Return four driver angles [rad]: the ends of flank contact, and the ends of contact with tips included."""
     found = search.at(np.linspace(*search.pair.window, _SEARCHED))
     near = (found.corner >= 0) & (found.lag < _FARTHEST * search.second.pitch + np.nanmin(found.lag))
     whole = _around(near, int(np.nanargmin(found.lag)))
@@ -169,7 +168,7 @@ def _ends(search: ToothPairSearch) -> tuple[float, float, float, float]:
 
 
 def _around(held: Bools, at: int) -> Bools:
-    """Return a mask of the contiguous True entries of an array that include the index `at`."""
+    """Return a mask of the entries that are connected with the entry `at` by entries that are all True."""
     gaps = np.flatnonzero(~held)
     low, high = gaps[gaps < at], gaps[gaps > at]
     found = np.zeros(len(held), bool)
@@ -178,23 +177,17 @@ def _around(held: Bools, at: int) -> Bools:
 
 
 def _corner(search: ToothPairSearch, end: float, last: float) -> CornerLag:
-    """Return the additional lag of the driven wheel while a tip is in contact beyond an end of flank contact."""
+    """Return the additional lag of the driven wheel while a tip is in contact, from the end of flank contact at the
+    driver angle `end` to the end of tip contact at `last` [rad].
+    """
     if abs(last - end) < _NO_CORNER:
         return CornerLag(_NO_CORNER, np.zeros(2))
     lag = search.at(np.linspace(end, last, _CORNER_NODES)).lag
     return CornerLag(abs(last - end) / (_CORNER_NODES - 1), lag - lag[0])
 
 
-def _leading_places(found: ToothPairContact, pitch: float) -> Indices:
-    """Return the indices of the driver angles at which the examined tooth pair drives, rather than the tooth pair one
-    pitch ahead or behind.
-    """
-    others = [np.interp(found.x + way * pitch, found.x, found.lag, left=np.inf, right=np.inf) for way in (-1, 1)]
-    return np.flatnonzero(found.lag <= np.minimum(*others))
-
-
 def _half_widths(search: ToothPairSearch, found: ToothPairContact, gear: int) -> Floats:
-    """Return the half-thickness of the tooth of one wheel at each contact [module]."""
+    """Return the half-thickness [module] of the tooth of `gear` at the point of each contact."""
     if gear == 0:
         return np.asarray(np.hypot(*found.point) * (np.arctan2(found.point[1], found.point[0]) - found.x))
     x, y = search.distance - found.point[0], found.point[1]
@@ -208,13 +201,9 @@ def _sizes(wheel: GearOutline, radius: Floats, tip: float, half: Floats) -> Disp
 
 
 def _pitch_points(search: ToothPairSearch, found: ToothPairContact, gear: int) -> tuple[Floats, Floats]:
-    """Return the coordinates x and y [module] of the points at which the flank in contact intersects the pitch circle
-    of one wheel.
-    """
-    wheel, table = ((search.first, search.pair.touch_search.first), (search.second, search.pair.touch_search.second))[
-        gear
-    ]
-    radius = wheel.z / 2
+    """Return x and y [module] of the points where the flanks in contact intersect the pitch circle of `gear`."""
+    table = (search.pair.touch_search.first, search.pair.touch_search.second)[gear]
+    radius = (search.first, search.second)[gear].z / 2
     piece = np.flatnonzero((table.ends[0] <= radius) & (radius <= table.ends[1]) & ~table.flat)[:1]
     azimuth = float(value(table.azimuth, piece, table.inverse(piece, np.array([radius])))[0][0])
     turned = (found.angle if gear else found.x) + azimuth

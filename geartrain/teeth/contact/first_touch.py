@@ -20,7 +20,7 @@ from geartrain.numerics.polynomial_pieces import value
 from geartrain.numerics.roots import roots_by_false_position
 
 if TYPE_CHECKING:
-    from geartrain.numerics.arrays import Bools, Floats, Indices
+    from geartrain.numerics.arrays import Floats, Indices
     from geartrain.teeth.contact.gear_outline import FlankTable
 
 _ASIDE = 1e-5  # fraction of a segment: offset at which a slope is evaluated if it is undefined at the end
@@ -65,7 +65,7 @@ class AxlePlacement:
 
 
 class DrivenFrame:
-    """Polar coordinates `radius` and `azimuth` of points about the second axle, with their derivatives."""
+    """Points of the driver, given by `radius` and `azimuth` about the second axle, with their derivatives."""
 
     __slots__ = ("across", "along", "axles", "bevel", "cos_b", "height", "radius", "side", "sin_b", "tilt", "up")
 
@@ -86,20 +86,20 @@ class DrivenFrame:
             self.radius = np.hypot(self.side, self.along)
 
     def _signs(self) -> tuple[float, float]:
-        """Return two signs: of the direction towards the second axle, and of the component of the radius about the
-        first axle in this direction.
+        """Return two signs: of the direction from the first axle to the second one, and of the component in this
+        direction of the radius about the first axle.
         """
         return {0: (1.0, -1.0), 1: (-1.0, 1.0), 2: (1.0, 1.0)}[self.axles.ring]
 
     @property
     def azimuth(self) -> Floats:
-        """Azimuths of the points about the second axle [rad]."""
+        """Azimuths of the points about the second axle [rad], 0 on the line of centres."""
         found: Floats = np.arctan2(self.side, self.along)
         return found
 
     def moved(self, dr: Floats | float, db: Floats | float) -> tuple[Floats, Floats]:
-        """Return the differentials of radius and azimuth about the second axle that correspond to differentials `dr` of
-        the radius and `db` of the azimuth about the first axle.
+        """Return the changes of radius and azimuth about the second axle if the radius about the first axle changes by
+        `dr` and the azimuth by `db`.
         """
         e, s = self._signs()
         stretch = self.height * dr
@@ -116,17 +116,16 @@ class DrivenFrame:
         along = along + e * far * fall
         up = self.tilt * fall - s * e * far * across
         h = np.hypot(self.side, self.along)
-        return (self.up * (self.side * side + self.along * along) / h - h * up), (
-            self.along * side - self.side * along
-        ) / (h * h)
+        radius = self.up * (self.side * side + self.along * along) / h - h * up
+        return radius, (self.along * side - self.side * along) / (h * h)
 
 
 # ----------------------------------------------------------------------------------------- segments of the driving side
 
 
 class CandidatePairs(NamedTuple):
-    """Tooth pairs that may touch: driver angle x [rad], indices of the tooth shapes of both teeth, angle `place` of the
-    driven tooth [rad], and index of the driver position.
+    """Tooth pairs that may touch: driver angle x [rad], numbers of the two tooth shapes, angle `place` of the driven
+    tooth [rad], and number of the driver position.
     """
 
     x: Floats
@@ -137,8 +136,8 @@ class CandidatePairs(NamedTuple):
 
 
 class FlankSegments(NamedTuple):
-    """Segments of the driver's flanks on which the required driven angle G is a smooth function; n is the number of
-    segments.
+    """Segments of the driver's flanks. On each segment, the driven angle that the points of the driver require to touch
+    the driven flank is a smooth function.
     """
 
     tooth_pair: Indices
@@ -160,9 +159,7 @@ class FlankSegments(NamedTuple):
 
 
 class FirstTouches(NamedTuple):
-    """Contacts, one for each segment: driven angle [rad], speed ratio, parameters on both flanks, and radii about both
-    axles.
-    """
+    """Contacts, one for each segment: driven angle [rad], speed ratio, parameters of both flanks, and both radii."""
 
     angle: Floats
     speed: Floats
@@ -177,7 +174,7 @@ class FirstTouches(NamedTuple):
 
 @dataclass(frozen=True)
 class FirstTouchSearch:
-    """Search, at given axle positions, for the points of the driver's flanks that determine the driven angle."""
+    """Search for the points of the driver's flanks that determine the driven angle, at one position of the axles."""
 
     first: FlankTable
     second: FlankTable
@@ -199,15 +196,11 @@ class FirstTouchSearch:
         return self._clipped_to_pieces(tooth_pairs, joined(found))
 
     def _cells(self, tooth_pairs: CandidatePairs) -> FlankSegments:
-        """Return the intervals between search nodes that may be at radii of the driven flank. Their `piece2` is
-        assigned later.
+        """Return the segments between adjacent nodes of the driver's flank that may be at radii of the driven flank.
+        The piece of the driven flank is set later.
         """
-        nodes = self.first.nodes
-        pieces, us, begins = (
-            nodes[0][tooth_pairs.tooth1],
-            nodes[1][tooth_pairs.tooth1],
-            nodes[2][tooth_pairs.tooth1, :-1],
-        )
+        of, (piece, u, begins) = tooth_pairs.tooth1, self.first.nodes
+        pieces, us, begins = piece[of], u[of], begins[of, :-1]
         r, dr, a, da = (each[tooth_pairs.tooth1] for each in self.first.node_values)
         view = DrivenFrame(self.axles, r, a + tooth_pairs.x[:, None])
         change, swing = view.moved(dr, da)
@@ -226,7 +219,7 @@ class FirstTouchSearch:
         )
 
     def _divided_at_extremes(self, tooth_pairs: CandidatePairs, cells: FlankSegments) -> FlankSegments:
-        """Return the intervals, subdivided where the distance from the second axle has an extremum."""
+        """Return the segments, divided at extrema of the distance between the driver's point and the second axle."""
         # where the derivative of the radius changes its sign within a cell, the radius has an extreme
         which = np.flatnonzero(np.sign(cells.polar2[2, 0]) * np.sign(cells.polar2[2, 1]) < 0)
         if not len(which):
@@ -246,7 +239,9 @@ class FirstTouchSearch:
         return joined([cells, turning])
 
     def _clipped_to_pieces(self, tooth_pairs: CandidatePairs, cells: FlankSegments) -> FlankSegments:
-        """Return the intervals, shortened to the radii of their driven piece by vectorised false position."""
+        """Return the segments, divided and shortened so that each meets the radii of a single piece of the driven
+        flank. The ends are found by false position.
+        """
         low, high = self.second.ends[:, cells.piece2]
         u, polar2 = cells.u.copy(), cells.polar2.copy()
         for side in (0, 1):
@@ -266,35 +261,24 @@ class FirstTouchSearch:
         return cells._replace(u=u, polar2=polar2)
 
     def _driven_polar(self, x: Floats, piece: Indices, u: Floats) -> Floats:
-        """Return an array (4, n): radius and azimuth of the driver's points about the second axle, and the derivatives
-        of both with respect to the parameter u.
+        """Return radius and azimuth of points of the driver about the second axle, and their derivatives with respect
+        to the parameter u of the flank, as an array (4, n).
         """
         view, dr, da = self.view(x, piece, u)
         return np.stack([view.radius, view.azimuth, *view.moved(dr, da)])
 
     def view(self, x: Floats, piece: Indices, u: Floats) -> tuple[DrivenFrame, Floats, Floats]:
-        """Return the driver's points in polar coordinates about the second axle, and the derivatives of their radius
-        and azimuth about the first axle with respect to the parameter u.
+        """Return points of the driver in polar coordinates about the second axle, and the derivatives of their radius
+        and azimuth about the first axle with respect to the parameter u of the flank.
         """
         r, dr = value(self.first.radius, piece, u)
         a, da = value(self.first.azimuth, piece, u)
         return DrivenFrame(self.axles, r, a + x), dr, da
 
-    def _stalled(self, segments: FlankSegments) -> Bools:
-        """Return a mask, shape (2, n), of the segment ends at which one of the two curves is stationary, so that its
-        slope there is meaningless.
-        """
-        first, second = self.first.stalls[:, segments.piece1], self.second.stalls[:, segments.piece2]
-        at_end = (segments.u == np.array([[-1.0], [1.0]])) & first
-        found: Bools = at_end | ((segments.v == -1) & second[0]) | ((segments.v == 1) & second[1])
-        return found
-
     # ------------------------------------------------------------------------------------------------ exact contact
 
     def touch(self, tooth_pairs: CandidatePairs, segments: FlankSegments) -> FirstTouches:
-        """Return the contacts of all segments, exact to rounding error, at both ends and at an interior maximum of the
-        required driven angle G.
-        """
+        """Return the contacts of all segments: at both ends, and at a maximum of the required driven angle inside."""
         x = tooth_pairs.x[segments.tooth_pair]
         low, high = self.second.ends[:, segments.piece2]
 
@@ -312,7 +296,9 @@ class FirstTouchSearch:
         everything = np.arange(len(x))
         ends_u, slopes = segments.u.copy(), np.stack([rising(u, everything) for u in segments.u])
         step = _ASIDE * (ends_u[1] - ends_u[0])
-        stalled = self._stalled(segments)
+        first, second = self.first.stalls[:, segments.piece1], self.second.stalls[:, segments.piece2]
+        stalled = (segments.u == np.array([[-1.0], [1.0]])) & first
+        stalled |= ((segments.v == -1) & second[0]) | ((segments.v == 1) & second[1])
         for side, way in ((0, 1), (1, -1)):
             # where a curve is stationary at its end the slope there is 0 up to rounding error
             which = np.flatnonzero(stalled[side] | ~(way * slopes[side] > 0))
@@ -328,8 +314,8 @@ class FirstTouchSearch:
         return joined([*ends, within])
 
     def _touch_at(self, tooth_pairs: CandidatePairs, segments: FlankSegments, u: Floats, v: Floats) -> FirstTouches:
-        """Return the contact at the parameter `u` of the driver's piece. `v` is NaN unless an end of the driven piece
-        is in contact.
+        """Return the contacts at the parameters `u` of the driver's flank. `v` is the known parameter of the driven
+        flank at the ends of its pieces, and NaN elsewhere.
         """
         piece1, piece2 = segments.piece1, segments.piece2
         view, dr, da = self.view(tooth_pairs.x[segments.tooth_pair], piece1, u)

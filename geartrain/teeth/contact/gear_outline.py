@@ -239,13 +239,9 @@ class GearOutline(Shown):
     def __post_init__(self) -> None:
         for name, number, few in (("teeth", len(self.teeth), (1, self.z)), ("turns", len(self.turns), (0, self.z))):
             if self.z < 1 or number not in few:
-                raise QuestionError(
-                    Problem(
-                        f"`{name}` has {number} entries for a wheel with z = {self.z}",
-                        f"z must be at least 1, and `{name}` needs {few[0]} or z entries",
-                        f"give {few[0]} or {max(self.z, 1)} entries",
-                    )
-                )
+                what = f"`{name}` has {number} entries for a wheel with z = {self.z}"
+                why = f"z must be at least 1, and `{name}` needs {few[0]} or z entries"
+                raise QuestionError(Problem(what, why, f"give {few[0]} or {max(self.z, 1)} entries"))
         for tooth in self.teeth:
             for side in (tooth.ahead, tooth.behind):
                 _check_side(side)
@@ -295,57 +291,35 @@ class GearOutline(Shown):
             If the wheel is a bevel.
         """
         if self.bevel:
-            raise QuestionError(
-                Problem(
-                    "a bevel wheel cannot be displaced in its plane",
-                    "its teeth are on a sphere about the apex, which a displacement leaves",
-                    "give every tooth its own curves instead",
-                )
-            )
-        offsets = self.turns or (0.0,) * self.z
-        return GearOutline(
-            tuple(self._displaced_tooth(k, offsets[k], x, y) for k in range(self.z)), self.z, (), self.ring
-        )
-
-    def _displaced_tooth(self, k: int, offset: float, x: float, y: float) -> ToothFlanks:
-        place = k * self.pitch
-        by = np.array([x, y])
-        tooth = self.teeth[k % len(self.teeth)]
-        return tooth.turned(place + offset).mapped(lambda points: points + by).turned(-place)
+            what = "a bevel wheel cannot be displaced in its plane"
+            why = "its teeth are on a sphere about the apex, which a displacement leaves"
+            raise QuestionError(Problem(what, why, "give every tooth its own curves instead"))
+        by, teeth = np.array([x, y]), []
+        for k, offset in enumerate(self.turns or (0.0,) * self.z):
+            place = k * self.pitch
+            tooth = self.teeth[k % len(self.teeth)].turned(place + offset)
+            teeth.append(tooth.mapped(lambda points: points + by).turned(-place))
+        return GearOutline(tuple(teeth), self.z, (), self.ring)
 
 
 def _check_side(side: tuple[OutlineCurve, ...]) -> None:
-    """Raise `QuestionError` unless `side` is a chain of connected curves whose points are finite and not on
-    the axle.
-    """
+    """Raise `QuestionError` unless `side` is a chain of connected curves with finite points off the axle."""
     if not side:
-        raise QuestionError(
-            Problem(
-                "a tooth has a flank without curves",
-                "each flank can touch a mate and needs a profile",
-                "give at least one curve for each flank",
-            )
-        )
+        what, why = "a tooth has a flank without curves", "each flank can touch a mate and needs a profile"
+        raise QuestionError(Problem(what, why, "give at least one curve for each flank"))
     last = None
     for curve in side:
         ends = curve.at(np.array([curve.start, curve.end]))
         if not np.isfinite(ends).all() or curve.start == curve.end or not np.hypot(ends[:, 0], ends[:, 1]).all():
-            raise QuestionError(
-                Problem(
-                    f"a curve from parameter {curve.start:.6g} to {curve.end:.6g} cannot be part of a tooth",
-                    "an end is not finite or is on the axle, or both ends have the same parameter",
-                    "give two parameters at which the curve has points off the axle",
-                )
-            )
+            what = f"a curve from parameter {curve.start:.6g} to {curve.end:.6g} cannot be part of a tooth"
+            why = "an end is not finite or is on the axle, or both ends have the same parameter"
+            fix = "give two parameters at which the curve has points off the axle"
+            raise QuestionError(Problem(what, why, fix))
         # relative to the size of the tooth, because coordinates are rounded
         if last is not None and np.abs(ends[0] - last).max() > _MEETS * np.abs(ends).max():
-            raise QuestionError(
-                Problem(
-                    "two curves of a tooth do not meet",
-                    f"one ends at {last}, the next begins at {ends[0]}",
-                    "give the curves of a flank in order, each beginning at the end of the previous one",
-                )
-            )
+            why = f"one ends at {last}, the next begins at {ends[0]}"
+            fix = "give the curves of a flank in order, each beginning at the end of the previous one"
+            raise QuestionError(Problem("two curves of a tooth do not meet", why, fix))
         last = ends[1]
 
 
@@ -385,22 +359,19 @@ def _side(side: tuple[OutlineCurve, ...]) -> list[list[tuple[PolynomialPiece, bo
         [each for piece in fitted(curve.polar, curve.start, curve.end) for each in _monotonic_pieces(curve, piece)]
         for curve in side
     ]
-    corner = [True, *(_is_corner(a[-1], b[0]) for a, b in pairwise(found)), True]
+    corner = [True]
+    for one, following in pairwise(found):
+        before, after = _direction(one[-1], 1), _direction(following[0], -1)
+        corner.append(bool(abs(before[0] * after[1] - before[1] * after[0]) > _SMOOTH or before @ after < 0))
+    corner.append(True)
     return [
         [(piece, at == 0 and corner[i], at == len(pieces) - 1 and corner[i + 1]) for at, piece in enumerate(pieces)]
         for i, pieces in enumerate(found)
     ]
 
 
-def _is_corner(last: PolynomialPiece, new: PolynomialPiece) -> bool:
-    before, after = _direction(last, 1), _direction(new, -1)
-    return bool(abs(before[0] * after[1] - before[1] * after[0]) > _SMOOTH or before @ after < 0)
-
-
 def _direction(piece: PolynomialPiece, end: int) -> Floats:
-    """Return the unit tangent of a curve at its end u = -1 or u = 1 (`end`), from the first derivative that is
-    not 0.
-    """
+    """Return the unit tangent at the end u = -1 or u = 1 of a piece, from its first derivative that is not 0."""
     powers = np.arange(COUNT)
     signs = np.where(powers % 2, 1.0, end)
     first = powers * signs @ piece.coefficients
@@ -469,17 +440,13 @@ class FlankTable:
     first: Indices
     """Index of the first piece of each tooth, shape (teeth + 1,). The last entry is the number of pieces."""
     curve: Indices
-    """Number of the curve to which each piece belongs, shape (pieces,). Curves are numbered consecutively over all
-    teeth.
-    """
+    """Number of the curve to which each piece belongs, shape (pieces,), consecutive over all teeth."""
     error: tuple[float, float]
-    """Maximum differences between the polynomial pieces and the curves: of the radius [unit of the outline] and of the
-    azimuth [rad].
-    """
+    """Maximum difference between pieces and curves, of the radius [unit of the outline] and of the azimuth [rad]."""
 
     @cached_property
     def mirrored(self) -> FlankTable:
-        """Mirror image of the table, in which azimuths have the opposite sign."""
+        """Mirror image of all flanks, in which azimuths have the opposite sign."""
         return replace(self, azimuth=-self.azimuth)
 
     @cached_property
@@ -489,9 +456,7 @@ class FlankTable:
 
     @cached_property
     def stalls(self) -> Bools:
-        """Mask, shape (2, pieces), of the pieces whose radius is stationary in u at the start (row 0) or at the end
-        (row 1).
-        """
+        """Mask, shape (2, pieces): True if the radius of a piece is stationary in u at its start or at its end."""
         powers = np.arange(COUNT)
         slopes = np.stack([np.where(powers % 2, powers, -powers) @ self.radius, powers @ self.radius])
         found: Bools = slopes < _STALLED * (self.ends[1] - self.ends[0])
@@ -514,22 +479,24 @@ class FlankTable:
     @cached_property
     def span(self) -> tuple[Floats, Floats]:
         """Minimum radius and maximum radius of each tooth, two arrays of shape (teeth,)."""
-        low, high = (
-            np.minimum.reduceat(self.ends[0], self.first[:-1]),
-            np.maximum.reduceat(self.ends[1], self.first[:-1]),
-        )
-        return low, high
+        first, (low, high) = self.first[:-1], self.ends
+        return np.minimum.reduceat(low, first), np.maximum.reduceat(high, first)
 
     # -------------------------------------------------------------------------------------------- flanks of a driver
 
     @cached_property
     def nodes(self) -> tuple[Indices, Floats, Bools]:
-        """Search nodes of each tooth, three arrays of shape (teeth, nodes): index of the piece, parameter u, and
-        whether a search interval begins at the node.
+        """Nodes for the search for contacts, three arrays of shape (teeth, nodes): index of the piece, its parameter u,
+        and whether a search interval begins at the node.
         """
         # the quotient is rounded up, so that a side with few pieces still has the minimum number of cells
         cells = np.repeat(np.maximum(1, -(-_CELLS // np.diff(self.first))), np.diff(self.first))
-        each = [self._sample_points(piece, int(number)) for piece, number in enumerate(cells)]
+        each = []
+        for at, number in enumerate(cells.tolist()):
+            # geometric refinement at ends where the radius is stationary
+            ends = (end for end, stalls in zip((-1, 1), self.stalls[:, at], strict=True) if stalls)
+            finer = [end * (1 - 2 * _CLOSER ** np.arange(1, _CLOSE + 1)) for end in ends]
+            each.append(np.unique(np.concatenate([np.linspace(-1, 1, number + 1), *finer])))
         piece, u = np.repeat(np.arange(len(each)), [len(marks) for marks in each]), np.concatenate(each)
         begins = np.append(piece[1:] == piece[:-1], False)
         start = np.searchsorted(piece, self.first)
@@ -538,21 +505,9 @@ class FlankTable:
         at = np.minimum(start[:-1, None] + np.arange(most), start[1:, None] - 1)
         return piece[at], u[at], begins[at]
 
-    def _sample_points(self, piece: int, cells: int) -> Floats:
-        """Return the values of u at which a piece is sampled. They are uniformly spaced, with geometric refinement at
-        ends where the radius is stationary.
-        """
-        marks: list[Floats] = [np.linspace(-1, 1, cells + 1)]
-        for end, stalls in zip((-1, 1), self.stalls[:, piece], strict=True):
-            if stalls:
-                marks.append(np.asarray(end * (1 - 2 * _CLOSER ** np.arange(1, _CLOSE + 1)), dtype=np.float64))
-        return np.unique(np.concatenate(marks))
-
     @cached_property
     def node_values(self) -> tuple[Floats, Floats, Floats, Floats]:
-        """Values at the search nodes: radius, its derivative with respect to the parameter u, azimuth [rad], and its
-        derivative with respect to u.
-        """
+        """Radius and azimuth [rad] at the `nodes`, each followed by its derivative with respect to u."""
         piece, u, _ = self.nodes
         r, dr = value(self.radius, piece, u)
         a, da = value(self.azimuth, piece, u)

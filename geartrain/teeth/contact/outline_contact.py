@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from math import ceil, lcm, pi
 from typing import TYPE_CHECKING, Any, Literal
@@ -29,9 +28,7 @@ KINDS = ("flank", "corner of first", "corner of second", "corner on corner")
 
 
 class OutlinePair:
-    """Contact of the front or back flanks of two wheels at one centre distance. Back flanks are treated as mirror
-    images.
-    """
+    """Contact of the leading flanks, or of mirror images of the trailing flanks, at one centre distance."""
 
     def __init__(
         self, first: GearOutline, second: GearOutline, distance: float, side: Literal["front", "back"]
@@ -69,22 +66,20 @@ class OutlinePair:
         # computed within one period; whole periods are added afterwards, so that their rounding does no harm
         turns = np.floor(self.sign * phi1 / period)
         rest = self.sign * phi1 - turns * period
-        parts = [self._block(part, within) for part in self._blocks(rest)]
+        # in blocks, which limit the memory for nodes
+        per_angle = ((self.window[1] - self.window[0]) / self.first.pitch + 1) * self.touch_search.first.nodes[0].shape[
+            1
+        ]
+        size = max(16, int(_BLOCK / per_angle))
+        parts = [self._block(rest[at : at + size], within) for at in range(0, max(len(rest), 1), size)]
         angle, speed, pair, *others = (np.concatenate(each, axis=-1) for each in zip(*parts, strict=True))
         angle = self.sign * (angle + turns * (self.cycle * self.second.pitch))
         pair = self.sign * (pair - turns.astype(int) * self.cycle)
         return angle, speed, pair, *others
 
-    def _blocks(self, rest: Floats) -> Iterator[Floats]:
-        wide = self.window[1] - self.window[0]
-        per_angle = (wide / self.first.pitch + 1) * self.touch_search.first.nodes[0].shape[1]
-        size = max(16, int(_BLOCK / per_angle))
-        return (rest[start : start + size] for start in range(0, max(len(rest), 1), size))
-
     def _tooth_pairs(self, rest: Floats) -> tuple[CandidatePairs, Indices]:
-        """Return all tooth pairs within range, and the number of the driver's tooth in each pair.
-
-        In the mirror image, teeth are numbered backwards.
+        """Return all tooth pairs within range at the driver angles `rest` [rad], and the number of the driver's tooth
+        in each pair. In the mirror image, teeth are numbered backwards.
         """
         pitch = self.first.pitch
         # pitch deviations may shift teeth into the window from either side
@@ -96,10 +91,9 @@ class OutlinePair:
         # in the mirror image tooth j touches the tooth behind it, whose number counted backward is j + 1
         mate = j if self.sign > 0 else j + 1
         tooth1, tooth2 = (self.sign * j) % self.first.z, (self.sign * mate) % self.second.z
-        x = rest[position] + j * pitch + self.sign * _deviations(self.first.turns, tooth1)
-        place = np.asarray(
-            mate * self.second.pitch + self.sign * _deviations(self.second.turns, tooth2), dtype=np.float64
-        )
+        turns1, turns2 = (np.array(wheel.turns or (0.0,) * wheel.z) for wheel in (self.first, self.second))
+        x = rest[position] + j * pitch + self.sign * turns1[tooth1]
+        place = mate * self.second.pitch + self.sign * turns2[tooth2]
         shape1 = tooth1 if len(self.first.teeth) > 1 else np.zeros_like(j)
         shape2 = tooth2 if len(self.second.teeth) > 1 else np.zeros_like(j)
         near = (x >= self.window[0]) & (x <= self.window[1])
@@ -114,7 +108,8 @@ class OutlinePair:
         position = tooth_pairs.position[found.tooth_pair]
         best = np.full(count, -np.inf)
         np.maximum.at(best, position, found.angle)
-        sharing = self._sharing(found, best[position] - within, tooth_pairs, count)
+        touching = np.unique(found.tooth_pair[found.angle >= best[position] - within])
+        sharing = np.bincount(tooth_pairs.position[touching], minlength=count)
         kind = self.kinds(found)
         # order of ties: later tooth pair, then flank before corner, then maximum angle
         ties = np.flatnonzero(found.angle >= best[position] - _TIE)
@@ -138,17 +133,6 @@ class OutlinePair:
             kind += (1 + at) * ((u == -1) & table.corners[0][piece] | (u == 1) & table.corners[1][piece])
         return kind
 
-    def _sharing(self, found: FirstTouches, minimum: Floats, tooth_pairs: CandidatePairs, count: int) -> Indices:
-        """Return, at each driver position, the number of tooth pairs that touch at the driven angle `minimum` or
-        beyond.
-        """
-        touching = np.unique(found.tooth_pair[found.angle >= minimum])
-        return np.bincount(tooth_pairs.position[touching], minlength=count)
-
-
-def _deviations(turns: tuple[float, ...], tooth: Indices) -> Floats | float:
-    return np.array(turns)[tooth] if turns else 0.0
-
 
 def _no_contact(count: int) -> tuple[Any, ...]:
     angle, speed, radius1, radius2 = np.full((4, count), np.nan)
@@ -158,26 +142,17 @@ def _no_contact(count: int) -> tuple[Any, ...]:
 
 
 def _check_pair(first: GearOutline, second: GearOutline, distance: float) -> None:
-    """Raise an error for a spur wheel paired with a bevel wheel, for two ring gears, or for a centre distance out of
-    range.
-    """
+    """Raise an error for a spur and a bevel wheel, two ring gears, or a centre distance out of range."""
     if first.bevel != second.bevel or (first.ring and second.ring):
-        raise QuestionError(
-            Problem(
-                "these two wheels cannot mesh",
-                "one is a spur wheel and the other a bevel wheel, or both are rings",
-                "give two spur wheels, two bevel wheels, or a wheel and a ring",
-            )
-        )
-    limit = pi if first.bevel else np.inf
-    if not 0 < distance < limit:
-        raise RangeError(
-            Problem(
-                f"the {'shaft angle' if first.bevel else 'centre distance'} {distance:.6g} is out of range",
-                f"it must be above 0 and {'below pi rad' if first.bevel else 'finite'}",
-                f"give the {'shaft angle in rad' if first.bevel else 'distance between the axles'}",
-            )
-        )
+        why = "one is a spur wheel and the other a bevel wheel, or both are rings"
+        fix = "give two spur wheels, two bevel wheels, or a wheel and a ring"
+        raise QuestionError(Problem("these two wheels cannot mesh", why, fix))
+    if not 0 < distance < (pi if first.bevel else np.inf):
+        what, limit, wanted = "centre distance", "finite", "distance between the axles"
+        if first.bevel:
+            what, limit, wanted = "shaft angle", "below pi rad", "shaft angle in rad"
+        why = f"it must be above 0 and {limit}"
+        raise RangeError(Problem(f"the {what} {distance:.6g} is out of range", why, f"give the {wanted}"))
 
 
 # ---------------------------------------------------------------------------------------------- contact at given angles
@@ -196,17 +171,13 @@ class FlankContact(Shown):
     angle: Floats
     """Angle of the driven wheel at which the flanks are in contact [rad]; NaN where no tooth is within reach."""
     speed: Floats
-    """Speed ratio: derivative of the driven angle with respect to the driver angle; NaN where the teeth do
-    not touch.
-    """
+    """Speed ratio: derivative of the driven angle by the driver angle; NaN where the teeth do not touch."""
     pair: Indices
     """Number of the driver's tooth that is in contact; 0 where the teeth do not touch. Teeth are counted forward from
     tooth 0, and the count continues beyond z after a revolution.
     """
     kind: Indices
-    """Kind of contact (between two flanks, or at a corner), as an index into `KINDS`; -1 where the teeth do
-    not touch.
-    """
+    """Kind of contact, two flanks or a corner, as an index into `KINDS`; -1 where the teeth do not touch."""
     radius1: Floats
     """Distance of the contact from the driver's axle, in the unit of the outlines; for bevel wheels, polar angle [rad].
     """
@@ -349,11 +320,12 @@ def contact(
     """
     phi1 = np.asarray(phi1, dtype=float)
     if not np.isfinite(phi1).all():
-        raise RangeError(
-            Problem(
-                "an angle of the driver is not finite", "positions must be finite", "remove infinite and NaN angles"
-            )
+        what, why, fix = (
+            "an angle of the driver is not finite",
+            "positions must be finite",
+            "remove infinite and NaN angles",
         )
+        raise RangeError(Problem(what, why, fix))
     pair_contact = OutlinePair(first, second, distance, side)
     flat = pair_contact.at(phi1.ravel(), within)
     shapes = (each.reshape((*each.shape[:-1], *phi1.shape)) for each in flat)

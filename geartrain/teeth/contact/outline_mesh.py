@@ -1,6 +1,4 @@
-"""Mesh of a gear pair whose tooth form defines only the outlines of both wheels. The motion is computed from the
-contact of the outlines.
-"""
+"""Mesh of a gear pair whose tooth form defines only the outlines of both wheels, from which the motion follows."""
 
 from __future__ import annotations
 
@@ -32,9 +30,7 @@ _HEADER = (
 
 @dataclass(frozen=True)
 class OutlineMesh(GearMesh):
-    """Spur pair with teeth of any shape. `teeth` contains the teeth to cut on the first and on the second wheel, with
-    lengths in modules.
-    """
+    """Spur pair with teeth of any shape. `teeth` are the teeth to cut on the first and second wheel [module]."""
 
     transmission: OutlineTransmission
     teeth: tuple[FixedTooth, FixedTooth]
@@ -55,23 +51,19 @@ class OutlineMesh(GearMesh):
         return PairSize(1.0, distance, distance / self.wheels.touching)
 
     def requirement(self, wheel: str, scale: float, tolerance: float) -> FixedTooth:
-        """Return the tooth of `wheel` exactly as the tooth form defines it, including circular arcs."""
+        """Return the tooth of `wheel` exactly as the tooth form defines it. Circular arcs are kept."""
         del scale, tolerance
         return self.teeth[self.gear.pair.index(wheel)]
 
     @property
     def displaced_contact(self) -> DisplacedContact:
-        """Contact of a single tooth pair of the outlines, and the lag of the driven wheel that displaced
-        flanks cause.
-        """
+        """Contact of one tooth pair of the outlines, and the lag of the driven wheel due to displaced flanks."""
         from geartrain.teeth.contact.displaced_outlines import displaced_outlines
 
         return displaced_outlines(self.transmission.gears, self.transmission.driver)
 
     def account(self) -> PairAccount:
-        """Return the report on the pair: speed ratio, transmission error, backlash, and the efficiency for either wheel
-        as the driver.
-        """
+        """Return the report on the pair: speed ratio, transmission error, backlash and efficiencies."""
         from geartrain.teeth.pair_results import AccountTable, PairAccount, PairFigures, motion_figures
 
         runs = bool(self.verdict)

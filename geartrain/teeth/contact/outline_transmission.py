@@ -44,9 +44,7 @@ class OutlineGears:
     distance: float
     """Centre distance of the wheels [module]."""
     half_teeth: float
-    """Sum of the half-thicknesses of a tooth of each wheel on the pitch circles [module]. It determines the position at
-    which the driven angle is 0.
-    """
+    """Sum of half the tooth thicknesses of both wheels [module], which sets the position of driven angle 0."""
     backlash: float
     """Designed backlash on the pitch circles [module]."""
     faults: tuple[ToothFault, ...] = ()
@@ -69,13 +67,9 @@ class OutlineTransmission(ToothTransmission):
     def __init__(self, gears: OutlineGears, friction: float = 0.0, driver: int = 1, direction: int = 1) -> None:
         self.gears, self.distance = gears, gears.distance
         self.friction, self.driver, self.direction = check_friction(friction), driver, direction
-        driving, driven = self._wheels
+        driving, driven = gears.of(driver)
         self.ratio, self.period = Fraction(driving.z, driven.z), 2 * pi / driving.z
         self._offset, self._backlash = 2 * gears.half_teeth / driven.z, 2 * gears.backlash / driven.z
-
-    @property
-    def _wheels(self) -> tuple[GearOutline, GearOutline]:
-        return self.gears.of(self.driver)
 
     @property
     def table(self) -> PiecewiseTransmission:
@@ -87,16 +81,20 @@ class OutlineTransmission(ToothTransmission):
 
     @cached_property
     def verdict(self) -> PairVerdict:
-        """Verdict on whether the pair can run, which depends on faults of its teeth, backlash, and gaps in contact at
-        this centre distance.
-        """
+        """Verdict on whether the pair can run, from its tooth faults, backlash and gaps in contact."""
         backlashes = _backlashes(self.gears, self.driver)
         backlash = float(np.nanmin(backlashes, initial=inf))
+        found, at = list(self.gears.faults), f"at a centre distance of {self.distance:.6g} modules"
         # rad: without backlash the teeth touch on both sides up to rounding error
-        found = self.gears.faults if backlash >= -1e-12 else (*self.gears.faults, _jam(self.distance, backlash))
+        if backlash < -1e-12:
+            why = f"{at} the teeth overlap by {-backlash:.4g} rad of the driven wheel"
+            fix = "increase the centre distance (in a ring, reduce it), or thin the teeth with `backlash`"
+            found.append(ToothFault("jam", 0, nan, "the teeth jam", why, fix))
         if not np.isfinite(backlashes).all():
-            found = (*found, _apart(self.distance, float(np.mean(~np.isfinite(backlashes)))))
-        return verdict_of_faults(found, backlash)
+            why = f"{at} no teeth touch during {np.mean(~np.isfinite(backlashes)):.1%} of a pitch"
+            fix = "reduce the centre distance (in a ring, increase it), or use longer arcs"
+            found.append(ToothFault("contact ratio", 0, nan, "the teeth do not reach each other", why, fix))
+        return verdict_of_faults(tuple(found), backlash)
 
     # ---------------------------------------------------------------------------------------------------- kinematics
 
@@ -104,16 +102,12 @@ class OutlineTransmission(ToothTransmission):
         return self.direction * np.asarray(S, dtype=float)
 
     def _in_direction(self, error: Floats | float) -> Floats:
-        """Convert transmission errors of the front flanks to the direction of motion. For reversed motion, errors are
-        mirrored.
-        """
+        """Convert transmission errors [rad], computed for the front flanks, to the actual direction of motion."""
         ahead = np.asarray(error) - self._offset
         return ahead if self.direction > 0 else self._backlash - ahead
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the transmission error [rad of the driven wheel] at driver angles S [rad]; NaN where the teeth do not
-        touch.
-        """
+        """Return the transmission error [rad of the driven wheel] at driver angles S [rad]; NaN without contact."""
         return self._in_direction(self.table.error(self._forward(S)))
 
     def speed(self, S: ArrayLike) -> Floats:
@@ -121,15 +115,11 @@ class OutlineTransmission(ToothTransmission):
         return self.table.speed(self._forward(S))
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...]:
-        """Return the upward steps of the speed ratio at which the next tooth takes over. The steps are the same in
-        reversed motion.
-        """
+        """Return the upward steps of the speed ratio, at which the next tooth takes over."""
         return self.table.speed_leaps()
 
     def steepest_fall(self) -> float:
-        """Return the maximum rate at which the speed ratio decreases with the driver angle [1/rad]. The rate is the
-        same in reversed motion.
-        """
+        """Return the maximum rate at which the speed ratio decreases with the driver angle [1/rad]."""
         return self.table.steepest_fall()
 
     def kinks(self) -> list[float]:
@@ -167,7 +157,7 @@ class OutlineTransmission(ToothTransmission):
         forward = self._forward(S)
         cosine, into, out = _friction_terms(self.gears, self.driver, forward)
         # the instantaneous pitch point divides the distance by speeds, the nominal pitch point by tooth numbers
-        first, second = self._wheels
+        first, second = self.gears.of(self.driver)
         speed, mean = self.table.speed(forward), float(self.ratio)
         same = -1 if first.ring or second.ring else 1
         share = np.abs(speed / (speed + same) * (mean + same) / mean)
@@ -177,27 +167,9 @@ class OutlineTransmission(ToothTransmission):
 
     @cached_property
     def locking_friction(self) -> float:
-        """Minimum friction coefficient at which a contact locks, evaluated at the quadrature nodes; infinite if no
-        contact can lock.
-        """
+        """Minimum friction coefficient at which a contact locks at a quadrature node; infinite if none locks."""
         steepest = float(np.nanmax(-self.rubbing(self.graded_nodes(self.speed)[0]).out))
         return 1 / steepest if steepest > _FLAT else inf
-
-
-def _friction_terms_at(x: Floats, y: Floats, R1: Floats, R2: Floats) -> tuple[Floats, Floats, Floats]:
-    """Return three quantities for a contact at (x, y): the cosine of the pressure angle, and the terms of the input
-    power and of the output power per unit friction coefficient.
-
-    The coordinates x and y are relative to the instantaneous pitch point. R1 and R2 are the distances of this point
-    from the axles.
-    """
-    d = np.hypot(x, y)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        way = np.where(x < 0, -1.0, 1.0)
-        # at the pitch point itself (0/0) the flanks do not slide, and any normal is valid
-        sine, cosine = np.where(d > 0, way * y / d, 0.0), np.where(d > 0, np.abs(x) / d, 1.0)
-        rub = way * np.sign(1 / R1 + 1 / R2)  # a driving ring is slower than its pinion, so sliding is reversed
-        return cosine, rub * (sine + way * d / R1), rub * (sine - way * d / R2)
 
 
 def _friction_terms(gears: OutlineGears, driver: int, forward: Floats) -> tuple[Floats, Floats, Floats]:
@@ -218,7 +190,14 @@ def _friction_terms(gears: OutlineGears, driver: int, forward: Floats) -> tuple[
     off = along - R1
     # closer to the pitch point the root above is rounding error and does not determine a normal
     apart = np.hypot(side, off) >= _NEAR_PITCH_POINT * gears.distance
-    return _friction_terms_at(np.where(apart, np.where(ahead, side, -side), 0.0), np.where(apart, off, 0.0), R1, a - R1)
+    # position of the contact relative to the instantaneous pitch point, at the distances R1 and R2 from the axles
+    x, y, R2 = np.where(apart, np.where(ahead, side, -side), 0.0), np.where(apart, off, 0.0), a - R1
+    d, way = np.hypot(x, y), np.where(x < 0, -1.0, 1.0)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        # at the pitch point itself (0/0) the flanks do not slide, and any normal is valid
+        sine, cosine = np.where(d > 0, way * y / d, 0.0), np.where(d > 0, np.abs(x) / d, 1.0)
+        rub = way * np.sign(1 / R1 + 1 / R2)  # a driving ring is slower than its pinion, so sliding is reversed
+        return cosine, rub * (sine + way * d / R1), rub * (sine - way * d / R2)
 
 
 # The contact of two outlines is expensive and does not depend on friction or direction, so it is cached.
@@ -231,31 +210,7 @@ def _tabulated(gears: OutlineGears, driver: int) -> PiecewiseTransmission:
 
 @lru_cache(maxsize=64)
 def _backlashes(gears: OutlineGears, driver: int) -> Floats:
-    """Return the backlash [rad of the driven wheel] at equally spaced driver angles over one period; NaN without
-    contact.
-    """
+    """Return the backlash [rad of the driven wheel] at equally spaced driver angles; NaN without contact."""
     first, second = gears.of(driver)
     S = np.linspace(0, 2 * pi / first.z, _SAMPLES, endpoint=False)
     return solve(first, second, gears.distance, S).backlash
-
-
-def _apart(distance: float, share: float) -> ToothFault:
-    return ToothFault(
-        "contact ratio",
-        0,
-        nan,
-        "the teeth do not reach each other",
-        f"at a centre distance of {distance:.6g} modules no teeth touch during {share:.1%} of a pitch",
-        "reduce the centre distance (in a ring, increase it), or use longer arcs",
-    )
-
-
-def _jam(distance: float, backlash: float) -> ToothFault:
-    return ToothFault(
-        "jam",
-        0,
-        nan,
-        "the teeth jam",
-        f"at a centre distance of {distance:.6g} modules the teeth overlap by {-backlash:.4g} rad of the driven wheel",
-        "increase the centre distance (in a ring, reduce it), or thin the teeth with `backlash`",
-    )

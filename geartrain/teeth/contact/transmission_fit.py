@@ -23,7 +23,7 @@ from geartrain.teeth.transmission import SpeedLeap
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-    from geartrain.numerics.arrays import Bools, Floats, Indices
+    from geartrain.numerics.arrays import Floats, Indices
     from geartrain.teeth.contact.gear_outline import GearOutline
 
 _JUMP = 1e-6  # fraction of the ratio: smaller steps at a kink are rounding error
@@ -46,9 +46,7 @@ _MOST = 100_000  # maximum number of stretches per driver pitch
 
 @dataclass(frozen=True)
 class PiecewiseTransmission:
-    """Driven angle as a periodic function of the driver angle phi1: ratio phi1 + error [rad], where the error is a
-    piecewise polynomial.
-    """
+    """Driven angle [rad] as a function of the driver angle phi1: mean motion plus a periodic piecewise polynomial."""
 
     ratio: Fraction
     """Mean speed ratio: absolute value of the driven speed divided by the driver speed."""
@@ -63,9 +61,7 @@ class PiecewiseTransmission:
     pair: Indices
     """Number of the driver's tooth in contact in each interval, shape (n,)."""
     kind: Indices
-    """Kind of contact in each interval, shape (n,), as an index into `outline_contact.KINDS`; -1 if no tooth is in
-    range.
-    """
+    """Kind of contact in each interval, shape (n,), as an index into `outline_contact.KINDS`; -1 for none."""
     kinks: Floats
     """Driver angles at which the contact changes to another tooth or curve [rad]."""
     uncertainty: float
@@ -78,15 +74,11 @@ class PiecewiseTransmission:
     """
 
     def error(self, phi1: ArrayLike) -> Floats:
-        """Return the transmission error [rad of the driven wheel] at driver angles phi1 [rad]; NaN where the teeth do
-        not touch.
-        """
+        """Return the transmission error [rad of the driven wheel] at driver angles phi1 [rad]; NaN without contact."""
         return self.errors(phi1)
 
     def speed(self, phi1: ArrayLike) -> Floats:
-        """Return the speed ratio, the derivative of the driven angle with respect to phi1, at driver angles
-        phi1 [rad].
-        """
+        """Return the speed ratio, the derivative of the driven angle, at driver angles phi1 [rad]."""
         return self.speeds(phi1)
 
     def angle(self, phi1: ArrayLike) -> Floats:
@@ -94,9 +86,7 @@ class PiecewiseTransmission:
         return self.error(phi1) + float(self.ratio) * np.asarray(phi1, dtype=float)
 
     def extremes(self) -> tuple[float, float]:
-        """Return the minimum and the maximum transmission error [rad], which occur at kinks or where the slope of the
-        error is 0.
-        """
+        """Return the minimum and the maximum transmission error [rad], at kinks or where its slope is 0."""
         return self.errors.extremes()
 
     def speed_range(self) -> tuple[float, float]:
@@ -113,15 +103,11 @@ class PiecewiseTransmission:
         return tuple(SpeedLeap(*each) for each in zip(before[leaps].tolist(), after[leaps].tolist(), strict=True))
 
     def steepest_fall(self) -> float:
-        """Return the maximum rate at which the speed ratio decreases with the driver angle [1/rad] within the
-        intervals; 0 if the speed ratio never decreases.
-        """
+        """Return the maximum decrease of the speed ratio per driver angle [1/rad]; 0 if it never decreases."""
         return max(0.0, -self.speeds.extremes(1)[0])
 
     def moments(self) -> tuple[float, float]:
-        """Return the mean of the transmission error over a period and its rms deviation from the mean [rad]; NaN if
-        contact is interrupted.
-        """
+        """Return the mean and the rms deviation from it of the transmission error [rad]; NaN if contact breaks."""
         return self.errors.moments()
 
 
@@ -129,8 +115,8 @@ class PiecewiseTransmission:
 
 
 class _Stretches(NamedTuple):
-    """Intervals of the driver angle with fitted polynomials: ends (2, n), coefficients (COUNT, n), tooth and kind of
-    contact, and maximum differences between fit and function.
+    """Intervals of the driver angle, each with a polynomial: ends (2, n), coefficients (COUNT, n), tooth and kind of
+    contact, and maximum difference between the polynomial and the driven angle.
     """
 
     ends: Floats
@@ -220,7 +206,9 @@ def tabulate(
 
 
 class _Fitter:
-    """Adaptive polynomial fit. Intervals are divided at their kinks, or bisected, until the fit is accurate."""
+    """Adaptive fit of polynomials to the driven angle. Intervals are divided where the contact changes to another tooth
+    or curve, or bisected, until the fit is accurate.
+    """
 
     def __init__(self, pair_contact: OutlinePair, tolerance: float) -> None:
         self.pair_contact, self.tolerance = pair_contact, tolerance
@@ -229,36 +217,34 @@ class _Fitter:
         self.period = pair_contact.cycle * self.pitch
 
     def fit(self) -> tuple[_Stretches, Floats, Floats]:
-        """Return all intervals in ascending order, their ends, and those ends that are kinks."""
+        """Return all intervals in ascending order, their ends, and those ends at which the contact changes."""
         count = _PARTS * self.pair_contact.cycle
         edges = (np.arange(count + 1) + _OFFSET) * (self.period / count)
         pending, before = np.stack([edges[:-1], edges[1:]]), np.full(count, np.inf)
         done, kinks = [], [np.empty(0)]
         while pending.shape[1]:
             stretches, labels = self._fitted(pending)
-            good = self._accepted(stretches, before)
+            thin = np.diff(stretches.ends, axis=0)[0] < _THIN * self.pitch
+            # bisection of a smooth stretch reduces the error by far more than 4; less at this size is rounding error
+            stuck = (stretches.off > before / 4) & (before < 1e-10)
+            good = (_SAFETY * stretches.off <= self.tolerance) | thin | stuck
             done.append(some(stretches, good))
             cuts = self._kinks(pending[:, ~good], labels[:, ~good])
             # a stretch with a kink cannot be fitted by one polynomial, whatever its length
             kinks += cuts
             pending, before = _divided(pending[:, ~good], cuts, stretches.off[~good])
             if sum(each.ends.shape[1] for each in done) + pending.shape[1] > _MOST * self.pair_contact.cycle:
-                raise _too_many_stretches(self.tolerance)
+                what = (
+                    f"the transmission function of these outlines cannot be tabulated within {self.tolerance:.3g} rad"
+                )
+                why = "the function has too many kinks for a piecewise polynomial fit"
+                fix = "pass a larger tolerance, or describe measured teeth with fewer points"
+                raise RangeError(Problem(what, why, fix))
         return self._ordered(done, np.concatenate(kinks))
 
-    def _accepted(self, stretches: _Stretches, before: Floats) -> Bools:
-        """Return a mask of the intervals that are within tolerance, too narrow to be divided, or limited by rounding
-        errors.
-        """
-        thin = np.diff(stretches.ends, axis=0)[0] < _THIN * self.pitch
-        # bisection of a smooth stretch reduces the error by far more than 4; less at this size is rounding error
-        stuck = (stretches.off > before / 4) & (before < 1e-10)
-        good: Bools = (_SAFETY * stretches.off <= self.tolerance) | thin | stuck
-        return good
-
     def _fitted(self, ends: Floats) -> tuple[_Stretches, Indices]:
-        """Return the polynomials fitted in the intervals, and labels of the contact at the nodes of each interval,
-        shape (4, n, nodes).
+        """Return the fitted polynomials of the intervals, and the labels of the contacts at their nodes, shape (4, n,
+        nodes). Contacts of the same tooth and the same curves have the same label.
         """
         half, middle = np.diff(ends, axis=0)[0] / 2, ends.mean(axis=0)
         phi1 = middle[:, None] + half[:, None] * _ALL
@@ -276,17 +262,13 @@ class _Fitter:
         return _Stretches(ends, fits[0], fits[1], pair, kind, off[0], off[1]), labels
 
     def _evaluated(self, phi1: Floats) -> tuple[Floats, Floats, Indices]:
-        """Return the driven angle [rad], the speed ratio, and labels that identify the contact, at driver angles phi1
-        [rad].
-        """
+        """Return driven angle [rad], speed ratio and label of the contact at driver angles phi1 [rad]."""
         angle, speed, pair, kind, _, _, _, curves = self.pair_contact.at(phi1.ravel(), 0.0)
         labels = np.stack([pair, kind, *curves]).reshape(4, *phi1.shape)
         return angle.reshape(phi1.shape), speed.reshape(phi1.shape), labels
 
     def _kinks(self, ends: Floats, labels: Indices) -> list[Floats]:
-        """Return, for each interval, the driver angles at which the contact changes, exact except for
-        rounding errors.
-        """
+        """Return, for each interval, the driver angles [rad] at which the contact changes to another tooth or curve."""
         changed = (labels[:, :, 1:] != labels[:, :, :-1]).any(axis=0)
         stretch, at = np.nonzero(changed)
         half, middle = np.diff(ends, axis=0)[0] / 2, ends.mean(axis=0)
@@ -296,9 +278,7 @@ class _Fitter:
         return [np.unique(found[stretch == one]) for one in range(ends.shape[1])]
 
     def _located(self, low: Floats, high: Floats, left: Indices) -> Floats:
-        """Return the smallest angle between `low` and `high` at which the labels differ from `left`, found by
-        subdivision.
-        """
+        """Return the smallest angle [rad] from `low` to `high` at which the contact's label differs from `left`."""
         share = np.arange(1, _CUTS) / _CUTS
         for _ in range(20):  # 17^20 exceeds 2^53 by far, so the loop ends by the break below
             inner = low[:, None] + (high - low)[:, None] * share
@@ -315,8 +295,8 @@ class _Fitter:
         return low + (high - low) / 2
 
     def _ordered(self, done: list[_Stretches], kinks: Floats) -> tuple[_Stretches, Floats, Floats]:
-        """Return the intervals sorted by driver angle, their ends, and the ends that are kinks. Kinks are moved to the
-        intersections of adjacent polynomials.
+        """Return the intervals sorted by driver angle, their ends, and those ends that are in `kinks`. These ends are
+        moved to the intersections of the adjacent polynomials.
         """
         everything = joined(done)
         everything = some(everything, np.argsort(everything.ends[0]))
@@ -336,8 +316,9 @@ class _Fitter:
 
 
 def _divided(ends: Floats, cuts: list[Floats], off: Floats) -> tuple[Floats, Floats]:
-    """Return the intervals that result from dividing each interval at its kinks, or from bisecting it if it has none,
-    and the previous fit error of each new interval.
+    """Return the intervals that result from dividing each interval at the angles in `cuts`, or from bisecting it if
+    there are none. With each new interval, return the fit error `off` of the bisected one; infinite if it was divided
+    at `cuts`.
     """
     found, before = [], []
     for (low, high), inner, last in zip(ends.T, cuts, off, strict=True):
@@ -347,13 +328,3 @@ def _divided(ends: Floats, cuts: list[Floats], off: Floats) -> tuple[Floats, Flo
         found += parts
         before += [np.inf if len(within) else last] * len(parts)
     return np.array(found).reshape(-1, 2).T, np.array(before)
-
-
-def _too_many_stretches(tolerance: float) -> RangeError:
-    return RangeError(
-        Problem(
-            f"the transmission function of these outlines cannot be tabulated within {tolerance:.3g} rad",
-            "the function has too many kinks for a piecewise polynomial fit",
-            "pass a larger tolerance, or describe measured teeth with fewer points",
-        )
-    )

@@ -101,9 +101,7 @@ class Belt(Coupling):
 
     @property
     def row_names(self) -> tuple[str, ...]:
-        """Name of the belt if it has two pulleys. With more pulleys, there is one name `first~other` for each pulley
-        after the first.
-        """
+        """Name of the belt if it has two pulleys; otherwise one name `first~other` for each further pulley."""
         first, *others = self.ends
         return (self.name,) if len(others) == 1 else tuple(f"{first}~{other}" for other in others)
 
@@ -130,9 +128,7 @@ class Belt(Coupling):
         return iter(() if self.by_teeth else self.around.values())
 
     def sense(self, pulley: str) -> int:
-        """Return 1 if a pulley turns in the same sense as the first pulley, relative to the carrier, or -1 if it turns
-        in the opposite sense.
-        """
+        """Return 1 if a pulley turns in the same sense as the first one, relative to the carrier, otherwise -1."""
         return 1 if (pulley in self.reversed) == (self.ends[0] in self.reversed) else -1
 
     def rows(self, wheels: Mapping[str, tuple[str, Any]]) -> Sequence[CouplingRow]:

@@ -68,8 +68,8 @@ class CrankSliderTransmission(LosslessTransmission):
         self.r, self.l = radius, rod
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the travel of the slide from its outer dead centre at crank angles S, where 2 pi rad correspond to 1
-        mm. It is 0 or negative.
+        """Return the travel of the slide from its outer dead centre at crank angles S [rad]. It is 0 or less, in rad,
+        where 2 pi rad represent 1 mm.
         """
         import numpy as np
 
@@ -77,9 +77,7 @@ class CrankSliderTransmission(LosslessTransmission):
         return np.asarray(self.period * (self.r * (np.cos(S) - 1) + self._along(S) - self.l))
 
     def speed(self, S: ArrayLike) -> Floats:
-        """Return the speed ratio at crank angles S [rad]: the instantaneous speed of the slide divided by the speed of
-        the crank [mm/turn].
-        """
+        """Return the speed ratio at crank angles S [rad]: speed of the slide over speed of the crank [mm/turn]."""
         import numpy as np
 
         S = np.asarray(S, dtype=float)
@@ -108,13 +106,11 @@ class CrankSliderTransmission(LosslessTransmission):
         return -most, most
 
     def error_range(self) -> tuple[float, float]:
-        """Return the minimum and the maximum travel of the slide, which occur at the dead centres. They are in rad,
-        where 2 pi rad correspond to 1 mm.
+        """Return the minimum and the maximum travel of the slide, which occur at the dead centres, in rad, where 2 pi
+        rad represent 1 mm.
         """
         return -2 * self.period * self.r, 0.0
 
     def steepest_fall(self) -> float:
-        """Return the maximum rate at which the speed ratio decreases with the crank angle [1/rad]. It occurs at the
-        outer dead centre.
-        """
+        """Return the maximum decrease of the speed ratio per crank angle [1/rad], at the outer dead centre."""
         return self.period * self.r * (1 + self.r / self.l)

@@ -84,9 +84,7 @@ class UniversalJoint(_VaryingPair):
     )
 
     def on_axes(self, angle: float) -> Self:
-        """Return a copy of the joint with the given angle between its axes [rad], or the joint itself if its angle is
-        declared.
-        """
+        """Return a copy with the angle between its axes [rad], or the joint itself if its angle is declared."""
         if self.angle is not None:
             return self
         shown = f"{degrees(angle):.6g} deg"
@@ -122,9 +120,7 @@ class _LobedPair(_VaryingPair):
 
     @property
     def mean(self) -> Fraction:
-        """Mean ratio: the number of lobes of the driver divided by the number of lobes of the driven wheel, with a
-        negative sign.
-        """
+        """Mean ratio: minus the number of lobes of the driver divided by the number of lobes of the driven wheel."""
         return -Fraction(*self.lobes)
 
     @property
@@ -243,9 +239,7 @@ class PitchCurvePair(_LobedPair):
 
     @property
     def transmission(self) -> TableTransmission:
-        """Transmission function, computed by quadrature of the ratio r/(C - r), where r is the radius of the driver and
-        C the axis distance.
-        """
+        """Transmission function by quadrature of r/(C - r), with the driver's radius r and the axis distance C."""
         from geartrain.teeth.couplings.pitch_curves import mate_deviation
         from geartrain.teeth.couplings.table_transmission import TableTransmission
 
@@ -266,8 +260,8 @@ Harmonic = Annotated[tuple[Figure, Angle], BeforeValidator(_amplitude)]
 
 
 class TabledLaw(_VaryingPair):
-    """Coupling with the driven angle q = mean S + unit d(S), where S is the angle of the driver, and the function d is
-    given by harmonics or by a table.
+    """Coupling with the driven angle q = mean S + unit d(S), where S is the angle of the driver, the mean ratio and the
+    unit are declared, and the function d is given by harmonics or by a table.
 
     A mean ratio of 0 describes a cam with an oscillating arm.
     """
@@ -326,9 +320,7 @@ class TabledLaw(_VaryingPair):
 
     @property
     def transmission(self) -> TableTransmission:
-        """Transmission function. If the mean ratio is negative, angles of the driven side are positive in its mean
-        sense of rotation.
-        """
+        """Transmission function; angles of the driven side are positive in its mean sense of rotation."""
         from geartrain.numerics.periodic_function import HarmonicSeries, PeriodicTable
         from geartrain.teeth.couplings.table_transmission import TableTransmission
 

@@ -40,8 +40,17 @@ class PinTransmission(SeriesTransmission):
     """Name of the driving side, "pin" or "slot"."""
 
     def __init__(self, pin_radius: float, offset: float, friction: float = 0.0) -> None:
-        self.r, self.e, self.friction = pin_radius, offset, friction
-        _check(pin_radius, offset, friction)
+        self.r, self.e, self.friction = pin_radius, offset, check_friction(friction)
+        if not (_MINIMUM < pin_radius < 1 / _MINIMUM and (offset == 0 or _MINIMUM < offset < 1 / _MINIMUM)):
+            what = f"a pin radius of {pin_radius:g} and an offset of {offset:g} are out of range"
+            why = f"both must be between {_MINIMUM:g} and {1 / _MINIMUM:g}, except that the offset may be 0"
+            fix = "give an offset of 0 or more and a pin radius above 0, both within these limits"
+            raise RangeError(Problem(what, why, fix))
+        if pin_radius == offset:
+            what = f"a pin radius of {pin_radius:g} equals the offset: the pin would pass through the slot's axis"
+            ratios = "the mean ratio is 1 for a larger radius and 0 for a smaller one"
+            why = f"the slot's direction is undetermined there; {ratios}"
+            raise RangeError(Problem(what, why, "give a larger or a smaller pin radius"))
         less, more = min(pin_radius, offset), max(pin_radius, offset)
         ratio, factor = (Fraction(1), 1.0) if pin_radius > offset else (Fraction(0), -1.0)
         super().__init__(ratio, factor, 1, less / more, (more - less) / more)
@@ -52,29 +61,6 @@ class PinTransmission(SeriesTransmission):
         the angle between pin radius and slot, r is the pin radius, and e is the axis offset.
         """
         return self.e / sqrt((self.r - self.e) * (self.r + self.e))
-
-
-def _check(pin_radius: float, offset: float, friction: float) -> None:
-    """Raise `RangeError` if a value is out of range, or if the pin would pass through the slot's axis."""
-    if not (_MINIMUM < pin_radius < 1 / _MINIMUM and (offset == 0 or _MINIMUM < offset < 1 / _MINIMUM)):
-        raise RangeError(
-            Problem(
-                f"a pin radius of {pin_radius:g} and an offset of {offset:g} are out of range",
-                f"both must be between {_MINIMUM:g} and {1 / _MINIMUM:g}, except that the offset may be 0",
-                "give an offset of 0 or more and a pin radius above 0, both within these limits",
-            )
-        )
-    # with equal lengths the pin meets the axis of the slot
-    if pin_radius == offset:
-        raise RangeError(
-            Problem(
-                f"a pin radius of {pin_radius:g} equals the offset: the pin would pass through the slot's axis",
-                "the slot's direction is undetermined there; the mean ratio is 1 for a larger radius and 0 for a "
-                "smaller one",
-                "give a larger or a smaller pin radius",
-            )
-        )
-    check_friction(friction)
 
 
 class PinToSlotTransmission(PinTransmission):
@@ -118,10 +104,8 @@ class PinToSlotTransmission(PinTransmission):
     driver = "pin"
 
     def _reach(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Return two quantities at driver angles S: the distance r - e cos S, and the square of the distance of the pin
-        from the slot's axis.
-
-        The pin radius is r and the axis offset is e. Both quantities are computed as sums without cancellation.
+        """Return r - e cos S, and the square of the pin's distance from the slot's axis, with pin radius r and axis
+        offset e.
         """
         # half angles avoid the cancellation of both differences near r = e and S = 0
         half = np.sin(np.asarray(S, dtype=float) / 2)
@@ -187,14 +171,9 @@ class SlotToPinTransmission(PinTransmission):
     def __init__(self, pin_radius: float, offset: float, friction: float = 0.0) -> None:
         super().__init__(pin_radius, offset, friction)
         if pin_radius < offset:
-            raise RangeError(
-                Problem(
-                    f"an oscillating slot cannot drive a pin at radius {pin_radius:g} with an offset of {offset:g}",
-                    "its pin radius is below the offset, so the slot is at rest at its dead points while the pin moves",
-                    "let the pin drive",
-                    "driver",
-                )
-            )
+            what = f"an oscillating slot cannot drive a pin at radius {pin_radius:g} with an offset of {offset:g}"
+            why = "its pin radius is below the offset, so the slot is at rest at its dead points while the pin moves"
+            raise RangeError(Problem(what, why, "let the pin drive", "driver"))
 
     def error(self, S: ArrayLike) -> Floats:
         """Return the transmission error [rad of the pin]: pin angle minus mean motion."""
@@ -202,17 +181,13 @@ class SlotToPinTransmission(PinTransmission):
         return np.asarray(-np.arctan2(across, along))
 
     def speed(self, S: ArrayLike) -> Floats:
-        """Return the speed ratio at driver angles S [rad]: 1 - e cos S/sqrt(r^2 - e^2 sin^2 S), with axis offset e and
-        pin radius r.
-        """
+        """Return the speed ratio 1 - e cos S/sqrt(r^2 - e^2 sin^2 S) for axis offset e, pin radius r, slot angle S."""
         _, along = self._sides(S)
         return np.asarray(1 - self.e * np.cos(np.asarray(S, dtype=float)) / along)
 
     def _sides(self, S: ArrayLike) -> tuple[Floats, Floats]:
-        """Return r sin d and r cos d at driver angles S [rad], where r is the pin radius and d is the angle between pin
-        radius and slot.
-
-        The angle follows from sin d = (e/r) sin S, where e is the axis offset.
+        """Return r sin d and r cos d at driver angles S [rad], where r is the pin radius and d the angle between pin
+        radius and slot: sin d = (e/r) sin S, with axis offset e.
         """
         S = np.asarray(S, dtype=float)
         # sqrt(r^2 - e^2 sin^2 S) as a sum, which does not cancel near r = e
@@ -224,9 +199,7 @@ class SlotToPinTransmission(PinTransmission):
         return 1 - self.e / self.r, 1 + self.e / self.r
 
     def steepest_fall(self) -> float:
-        """Return the maximum rate at which the speed ratio decreases [1/rad], which occurs at 90 deg from the line of
-        centres.
-        """
+        """Return the maximum rate at which the speed ratio decreases [1/rad], at 90 deg from the line of centres."""
         return self._maximum_tangent
 
     def efficiency(self, S: ArrayLike) -> Floats:
@@ -247,7 +220,5 @@ class SlotToPinTransmission(PinTransmission):
 
     @property
     def locking_friction(self) -> float:
-        """Minimum coefficient of friction at which the pin locks at some angle, sqrt(r^2 - e^2)/e, with pin radius r
-        and axis offset e.
-        """
+        """Minimum friction coefficient at which the pin locks, sqrt(r^2 - e^2)/e, with pin radius r, axis offset e."""
         return 1 / self._maximum_tangent if self.e else inf

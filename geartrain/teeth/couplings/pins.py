@@ -55,7 +55,7 @@ class PinCoupling(Coupling):
 
 
 class _PinInSlot(PinCoupling):
-    """Pin in a slot. In one turn of the pin, the slot turns `WINDING` times."""
+    """Pin in a slot. The class attribute `WINDING` is the number of turns of the slot in one turn of the pin."""
 
     WINDING: ClassVar[int] = 1
 
@@ -75,11 +75,9 @@ class _PinInSlot(PinCoupling):
         r, e = radius.base, offset.base
         # the slot would reverse its direction at that moment
         if r == e:
-            raise bad(
-                "pin",
-                f"pin_radius {radius.text} equals the offset: the pin would pass through the slot's axis",
-                "give different lengths: the mean ratio is 1 for a larger pin_radius and 0 for a smaller one",
-            )
+            what = f"pin_radius {radius.text} equals the offset: the pin would pass through the slot's axis"
+            fix = "give different lengths: the mean ratio is 1 for a larger pin_radius and 0 for a smaller one"
+            raise bad("pin", what, fix)
         if (r > e) != bool(self.WINDING):
             other = "pin_follower" if self.WINDING else "pin_and_slot"
             what = f"a {self.kind} with pin_radius {radius.text} and offset {offset.text} is a {other}"

@@ -52,8 +52,7 @@ class Ratio(Coupling):
         "exact number, or `{value, tolerance}`"
     )
     carrier: str | None = Field(
-        None,
-        description="Carrier of a coaxial pair, a link on the same axis; default the link that bears the axis",
+        None, description="Carrier of a coaxial pair, a link on the same axis; default the link that bears the axis"
     )
 
     @model_validator(mode="after")

@@ -50,9 +50,7 @@ class SeriesTransmission(LosslessTransmission):
         self.rest, self.phase, self.period = 1 - rho if rest is None else rest, phase, 2 * pi / order
 
     def mirrored(self) -> SeriesTransmission:
-        """Return the transmission function for a driver whose forward sense is reversed. Because epsilon is odd, only
-        the sign of the phase changes.
-        """
+        """Return the transmission function for a driver with the opposite forward sense: the phase changes sign."""
         if not self.phase:
             return self
         return SeriesTransmission(self.ratio, self.factor, self.order, self.rho, self.rest, -self.phase)
@@ -69,9 +67,7 @@ class SeriesTransmission(LosslessTransmission):
         return np.asarray(self.factor * np.arctan2(self.rho * np.sin(x), self.rest + 2 * self.rho * half))
 
     def speed(self, S: ArrayLike) -> Floats:
-        """Return the speed ratio m + A n (rho cos x - rho^2) / (1 - 2 rho cos x + rho^2) at driver angles S [rad],
-        where x = n (S + phase).
-        """
+        """Return the speed ratio m + A n (rho cos x - rho^2) / (1 - 2 rho cos x + rho^2), where x = n (S + phase)."""
         _, half = self._argument(S)
         # numerator and denominator as sums without cancellation
         share = self.rho * (self.rest - 2 * half) / (self.rest**2 + 4 * self.rho * half)
@@ -107,9 +103,7 @@ class SeriesTransmission(LosslessTransmission):
         return abs(self.factor) * atan2(self.rho, sqrt(self.rest * (1 + self.rho)))
 
     def error_range(self) -> tuple[float, float]:
-        """Return the minimum and the maximum deviation from uniform motion [rad], which are minus the amplitude and
-        plus the amplitude.
-        """
+        """Return the minimum and the maximum deviation from uniform motion [rad]: minus and plus the amplitude."""
         return -self.amplitude, self.amplitude
 
     def error_moments(self) -> tuple[float, float]:
@@ -129,9 +123,7 @@ class SeriesTransmission(LosslessTransmission):
 
 
 def _dilogarithm(x: float, rest: float) -> float:
-    """Return the dilogarithm Li2(x), the sum of x^k / k^2 over k = 1, 2, ..., for 0 <= x < 1. The argument `rest` is 1
-    - x.
-    """
+    """Return the dilogarithm Li2(x), the sum of x^k / k^2 over k = 1, 2, ..., for 0 <= x < 1, with `rest` = 1 - x."""
     if x > 0.5:
         # reflection formula of Euler
         return pi**2 / 6 - log(x) * log(rest) - _dilogarithm(rest, x)

@@ -48,7 +48,7 @@ class GenevaTransmission(TableTransmission):
         super().__init__(Fraction(pins, slots), deviation)
 
     def mirrored(self) -> GenevaTransmission:
-        """Return this transmission function itself, because its deviation is an odd function."""
+        """Return this function itself, because its deviation is an odd function of the driver angle."""
         return self
 
 
@@ -66,9 +66,7 @@ class _GenevaDeviation(PeriodicFunction):
         self.breakpoints, self.resolution = np.array(kinks), period / 32
 
     def derivative(self, x: ArrayLike, order: int = 1) -> Floats:
-        """Return the derivative of order `order` of the deviation, from 0 (the deviation itself) to 3, at driver angles
-        `x` [rad].
-        """
+        """Return the deviation (`order` 0) or its derivative of order 1 to 3 at driver angles `x` [rad]."""
         x = np.asarray(x, dtype=float)
         u = x - self.period * np.rint(x / self.period)
         # at rest the angle is the angle at the end of the step
@@ -112,7 +110,7 @@ class StepTransmission(TableTransmission):
         self.dwell = 1 - over * times * Fraction(sum(1 for each in moves if each), len(moves))
 
     def mirrored(self) -> StepTransmission:
-        """Return this transmission function itself, because an engagement begins at S = 0 in either sense of the
-        driver.
+        """Return this function itself. It also applies to a driver with the opposite forward sense, because an
+        engagement begins at S = 0 in either sense.
         """
         return self

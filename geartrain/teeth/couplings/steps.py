@@ -30,7 +30,7 @@ _MOST_MOVES = 10_000  # entries of a list of moves: a calendar of four years has
 
 
 def _moves(raw: object) -> object:
-    """Return a list of moves. A single number is converted to a list with one entry."""
+    """Return a list of moves. A single number becomes a list with one entry."""
     return raw if isinstance(raw, list | tuple) else (raw,)
 
 
@@ -55,9 +55,7 @@ class SteppingCoupling(Coupling):
 
     @property
     def mean(self) -> Fraction:
-        """Exact mean ratio: speed of the driven link divided by the speed of the driver. It is negative unless the
-        driven link is internal.
-        """
+        """Exact mean ratio: driven speed divided by driver speed; negative unless both turn in the same sense."""
         return self.turns if self.internal else -self.turns
 
     @property
@@ -73,9 +71,7 @@ class SteppingCoupling(Coupling):
 
 
 class Geneva(SteppingCoupling):
-    """Geneva drive, or Maltese cross. A pin enters a radial slot, turns the driven link by one slot, and leaves the
-    slot.
-    """
+    """Geneva drive, or Maltese cross: a pin enters a radial slot, turns the driven link by one slot, and leaves."""
 
     kind: Literal["geneva"] = Field(description="Geneva drive: 1/n turn for every pin that passes, then rest")
     slots: int = Field(ge=3, le=1000, description="Number of slots n of the driven link, 3 or more")
@@ -107,9 +103,7 @@ class Geneva(SteppingCoupling):
 
     @property
     def transmission(self) -> GenevaTransmission:
-        """Transmission function. Angles are measured from the middle of a step, where a pin is on the line
-        of centres.
-        """
+        """Transmission function, with angles from the middle of a step, where a pin is on the line of centres."""
         from geartrain.teeth.couplings.step_transmission import GenevaTransmission
 
         return GenevaTransmission(self.slots, self.pins, self.internal)
@@ -121,9 +115,7 @@ class Geneva(SteppingCoupling):
 
 
 class Step(SteppingCoupling):
-    """Finger and star, ratchet or mutilated wheel. Every engagement moves the driven link by a whole number
-    of teeth.
-    """
+    """Finger and star, ratchet or mutilated wheel: every engagement moves the driven link by whole teeth."""
 
     kind: Literal["step"] = Field(description="Finger and star, ratchet or mutilated wheel: whole teeth, then rest")
     teeth: int = Field(ge=1, le=10**12, description="Number of teeth of the driven link")
@@ -163,16 +155,12 @@ class Step(SteppingCoupling):
 
     @property
     def turns(self) -> Fraction:
-        """Revolutions of the driven link in one revolution of the driver: number of teeth moved, divided by the number
-        of teeth.
-        """
+        """Revolutions of the driven link per revolution of the driver: teeth moved divided by number of teeth."""
         return Fraction(self.times * sum(self.moves), len(self.moves) * self.teeth)
 
     @property
     def remark(self) -> str:
-        """Text that gives the number of instantaneous steps, or the fraction of the time during which the driven link
-        moves.
-        """
+        """Text with the number of instantaneous steps, or the fraction of the time in which the driven link moves."""
         if self.moving_angle:
             return super().remark
         steps = Fraction(self.times * sum(1 for each in self.moves if each), len(self.moves))

@@ -60,7 +60,7 @@ class DeviationTransmission(TransmissionFunction):
         self._scale = -1 / self._mean if inverse else float(way)
 
     def _own_angle(self, S: ArrayLike) -> Floats:
-        """Return the argument of the deviation function [rad], modulo its period, at driver angles S [rad]."""
+        """Return the arguments of the deviation function [rad], modulo its period, at driver angles S [rad]."""
         S = np.asarray(S, dtype=float)
         if not self.inverse:
             return np.asarray(self.way * S + self.phase)
@@ -93,7 +93,7 @@ class DeviationTransmission(TransmissionFunction):
         return self._scale * self.deviation(at) + self._lag, self._speed(self.deviation.derivative(at))
 
     def _speed(self, slope: ArrayLike) -> Floats:
-        """Return the speed ratio that corresponds to each slope (derivative) of the deviation function."""
+        """Return the speed ratios at which the deviation function has the derivatives `slope`."""
         own = self._mean + np.asarray(slope)
         return np.asarray(1 / own if self.inverse else own)
 
@@ -115,24 +115,18 @@ class DeviationTransmission(TransmissionFunction):
 
     @property
     def _breakpoints(self) -> Floats:
-        """Arguments of the deviation function [rad] at which the function or one of its derivatives
-        is discontinuous.
-        """
+        """Arguments of the deviation function [rad] at which it or one of its derivatives is discontinuous."""
         return self.deviation.breakpoints
 
     def kinks(self) -> list[float]:
-        """Return the driver angles [rad] at which the transmission function or one of its derivatives
-        is discontinuous.
-        """
+        """Return the driver angles [rad] at which the function or one of its derivatives is discontinuous."""
         at = self._breakpoints
         driver = self._mean * at + self.deviation(at) if self.inverse else self.way * (at - self.phase)
         found: list[float] = driver.tolist()
         return found
 
     def _jumps(self, order: int) -> Floats:
-        """Return the jumps at the breakpoints of the derivative of order `order` of the deviation. Jumps within
-        rounding error are replaced by 0.
-        """
+        """Return the jumps of the deviation's derivative of this order at its breakpoints; 0 for rounding errors."""
         before, after = self.deviation.sides(order)
         low, high = self.deviation.extremes(order)
         return np.where(np.abs(after - before) > _SLIGHT * (high - low), after - before, 0.0)
@@ -143,7 +137,7 @@ class DeviationTransmission(TransmissionFunction):
         return bool(self._jumps(0).any())
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...]:
-        """Return the upward steps of the speed ratio within one period, for motion in the direction of rotation."""
+        """Return the upward steps of the speed ratio within one period."""
         sides = [self._speed(each[self._jumps(1) != 0]) for each in self.deviation.sides(1)]
         pairs = zip(*(each.tolist() for each in sides[:: self.way * self.direction]), strict=True)
         return tuple(SpeedLeap(before, after) for before, after in pairs if after > before)

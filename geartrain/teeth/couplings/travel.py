@@ -24,9 +24,7 @@ Number = Annotated[int, whole_from(1, 10**6, "teeth or falls")]
 
 
 class TravelCoupling(Coupling):
-    """Coupling of a link that turns and a link that slides. It is the base class of racks, screws, drums and crank
-    sliders.
-    """
+    """Coupling of a link that turns and a link that slides: base class of racks, screws, drums and crank sliders."""
 
     ENDS = ("turns", "slides")
     SIDES = ("slides", "turns")
@@ -106,9 +104,7 @@ class Screw(TravelCoupling):
 
     @property
     def friction_angle(self) -> float:
-        """Friction angle of the inclined flanks [rad], arctan(f / cos(flank angle)), where f is the coefficient of
-        friction.
-        """
+        """Friction angle of the inclined flanks [rad]: arctan(f / cos(flank angle)), with friction coefficient f."""
         flank = 0.0 if self.flank_angle is None else self.flank_angle.si
         return 0.0 if self.friction is None else atan(float(self.friction.sliding.value) / cos(flank))
 
@@ -126,9 +122,7 @@ class Screw(TravelCoupling):
 
 
 class Drum(TravelCoupling):
-    """Line on a drum with its load on one or more falls. The travel is the circumference of the drum divided by the
-    number of falls.
-    """
+    """Line on a drum with its load on one or more falls. The travel is the drum's circumference over the falls."""
 
     kind: Literal["drum"] = Field(description="Line that a drum winds, with a load that slides")
     diameter: Annotated[MeasuredLength, above_zero("give a diameter such as 40 mm")] = Field(

@@ -1,6 +1,4 @@
-"""Closed curves of straight edges and circular arcs. As in DXF files, they are stored as vertices with the bulge of the
-edge that follows.
-"""
+"""Closed curves of straight edges and circular arcs, stored as vertices with bulges, as in DXF files."""
 
 from __future__ import annotations
 
@@ -32,9 +30,7 @@ class Contour(Shown):
     """
 
     points: Floats
-    """Vertices of the contour, shape (n, 2) [mm; modules before scaling]. An edge joins the last vertex to
-    the first.
-    """
+    """Vertices of the contour, shape (n, 2) [mm; modules before scaling]. The last one is joined to the first."""
     bulges: Floats
     """Bulge of the edge that starts at each vertex, shape (n,): tan(sweep / 4), where the sweep is the angle of the
     arc. The bulge is 0 for a straight edge and positive for an edge that turns left.
@@ -127,9 +123,7 @@ class Contour(Shown):
 
 
 def _arc(start: Floats, end: Floats, bulge: float, tolerance: float) -> Floats:
-    """Return the points of a polyline that approximates an arc within `tolerance`. The end point of the arc
-    is omitted.
-    """
+    """Return points of a polyline that is within `tolerance` of an arc. The end point of the arc is omitted."""
     radius, sweep = arc_radius(start, end, bulge), 4 * atan(bulge)
     # angle of the chord whose sagitta equals the tolerance
     step = max(2 * acos(max(1 - tolerance / radius, -1.0)), _MINIMUM_STEP)
@@ -143,13 +137,11 @@ def _arc(start: Floats, end: Floats, bulge: float, tolerance: float) -> Floats:
 def _segment_moments(start: Floats, end: Floats, bulge: float) -> tuple[float, float]:
     """Return the area, and the polar second moment of area about the origin, of the circular segment between an arc and
     its chord.
-
-    For the radius R and the sweep s, the area is R^2 (s - sin s)/2, and the second moment about the centre of the arc
-    is R^4 (s/4 - sin s (2 + cos s)/12). The first moment is 2/3 R^3 sin^3(s/2) along the bisector.
     """
     R, s = arc_radius(start, end, bulge), 4 * atan(bulge)
     centre = _arc_centre(start, end, bulge)
     area = R**2 * (s - sin(s)) / 2
+    # second moment about the centre of the arc, and first moment along the bisector
     own = R**4 * (s / 4 - sin(s) * (2 + cos(s)) / 12)
     x, y = (start - centre) / R
     bisector = np.array([x * cos(s / 2) - y * sin(s / 2), x * sin(s / 2) + y * cos(s / 2)])
@@ -168,7 +160,5 @@ def arc_radius(start: Floats, end: Floats, bulge: float) -> float:
 
 
 def bulge_about(start: complex, end: complex, centre: complex = 0j) -> float:
-    """Return the bulge of the shorter arc from `start` to `end` about `centre`. The points are complex numbers x
-    + iy.
-    """
+    """Return the bulge of the shorter arc from `start` to `end` about `centre`, all as complex numbers x + iy."""
     return tan(float(np.angle((end - centre) / (start - centre))) / 4)

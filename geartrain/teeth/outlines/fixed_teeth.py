@@ -24,9 +24,7 @@ if TYPE_CHECKING:
 ESCAPEMENT = "escapement"
 ESCAPE_WORDS = "of a dead-beat escapement, pointed, faces undercut by 6 degrees"
 UNDERCUT = radians(6.0)
-"""Angle [rad] of the leading face of an escape wheel tooth, measured backwards from the radius through its tip, as for
-a dead-beat anchor.
-"""
+"""Angle [rad] of an escape tooth's leading face backwards from the radius through its tip (dead-beat anchor)."""
 _DEPTH = 0.7  # fraction of a pitch: depth of a tooth
 _DEEPEST = 0.5  # fraction of the radius: maximum depth of a tooth
 _BASE = 0.45  # fraction of a pitch: thickness of a tooth at its root
@@ -44,9 +42,7 @@ where they are fully engaged, and must be out of the tooth spaces.
 WALL = 0.012
 """Wall thickness of the flexible wheel under its teeth, divided by its pitch diameter."""
 CUP = 0.25
-"""Length of the wall between the flexible wheel and its cup, divided by the pitch diameter. A shorter wall is too
-stiff.
-"""
+"""Length of the wall between flexible wheel and cup divided by the pitch diameter; a shorter wall is too stiff."""
 
 
 # -------------------------------------------------------------------------------------------------------- escape wheels
@@ -95,12 +91,7 @@ def wave_tooth(z: int, backlash: float, ring: bool = False) -> FixedTooth:
     ends = [(root, half + DEDENDUM * tan(FLANK)), (tip, half - ADDENDUM * tan(FLANK))]
     (foot, x), (top, tip_x) = ((asin(y / r), sqrt(r**2 - y**2)) for r, y in ends)
     low, high = ends[0][1], ends[1][1]
-    tooth = (
-        (x, -low, 0.0),
-        (tip_x, -high, tan(top / 2)),
-        (tip_x, high, 0.0),
-        (x, low, tan((pitch - 2 * foot) / 4)),
-    )
+    tooth = ((x, -low, 0.0), (tip_x, -high, tan(top / 2)), (tip_x, high, 0.0), (x, low, tan((pitch - 2 * foot) / 4)))
     return FixedTooth("ring" if ring else "external", tip, root, tooth)
 
 

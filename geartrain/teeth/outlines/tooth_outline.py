@@ -51,8 +51,8 @@ class RootFillet:
 def fillet(
     flank: FlankCurve, widening: float, root: float, radius: float, z: float, relief: float = 0.0
 ) -> RootFillet | None:
-    """Return the fillet with the radius `radius` between the flank and the circle with the radius `root` [module]; None
-    if the fillet does not fit.
+    """Return the root fillet with the given radius between a flank and the root circle with the radius `root` [module];
+    None if the fillet does not fit.
 
     widening   half of the angular tooth thickness at the pitch circle [rad]
     relief     angle [rad] by which the straight root flank is turned from the flank's tangent into the tooth
@@ -107,9 +107,7 @@ class ToothOutline:
         return self.widening + float(self.flank.angle[-1])
 
     def half_at(self, radius: Floats) -> Floats:
-        """Return half of the angular thickness of the cut tooth [rad], including its fillet, at radii from root to tip
-        [module].
-        """
+        """Return half the angular thickness of the tooth with its fillet [rad] at radii from root to tip circle."""
         x, y = np.array([point[:2] for point in self._half()[1:]]).T
         place = x + 1j * y
         r, s = np.abs(place), self.flank.outward
@@ -143,9 +141,7 @@ class ToothOutline:
         return Contour.of(repeated(self.vertices(), int(self.z)))
 
     def vertices(self) -> list[Vertex]:
-        """Return the vertices, from root to root, of one tooth that is symmetric about the x axis. The last edge is on
-        the root circle.
-        """
+        """Return the vertices of one tooth symmetric about the x axis; its last edge is on the root circle."""
         half = self._half()
         x, y, _ = half[-1]
         land = bulge_about(complex(x, -y), complex(x, y))
@@ -211,9 +207,7 @@ class FlankCurve:
     curve: Floats
     """Radii [module] and angles [rad] of densely spaced points on the true flank, shape (2, n)."""
     tangent: tuple[float, float]
-    """Unit tangent at the root end of the flank, directed towards the root: its radial component, and its component
-    towards the tooth space.
-    """
+    """Unit tangent at the root end of the flank towards the root: components along the radius and towards the space."""
     R: float
     """Pitch radius of the wheel [module]."""
     outward: int
@@ -242,16 +236,16 @@ def flank(path: PathOfContact, gear: int, arcs: tuple[float, float], tolerance: 
 
 
 def _polar(path: PathOfContact, gear: int, X: Floats) -> tuple[Floats, Floats]:
-    """Return the radius about the axle [module] and the azimuth from the pitch point [rad] of the flank points at arcs
-    X. The azimuth is positive towards the tooth space.
+    """Return radius about the axle [module] and azimuth from the pitch point [rad] of the flank points in contact at
+    arcs X on the pitch circles. The azimuth is positive towards the tooth space.
     """
     radius, azimuth = path.pitch.polar(gear, path.flank(gear, X))
     return radius, azimuth if gear == 1 else -azimuth
 
 
 def _spaced_displacements(path: PathOfContact, gear: int, X: Floats, tolerance: float) -> Floats:
-    """Return the arcs X at which a flank is sampled so that all chords deviate equally from the flank: the product of
-    chord length and square root of the curvature is constant.
+    """Return arcs X on the pitch circles. The flank points in contact there are joined by chords that deviate equally
+    from the flank: the product of chord length and square root of the curvature is constant.
     """
     points = path.flank(gear, X)
     steps = np.diff(points, axis=0)
@@ -265,14 +259,19 @@ def _spaced_displacements(path: PathOfContact, gear: int, X: Floats, tolerance: 
     # 20 % more points than estimated, for curvature that varies within a piece
     count = max(_FEWEST, ceil(1.2 * cost[-1])) + 1
     found = np.interp(np.linspace(0, cost[-1], count), cost, X)
-    return _with_vertices(found, np.append(X[_inflections(path, gear, X)], _corner(path, gear, found, tolerance)))
+    bends = np.append(X[_inflections(path, gear, X)], _corner(path, gear, found, tolerance))
+    if not bends.size:
+        return found
+    near = _NEAR * abs(found[-1] - found[0])
+    inner = [x for x in found[1:-1].tolist() if np.abs(bends - x).min() > near]
+    ends = [b for b in bends.tolist() if min(abs(b - found[0]), abs(b - found[-1])) > near]
+    whole = np.unique([found[0], *inner, *ends, found[-1]])
+    return whole if found[0] < found[-1] else whole[::-1]
 
 
 def _corner(path: PathOfContact, gear: int, X: Floats, tolerance: float) -> list[float]:
-    """Return a list that contains the pitch point if an additional sample is required there, because the chord across
-    it would cut off a corner.
-
-    The curvature of a cycloid is infinite at the pitch point, so that the estimate of the deviation fails there.
+    """Return the list [0] if a chord of the flank across the pitch point would cut off a corner, otherwise an empty
+    list. The curvature of a cycloid is infinite at the pitch point, so that the deviation cannot be estimated from it.
     """
     if not X.min() < 0 < X.max():
         return []
@@ -281,7 +280,7 @@ def _corner(path: PathOfContact, gear: int, X: Floats, tolerance: float) -> list
 
 
 def _inflections(path: PathOfContact, gear: int, X: Floats) -> Floats:
-    """Return the indices of the last points before each sign change of the curvature of the flank."""
+    """Return the indices of the last flank points before each sign change of the curvature, for contacts at arcs X."""
     points = path.flank(gear, X)
     steps = np.diff(points @ np.array([1, 1j]))
     bent = np.angle(steps[1:] * np.conj(steps[:-1]))
@@ -291,21 +290,9 @@ def _inflections(path: PathOfContact, gear: int, X: Floats) -> Floats:
     return np.asarray(bending[:-1][turns] + 1)
 
 
-def _with_vertices(found: Floats, bends: Floats) -> Floats:
-    if not bends.size:
-        return np.asarray(found)
-    near = _NEAR * abs(found[-1] - found[0])
-    inner = [x for x in found[1:-1].tolist() if np.abs(bends - x).min() > near]
-    ends = [b for b in bends.tolist() if min(abs(b - found[0]), abs(b - found[-1])) > near]
-    whole = np.unique([found[0], *inner, *ends, found[-1]])
-    return whole if found[0] < found[-1] else whole[::-1]
-
-
 def _inner_polyline(path: PathOfContact, gear: int, X: Floats, outward: int) -> tuple[Floats, Floats]:
-    """Return the radii [module] and angles [rad] of a polyline inside the tooth.
-
-    The vertices of the polyline are points of the flank where the flank is convex, and intersections of tangents where
-    the flank is concave.
+    """Return radii [module] and angles [rad] of a polyline inside the tooth. It consists of points of the flank where
+    the flank is convex, and of intersections of tangents where the flank is concave. `outward` is 1 if radii increase.
     """
     r, angle = _polar(path, gear, X)
     points = r * np.exp(1j * angle)
@@ -335,8 +322,8 @@ def _cross(a: Floats, b: Floats) -> Floats:
 
 
 def _tangents(path: PathOfContact, gear: int, X: Floats, outward: int) -> tuple[Floats, Floats]:
-    """Return the radial component, and the component towards the tooth space, of the flank's unit tangents. The
-    tangents are directed towards the root and perpendicular to the contact normal.
+    """Return two components of the flank's unit tangents: radial, and towards the tooth space. The tangents are
+    directed towards the root and perpendicular to the contact normal.
     """
     contact = path.at(X)
     sine, cosine = contact.sin_psi, contact.cos_psi

@@ -61,7 +61,7 @@ _ALIKE = 1e-5  # modules: flanks that differ by less are equal
 
 @dataclass(frozen=True)
 class ToothRequirement(WheelRequirement):
-    """Teeth of gear 1 or 2 that a conjugate pair requires. Lengths are in modules."""
+    """Required flanks and root of gear 1 or 2 of a conjugate pair. Lengths are in modules."""
 
     pair: ConjugatePair
     """Conjugate pair at its design distance."""
@@ -101,7 +101,7 @@ class ToothRequirement(WheelRequirement):
 
     @cached_property
     def other(self) -> ToothRequirement:
-        """Requirement of the same pair on the teeth of the mate."""
+        """Requirement of the same pair on its other gear."""
         return ToothRequirement(self.pair, 3 - self.gear, self.tolerance, self.clearance, self.pins)
 
     @property
@@ -144,7 +144,7 @@ class ToothRequirement(WheelRequirement):
 
     @cached_property
     def passage(self) -> MatePassage:
-        """Positions of the mate's tooth or pin within the tooth spaces of this gear."""
+        """Positions of the mate's tooth or pin while it passes through a tooth space of this gear."""
         own, other = self.flank, self.other
         found = other.flank
         if self.pins is not None and other.gear == self.pins.gear:
@@ -195,41 +195,30 @@ def check_flat(pair: ConjugatePair) -> None:
     path = pair.path
     if path.pitch.bevel:
         # the back cone of a crown wheel develops into a rack with infinitely many teeth
-        virtual = [path.pitch.z1 / cos(path.pitch.R1), path.pitch.z2 / max(cos(path.pitch.R2), 1e-9)]
-        raise QuestionError(
-            Problem(
-                "a bevel wheel has no plane outline",
-                "its teeth are on a sphere and taper towards the apex, where the axes meet",
-                "omit --profile, or draw the equivalent spur pair of its back cones, of "
-                f"{virtual[0]:.4g} and {virtual[1]:.4g} teeth",
-                "--profile",
-            )
-        )
+        first, second = path.pitch.z1 / cos(path.pitch.R1), path.pitch.z2 / max(cos(path.pitch.R2), 1e-9)
+        why = "its teeth are on a sphere and taper towards the apex, where the axes meet"
+        spur = f"the equivalent spur pair of its back cones, of {first:.4g} and {second:.4g} teeth"
+        fix = f"omit --profile, or draw {spur}"
+        raise QuestionError(Problem("a bevel wheel has no plane outline", why, fix, "--profile"))
     if pair.faults:
         raise QuestionError(Problem(fault.what, fault.why, fault.fix, "--profile") for fault in pair.faults)
     if path.approach.start or path.recess.start:
+        what = "this path of contact does not reach the pitch point"
         why = "the tooth thickness at the ends of its flanks is undefined"
-        raise QuestionError(
-            Problem("this path of contact does not reach the pitch point", why, "use another tooth form")
-        )
+        raise QuestionError(Problem(what, why, "use another tooth form"))
 
 
 def alike(one: ToothRequirement, other: ToothRequirement) -> bool:
-    """Return True if one tooth satisfies both requirements, which needs equal flanks where both flanks are active, and
-    equal tip radii.
-    """
+    """Return True if one tooth satisfies both requirements: equal tip radii, and equal flanks where both touch."""
     first, second = one.flank, other.flank
     if first.outward != second.outward or abs(first.r[-1] - second.r[-1]) > _ALIKE:
         return False
-    (r1, a1), (r2, a2) = (_rising(each) for each in (first.curve, second.curve))
+    # in order of increasing radius
+    (r1, a1), (r2, a2) = (each.curve[:, :: each.outward] for each in (first, second))
     low, high = max(r1[0], r2[0]), min(r1[-1], r2[-1])
     r = np.linspace(low, high, 65)
     off = np.interp(r, r1, a1) + one.widening - np.interp(r, r2, a2) - other.widening
     return bool(np.abs(off * r).max() <= _ALIKE)
-
-
-def _rising(curve: Floats) -> Floats:
-    return curve if curve[0, 0] < curve[0, -1] else curve[:, ::-1]
 
 
 def cut_tooth(demands: Sequence[ToothRequirement], wanted: float | None = None) -> tuple[ToothOutline, float]:
@@ -247,10 +236,8 @@ def cut_tooth(demands: Sequence[ToothRequirement], wanted: float | None = None) 
     own = deepest.flank
     if fillet(own, deepest.widening, root, _MINIMUM_FILLET, deepest.z) is None:
         what = f"gear {deepest.gear} cannot have a root circle"
-        why = (
-            f"with a clearance of {deepest.clearance:.4g} modules, the flanks of neighbouring teeth meet before they "
-            "reach it"
-        )
+        at = f"with a clearance of {deepest.clearance:.4g} modules"
+        why = f"{at}, the flanks of neighbouring teeth meet before they reach it"
         fix = "reduce the clearance, or increase the backlash, which makes the teeth thinner"
         raise QuestionError(Problem(what, why, fix, "--blank clearance"))
     passages = [each.passage for each in demands]
@@ -259,23 +246,17 @@ def cut_tooth(demands: Sequence[ToothRequirement], wanted: float | None = None) 
         found = _largest_fillet(deepest, root, passages, radians(degree), most, _FILLET if wanted is None else wanted)
         if found is not None:
             return found, radians(degree)
-    raise QuestionError(
-        Problem(
-            f"no root profile of gear {deepest.gear} clears the mate's tips",
-            "the tips would cut the flanks below their active part, or touch teeth outside the path of contact",
-            "shorten the arcs, or use more teeth, backlash or clearance",
-            "--profile",
-        )
-    )
+    what = f"no root profile of gear {deepest.gear} clears the mate's tips"
+    why = "the tips would cut the flanks below their active part, or touch teeth outside the path of contact"
+    fix = "shorten the arcs, or use more teeth, backlash or clearance"
+    raise QuestionError(Problem(what, why, fix, "--profile"))
 
 
 def _largest_fillet(
     own: ToothRequirement, root: float, mates: Sequence[MatePassage], relief: float, most: float, wanted: float
 ) -> ToothOutline | None:
-    """Return the tooth with the largest fillet radius up to `wanted` [module] that clears all mates, found by
-    bisection.
-
-    Return None if even with a small fillet a mate interferes by more than `most` [module].
+    """Return the tooth with the largest fillet radius up to `wanted` [module], found by bisection, with which no mate
+    interferes by more than `most` [module]; None if there is none. `root` and `relief` are defined in `fillet`.
     """
 
     def made(radius: float) -> ToothOutline | None:

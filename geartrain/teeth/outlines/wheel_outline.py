@@ -233,14 +233,9 @@ def blank_contours(teeth: Contour, kind: str, root: float, cut: BlankSizes) -> l
     teeth = teeth.scaled(cut.module)
     if kind != "ring":
         if cut.rim is not None:
-            raise QuestionError(
-                Problem(
-                    "--blank rim does not apply to an external wheel with teeth",
-                    "only rings and lanterns have a rim of declared width",
-                    "omit --blank rim",
-                    "--blank rim",
-                )
-            )
+            what = "--blank rim does not apply to an external wheel with teeth"
+            why = "only rings and lanterns have a rim of declared width"
+            raise QuestionError(Problem(what, why, "omit --blank rim", "--blank rim"))
         return [teeth, *bore(cut, root * cut.module)]
     if cut.bore is not None:
         raise QuestionError(Problem("a ring has no bore", "its middle is open", "omit --blank bore", "--blank bore"))
@@ -248,19 +243,12 @@ def blank_contours(teeth: Contour, kind: str, root: float, cut: BlankSizes) -> l
 
 
 def bore(cut: BlankSizes, root: float) -> list[Contour]:
-    """Return a list with the contour of the bore of a wheel with the root radius `root` [mm]. The list is empty if the
-    wheel has no bore.
-    """
+    """Return a list with the contour of a wheel's bore, empty without a bore. `root` is the root radius [mm]."""
     if cut.bore is None:
         return []
     most = 2 * (root - _THIN * cut.module)
     if cut.bore >= most:
-        raise QuestionError(
-            Problem(
-                f"a bore of {cut.bore:g} mm does not fit",
-                f"the wheel's root circle has a diameter of {2 * root:.4g} mm",
-                f"give a bore below {most:.4g} mm",
-                "--blank bore",
-            )
-        )
+        what = f"a bore of {cut.bore:g} mm does not fit"
+        why = f"the wheel's root circle has a diameter of {2 * root:.4g} mm"
+        raise QuestionError(Problem(what, why, f"give a bore below {most:.4g} mm", "--blank bore"))
     return [Contour.circle(cut.bore / 2)]

@@ -17,8 +17,8 @@ SAME_SIZE = 1e-9  # of a length, or rad: smaller differences count as equal
 
 @dataclass(frozen=True, slots=True)
 class LanternPins:
-    """Round pins of a lantern wheel or of a ring: number of the gear with the pins, radius of the pin circle and radius
-    of a pin [module].
+    """Round pins of a lantern or of a ring of pins: number of the gear that has them, radius of the pin circle [module]
+    and radius of a pin [module].
     """
 
     gear: int
@@ -37,9 +37,7 @@ class CutTooth:
     root: float
     """Radius of the root circle [module]."""
     tooth: tuple[Vertex, ...] = ()
-    """Vertices (x, y, bulge) from root to root of one tooth that is symmetric about the x axis [module]; empty for
-    pins.
-    """
+    """Vertices (x, y, bulge), root to root, of one tooth symmetric about the x axis [module]; empty for pins."""
     pins: LanternPins | None = None
     """Pins of a lantern, or of a ring gear whose teeth are separate pins in seats; None for a wheel with teeth."""
 
@@ -56,13 +54,11 @@ class WheelRequirement(ABC):
 
     @abstractmethod
     def agrees(self, other: WheelRequirement) -> bool:
-        """Return True if the teeth of one wheel can satisfy both requirements, or False if they cannot."""
+        """Return True if one wheel can satisfy both requirements, or False if it cannot."""
 
     @abstractmethod
     def cut(self, others: Sequence[WheelRequirement] = ()) -> CutTooth:
-        """Return a tooth that satisfies this requirement and `others`. Raise `GearTrainError` if no such
-        tooth exists.
-        """
+        """Return a tooth that satisfies this requirement and `others`, or raise `GearTrainError` if none exists."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,9 +80,7 @@ class FixedTooth(CutTooth, WheelRequirement):
 
 @dataclass(frozen=True)
 class PairRequirement:
-    """Requirement of a pair on a wheel: name of the pair, name of its tooth form, tooth form in words, and required
-    teeth.
-    """
+    """Teeth that a pair requires for one wheel, with the names of the pair and of its tooth form for messages."""
 
     pair: str
     form: str
@@ -95,9 +89,7 @@ class PairRequirement:
 
 
 def disagreement(requested: Sequence[PairRequirement]) -> Problem | None:
-    """Return the problem of a wheel whose pairs require different teeth; None if one wheel can satisfy all
-    its pairs.
-    """
+    """Return the problem of a wheel whose pairs require different teeth; None if one wheel satisfies them all."""
     odd = (other for other in requested[1:] if not requested[0].requirement.agrees(other.requirement))
     return next((_conflict(requested[0], other) for other in odd), None)
 

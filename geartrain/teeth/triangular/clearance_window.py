@@ -33,7 +33,7 @@ class TriangularContact:
 
     @cached_property
     def dragged(self) -> DraggedPath:
-        """Real path of contact, in which the driven wheel dwells while no tooth pushes it."""
+        """Real path of contact, including the dwells, in which no tooth pushes the driven wheel."""
         return drag(self.path)
 
     @property
@@ -42,27 +42,23 @@ class TriangularContact:
         return self.dragged.intervals
 
     def locate(self, t: float) -> tuple[DriveInterval, float]:
-        """Return the drive interval that contains the driver position t [rad], and the angle alpha_1 [rad] between the
-        driver's apex and the line of centres at t.
+        """Return the drive interval at the driver position t [rad], and the angle alpha_1 [rad] of the driver's apex
+        from the line of centres at t.
         """
         return _locate(self.intervals, t, self.sizes.p1)
 
     def lag(self, interval: DriveInterval, x: Any, m: ModuleType = math) -> Any:
-        """Return the lag of the driven wheel behind its mean motion [rad] at the angle x [rad] of the driver's apex
-        from the line of centres.
-        """
+        """Return the driven wheel's lag [rad] behind its mean motion at the angle x [rad] of the driver's apex."""
         y = self.path.tooth_pair.angle(interval.phase, x, m) if interval.held is None else interval.held
         return y - self.sizes.ratio * x
 
     def speed(self, interval: DriveInterval, x: Any, m: ModuleType = math) -> Any:
-        """Return the speed ratio at the angle x [rad] of the driver's apex from the line of centres; 0 in a dwell."""
+        """Return the speed ratio with the driver's apex at the angle x [rad] from the line of centres; 0 in a dwell."""
         return self.path.tooth_pair.speed(interval.phase, x, m) if interval.held is None else 0.0
 
     @cached_property
     def _bounds(self) -> list[DriveInterval]:
-        """Intervals of driver position in which a contact limits the driven wheel, even if the contact cannot drive.
-        Intervals may be separated by gaps.
-        """
+        """Intervals of driver position in which a contact limits the driven wheel, including those where it slips."""
         sizes = self.sizes
         return RealPath(sizes, slips=True).envelope if any(sizes.lean) else self.path.envelope
 
@@ -87,8 +83,8 @@ class TriangularContact:
         yield from (piece.low for piece in self.path.pieces if interval.end < piece.low < interval.start)
 
     def _minimum_within(self, low: float, high: float) -> float:
-        """Return the minimum backlash between the two kinks `low` and `high` [rad]. It occurs at a kink, or where drive
-        and coast flanks have the same speed ratio.
+        """Return the minimum backlash [rad] between two kinks. It occurs at one of the kinks, or where the drive and
+        the coast flanks have the same speed ratio.
         """
         pitch, middle = self.sizes.p1, (low + high) / 2
         ours, start = self.locate(middle)
@@ -115,57 +111,42 @@ class TriangularContact:
         """Verdict that reports the first failed check, or "runs" if no check fails. The order of checks is: valley,
         range of contact, overhang, coast flanks, entry, exit.
         """
-        sizes = self.sizes
-        if not sizes.has_valleys:
-            return self._failure("no valley", _no_valley(sizes))
+        if not self.sizes.has_valleys:
+            return PairVerdict("no valley", _no_valley(self.sizes), -inf)
         if not self.intervals:
-            return self._failure("apart", "the tips never touch: the wheels are too far apart")
-        return PairVerdict(*self._judgement(), self.backlash)
-
-    @staticmethod
-    def _failure(kind: MeshingKind, text: str) -> PairVerdict:
-        return PairVerdict(kind, text, -inf)
-
-    def _judgement(self) -> tuple[MeshingKind, str]:
+            return PairVerdict("apart", "the tips never touch: the wheels are too far apart", -inf)
+        kind: MeshingKind = "runs"
+        text = "the wheels turn"
         if self.overhang:
-            return "overhang", self.overhang
-        if self.backlash < -_ROUNDING * self.sizes.p2:
-            return "jam", (
-                f"the coast flanks jam: the teeth are {degrees(-self.backlash):.4g} deg of the driven wheel too thick "
-                "for the spaces at this clearance"
-            )
-        if self.dragged.clash > 0:
-            return "clash", (
-                f"an entering tooth meets a tip: the two overlap by {degrees(self.dragged.clash):.4g} deg of the "
-                "driven wheel"
-            )
-        if self.dragged.arrested:
-            return "dwell", (
-                "the driven wheel stops permanently: for a while no tooth is within range, and the next tooth does "
-                "not drive it"
-            )
-        if self.idle > 0:
-            return "dwell", (
-                f"the driven wheel dwells for {degrees(self.idle):.4g} deg of the driver in each pitch, and lags by "
-                f"{degrees(self.lost):.4g} deg when the next tooth arrives"
-            )
-        return "runs", "the wheels turn"
+            kind, text = "overhang", self.overhang
+        elif self.backlash < -_ROUNDING * self.sizes.p2:
+            thick = f"{degrees(-self.backlash):.4g} deg of the driven wheel too thick"
+            kind, text = "jam", f"the coast flanks jam: the teeth are {thick} for the spaces at this clearance"
+        elif self.dragged.clash > 0:
+            overlap = f"{degrees(self.dragged.clash):.4g} deg of the driven wheel"
+            kind, text = "clash", f"an entering tooth meets a tip: the two overlap by {overlap}"
+        elif self.dragged.arrested:
+            cause = "for a while no tooth is within range, and the next tooth does not drive it"
+            kind, text = "dwell", f"the driven wheel stops permanently: {cause}"
+        elif self.idle > 0:
+            rest = f"{degrees(self.idle):.4g} deg of the driver in each pitch"
+            lag = f"{degrees(self.lost):.4g} deg when the next tooth arrives"
+            kind, text = "dwell", f"the driven wheel dwells for {rest}, and lags by {lag}"
+        return PairVerdict(kind, text, self.backlash)
 
     @property
     def idle(self) -> float:
-        """Total driver angle during the dwells in one pitch [rad]."""
+        """Sum of the driver angles of all dwells in one pitch [rad]."""
         return sum(each.width for each in self.intervals if each.phase == DWELL)
 
     @property
     def lost(self) -> float:
-        """Driven angle that is lost in the dwells of one pitch [rad]."""
+        """Angle that the driven wheel loses in the dwells of one pitch [rad]."""
         return self.dragged.lost
 
     @cached_property
     def overhang(self) -> str:
-        """Message about an overhanging flank that touches, or that would turn the driven wheel back; an empty string if
-        there is no such flank.
-        """
+        """Message on an overhanging flank that touches its mate or would turn it backwards; empty if none does."""
         # tolerance for the rounding of the limits of contact, which are roots with a smaller error
         sizes, small = self.sizes, 1e-9 * self.sizes.p1
         for interval in self.intervals:
@@ -177,19 +158,15 @@ class TriangularContact:
             )
             back = next((x for x in (interval.start, interval.end) if not self.speed(interval, x) > 0), None)
             if lean or back is not None:
-                x = interval.start if interval.phase == APPROACH else interval.end
-                return (
-                    "a flank leans beyond the perpendicular and cannot drive while the apex of the driver is "
-                    f"{degrees(x):.4g} deg from the line of centres ({interval.phase})"
-                )
+                x = degrees(interval.start if interval.phase == APPROACH else interval.end)
+                where = f"while the apex of the driver is {x:.4g} deg from the line of centres ({interval.phase})"
+                return f"a flank leans beyond the perpendicular and cannot drive {where}"
         return ""
 
 
 def _locate(intervals: Sequence[DriveInterval], t: float, pitch: float) -> tuple[DriveInterval, float]:
-    """Return the drive interval that contains the driver position t [rad], and the angle alpha_1 [rad] between the
-    driver's apex and the line of centres at t.
-
-    If t is in a gap, return the nearest interval and an angle outside this interval.
+    """Return the drive interval at the driver position t [rad], and the angle alpha_1 [rad] of the driver's apex from
+    the line of centres at t. In a gap, return the nearest interval and an angle outside this interval.
     """
     for interval in intervals:
         gone = (interval.start - t) % pitch
@@ -218,7 +195,7 @@ def _no_valley(sizes: TriangularSizes) -> str:
 @dataclass(frozen=True, slots=True)
 class ClearanceWindow(Shown):
     """Range of clearances, from `jam` to `run`, in which a pair of triangular teeth turns. The bounds are values of
-    `TriangularSizes.excess`.
+    `excess`: the relative deviation from the centre distance at which a tip touches the bottom of a tooth space.
 
     The truth value of a window is False if `run` is not above `jam`: the pair then does not turn at any clearance. If a
     pair turns in several ranges of clearance, the window is the first range.
@@ -235,12 +212,11 @@ class ClearanceWindow(Shown):
     jam_kind: Literal["jam", "overhang", "clash", "dwell"] = "jam"
     """Kind of the verdict on the pair if the excess is below `jam`."""
     side: int = 1
-    """Sign of the pair: 1 for an external pair, -1 for an internal pair. The clearance factors of an internal pair are
-    below 1.
-    """
+    """Sign of the pair: 1 for external, -1 for internal pairs, whose clearance factors are below 1."""
 
     def factor(self, excess: float) -> float:
-        """Return the clearance factor that corresponds to an excess.
+        """Return the clearance factor, the centre distance divided by `TriangularSizes.deepest_distance`, for an
+        excess.
 
         excess   relative deviation of the centre distance, as in `TriangularSizes.excess`
         """
@@ -258,7 +234,7 @@ class ClearanceWindow(Shown):
 
     @property
     def reach_factor(self) -> float:
-        """Clearance factor at the excess `reach`."""
+        """Clearance factor at the excess `reach`, at which the tips cease to reach each other."""
         return self.factor(self.reach)
 
     def __bool__(self) -> bool:
@@ -311,8 +287,9 @@ def _window(sizes: TriangularSizes) -> ClearanceWindow:
     # at the jam limit itself the backlash is 0 except for rounding
     overhang = _overhang_excess(sizes, max(jam * (1 + 1e-9), reach * _NEARLY_0))
     low = max(jam, overhang)
-    clash = _first_range(lambda excess: _entry(RealPath(sizes.at(excess))), low, reach)
-    dwell = _first_range(lambda excess: _exit(RealPath(sizes.at(excess))), low, reach)
+    # at the entry a negative margin is a clash of tips; at the exit, a dwell before the next tooth pair drives
+    clash = _first_range(lambda excess: _end_margin(RealPath(sizes.at(excess)), entry=True), low, reach)
+    dwell = _first_range(lambda excess: _end_margin(RealPath(sizes.at(excess)), entry=False), low, reach)
     # equal wheels reach both limits at once, and the dwelling driven wheel admits the next tooth
     run_kind: Literal["clash", "dwell"] = "clash" if clash[1] < dwell[1] * (1 - 1e-9) else "dwell"
     starts: dict[Literal["jam", "overhang", "clash", "dwell"], float]
@@ -322,14 +299,12 @@ def _window(sizes: TriangularSizes) -> ClearanceWindow:
 
 
 def _start_of_range(margin: Callable[[float], float], low: float, reach: float) -> float:
-    """Return the smallest excess above which the function `margin` is positive; 0 if it is already positive
-    at `low`.
-    """
+    """Return the smallest excess of the centre distance above which `margin` is positive; 0 if so at `low`."""
     return 0.0 if margin(low) > 0 else _first_sign_change(margin, low, reach)
 
 
 def _overhang_excess(sizes: TriangularSizes, low: float) -> float:
-    """Return the excess up to which an overhanging flank touches; 0 if no such flank touches at the excess `low`."""
+    """Return the excess up to which an overhanging flank touches its mate; 0 if none touches at the excess `low`."""
     if low >= sizes.maximum_excess or not any(sizes.at(low).lean):
         return 0.0
 
@@ -340,10 +315,8 @@ def _overhang_excess(sizes: TriangularSizes, low: float) -> float:
 
 
 def _first_range(margin: Callable[[float], float], low: float, reach: float) -> tuple[float, float]:
-    """Return the bounds of the first range of excess in which the function `margin` is positive.
-
-    The range begins at 0 if the margin is positive at 0 or at `low`. The bounds are (0, 0) if the margin is never
-    positive.
+    """Return the bounds of the first range of excess of the centre distance in which `margin` is positive, (0, 0) if
+    there is none. The range begins at 0 if the margin is positive at 0 or at `low`.
     """
     # slightly above 0 or `low`, at which rounding would decide the sign of the margin
     for start in (reach * _NEARLY_0, low * (1 + 1e-9)):
@@ -358,26 +331,17 @@ def _first_range(margin: Callable[[float], float], low: float, reach: float) -> 
     return start, _first_sign_change(margin, start + 1e-9 * reach, reach)
 
 
-def _entry(path: RealPath) -> float:
-    """Return the margin at entry [rad of the driven wheel]: the maximum lag permitted by the entering tooth pair minus
-    the maximum lag permitted by the other tooth pairs. If the margin is negative, tips clash.
+def _end_margin(path: RealPath, entry: bool) -> float:
+    """Return the maximum lag [rad of the driven wheel] that the tooth pair at the entry, or else at the exit, permits,
+    minus the maximum lag that all other tooth pairs permit.
     """
-    last = path.pieces[-1]
-    return path.g(last.phase, last.high) - path.lowest(last.high, besides=0)
-
-
-def _exit(path: RealPath) -> float:
-    """Return the margin at exit [rad of the driven wheel]. If it is negative, a tooth pair leaves contact before
-    another pair can drive, so that the driven wheel dwells.
-    """
-    first = path.pieces[0]
-    return path.g(first.phase, first.low) - path.lowest(first.low, besides=0)
+    piece = path.pieces[-1 if entry else 0]
+    x = piece.high if entry else piece.low
+    return path.g(piece.phase, x) - path.lowest(x, besides=0)
 
 
 def _first_sign_change(value: Callable[[float], float], low: float, reach: float) -> float:
-    """Return the smallest excess above `low` at which the function `value` changes sign; `reach` if there is no sign
-    change.
-    """
+    """Return the smallest excess of the centre distance above `low` at which `value` changes sign, or `reach`."""
     # scanned in 16 steps before `root`; a range shorter than one step may be missed
     steps, start = 16, low
     at_low = value(low)
@@ -392,8 +356,8 @@ def _first_sign_change(value: Callable[[float], float], low: float, reach: float
 
 
 def excess_of_backlash(sizes: TriangularSizes, backlash: float, text: str) -> float:
-    """Return the excess at which the minimum backlash, measured on the pitch circle of the second wheel, equals
-    `backlash`.
+    """Return the excess of the centre distance at which the minimum backlash, measured on the pitch circle of the
+    second wheel, equals `backlash`.
 
     The root is unique because the backlash increases with the excess. Raises `GearTrainError` if no excess gives this
     backlash; `text` is the declared backlash as shown in the error message.
@@ -407,9 +371,7 @@ def excess_of_backlash(sizes: TriangularSizes, backlash: float, text: str) -> fl
     low, high = 0.0, sizes.maximum_excess * (1 - 1e-9)
     minimum, most = backlash_at(low), backlash_at(high)
     if not minimum <= backlash <= most:
-        raise refused(
-            f"no clearance gives a backlash of {text}",
-            f"the possible backlash of these teeth is {max(minimum, 0):.6g} to {most:.6g} (in m, or without a unit)",
-            "give a backlash in this range",
-        )
+        possible = f"{max(minimum, 0):.6g} to {most:.6g} (in m, or without a unit)"
+        why = f"the possible backlash of these teeth is {possible}"
+        raise refused(f"no clearance gives a backlash of {text}", why, "give a backlash in this range")
     return root(lambda excess: backlash_at(excess) - backlash, low, high, minimum - backlash, most - backlash)

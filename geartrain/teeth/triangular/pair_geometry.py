@@ -30,9 +30,7 @@ def depth(z: int, beta: float) -> float:
 
 
 def flank(z: int, beta: float) -> float:
-    """Return the length of a flank divided by the tip radius, for z teeth with a half aperture angle `beta` [rad], Eq.
-    (2).
-    """
+    """Return the flank length divided by the tip radius for z teeth of half aperture angle `beta` [rad], Eq. (2)."""
     return sin(pi / z) / sin(beta + pi / z)
 
 
@@ -124,16 +122,12 @@ class TriangularSizes(Shown):
 
     @property
     def signs(self) -> tuple[int, int]:
-        """Sign of the tooth number and radius of each wheel in the equations for external pairs: -1 for a ring gear, 1
-        for an external wheel.
-        """
+        """Signs of tooth number and radius of each wheel in the equations: -1 for a ring gear, 1 otherwise."""
         return (-1 if self.ring == 1 else 1), (-1 if self.ring == 2 else 1)
 
     @property
     def side(self) -> int:
-        """Sign of the centre distance and of the angle alpha_2 in the equations: 1 for an external pair, -1 for an
-        internal pair.
-        """
+        """Sign of the centre distance and of the driven angle alpha_2 in the equations: -1 for internal pairs."""
         return -1 if self.ring else 1
 
     @property
@@ -165,9 +159,7 @@ class TriangularSizes(Shown):
 
     @cached_property
     def deepest_distance(self) -> float:
-        """Centre distance at which a tip touches the bottom of a tooth space (clearance factor 1), in the common length
-        unit.
-        """
+        """Centre distance at which a tip touches the bottom of a tooth space, in the common length unit."""
         return self.side * (sum(self.signed_radii) - min(self.depths))
 
     @cached_property
@@ -177,27 +169,21 @@ class TriangularSizes(Shown):
 
     @property
     def pitch_sum(self) -> int:
-        """Sum z1 + z2 of the tooth numbers, or their difference for an internal pair. The centre distance divided by
-        this number is half the operating module.
-        """
+        """Sum of the tooth numbers (difference for internal pairs): twice the centre distance over the module."""
         return abs(self.signs[0] * self.z1 + self.signs[1] * self.z2)
 
     @property
     def surrounds(self) -> bool:
-        """True if the tip circles of an internal pair overlap at every angle, so that the teeth of the pinion cannot
-        come free.
-        """
+        """True if the tip circles of an internal pair overlap at every angle, so that the pinion cannot come free."""
         return bool(self.ring) and sum(self.signed_radii) >= self.D
 
     @property
     def clearance_factor(self) -> float:
-        """Clearance factor: centre distance divided by `deepest_distance`. It is above 1 for external pairs and below 1
-        for internal pairs.
-        """
+        """Centre distance divided by `deepest_distance`: above 1 for external, below 1 for internal pairs."""
         return self.factor(self.excess)
 
     def factor(self, excess: float) -> float:
-        """Return the clearance factor for a given excess.
+        """Return the clearance factor, the centre distance divided by `deepest_distance`, for a given excess.
 
         Parameters
         ----------
@@ -229,16 +215,12 @@ class TriangularSizes(Shown):
 
     @cached_property
     def reach1(self) -> float:
-        """Maximum angle alpha_1max [rad] between a tip of the driver and the line of centres at which tips can touch,
-        Eq. (4).
-        """
+        """Maximum angle alpha_1max [rad] from the line of centres at which a tip of the driver can touch, Eq. (4)."""
         return contact_half_angle(*self.signed_radii, self.side * self.D, self.delta)
 
     @cached_property
     def reach2(self) -> float:
-        """Maximum angle alpha_2max [rad] between a tip of the driven wheel and the line of centres at which tips can
-        touch, Eq. (4).
-        """
+        """Maximum angle alpha_2max [rad] from the line of centres at which a driven tip can touch, Eq. (4)."""
         return contact_half_angle(*self.signed_radii[::-1], self.side * self.D, self.delta)
 
     @cached_property
@@ -297,8 +279,8 @@ class TriangularSizes(Shown):
 
     @cached_property
     def maximum_excess(self) -> float:
-        """Maximum excess at which the teeth can touch. If the excess is larger, tips never touch, or the tip circles of
-        an internal pair overlap at every angle.
+        """Maximum excess at which the teeth can touch. If the centre distance deviates more, tips never touch, or the
+        tip circles of an internal pair overlap at every angle.
         """
         apart = min(self.depths) / self.deepest_distance
         return apart if not self.ring else min(apart, 1 + self.side * sum(self.signed_radii) / self.deepest_distance)

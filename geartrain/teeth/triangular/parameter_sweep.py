@@ -15,9 +15,7 @@ from geartrain.teeth.triangular.real_path import matches
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
 TransmissionFactory = Callable[..., TriangularTransmission]
-"""Function that returns a transmission function for given values of the varied parameters, which are
-keyword arguments.
-"""
+"""Function that returns a transmission function for keyword arguments with values of the varied parameters."""
 
 ASTRIDE = "astride"
 _MOST_CHANGES = 100
@@ -145,9 +143,7 @@ class VerdictChange:
 
 
 def changes(make: TransmissionFactory, name: str, found: ParameterSweep) -> list[VerdictChange]:
-    """Return every change of verdict or phases along a sweep of one parameter, located by bisection. At most 100
-    changes are returned.
-    """
+    """Return all changes of verdict or phases along a sweep of one parameter, at most 100, by bisection."""
     values = found.parameters[name].tolist()
     labels = [_label(v, p) for v, p in zip(found.verdicts.tolist(), found.phases.tolist(), strict=True)]
     seen: list[VerdictChange] = []

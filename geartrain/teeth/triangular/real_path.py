@@ -34,8 +34,8 @@ _SMALL = 1e-10  # fraction of a pitch: smaller steps and gaps are rounding error
 
 @dataclass(frozen=True, slots=True)
 class MonotonePiece:
-    """Range of the driver's apex angle alpha_1 [rad] within one phase of contact. The speed ratio is monotonic in this
-    range, so that the driven angle is convex or concave.
+    """Range of the angle alpha_1 [rad] of the driver's apex from the line of centres, within one phase of contact. The
+    speed ratio is monotonic in this range, so that the driven angle is convex or concave.
     """
 
     phase: str
@@ -46,18 +46,16 @@ class MonotonePiece:
 
 @dataclass(frozen=True, slots=True)
 class DriveInterval:
-    """Range of the driver's apex angle alpha_1, from `start` down to `end`, in which one tooth pair drives, or in which
-    no tooth pair drives (dwell).
+    """Range of the angle alpha_1 of the driver's apex from the line of centres, from `start` down to `end`, in which
+    one tooth pair drives, or in which no tooth pair drives (dwell).
 
-    `tooth_pair` numbers the teeth: alpha_1 = t + tooth_pair p1 for a position t common to all intervals of a path. In a
-    dwell, `tooth_pair` is the pair that has just lost contact, and `held` is the angle alpha_2 at which this pair left
-    the driven wheel.
+    `tooth_pair` numbers the teeth: alpha_1 = t + tooth_pair p1, where p1 is the driver's pitch and t a position common
+    to all intervals of a path. In a dwell, `tooth_pair` is the pair that has just lost contact, and `held` is the angle
+    alpha_2 of the driven apex at which this pair left the driven wheel.
     """
 
     phase: str
-    """Phase of contact: approach, recess or dwell. A path that includes contacts that cannot drive also has the phases
-    slip and return.
-    """
+    """Phase of contact: approach, recess or dwell, or, for contacts that cannot drive, slip or return."""
     start: float
     """Angle alpha_1 [rad] between the driver's apex and the line of centres at the start of the interval."""
     end: float
@@ -65,9 +63,7 @@ class DriveInterval:
     tooth_pair: int
     """Number of the tooth pair that drives or, in a dwell, of the tooth pair that drove last."""
     held: float | None = None
-    """Angle alpha_2 [rad] between the driven apex and the line of centres during a dwell; None while a tooth pair
-    drives.
-    """
+    """Angle alpha_2 [rad] between the driven apex and the line of centres in a dwell; None while a pair drives."""
 
     @property
     def width(self) -> float:
@@ -76,14 +72,10 @@ class DriveInterval:
 
 
 class RealPath:
-    """Contact of all tooth pairs of two triangular wheels over one pitch of the driver, and the tooth pair that drives
-    at each position.
-    """
+    """Contact of all tooth pairs of two triangular wheels over one pitch, and the pair that drives at each position."""
 
     def __init__(self, sizes: TriangularSizes, slips: bool = False) -> None:
-        """Create the path of contact. If `slips` is True, the path includes contacts that limit the driven wheel but
-        cannot drive it.
-        """
+        """Create the path; `slips` adds contacts that limit the motion of the driven wheel but cannot drive it."""
         self.sizes, self.slips = sizes, slips
         self.tooth_pair = ToothPair(sizes)
         self.pitch, self.ratio = sizes.p1, sizes.ratio
@@ -91,13 +83,15 @@ class RealPath:
     # ------------------------------------------------------------------------------------------------- one tooth pair
 
     def g(self, phase: str, x: float) -> float:
-        """Return the lag g(x) = f(x) - (z1/z2) x of the driven wheel behind its mean motion [rad] at the angle x [rad]
-        of the driver's apex. Here f is the angle of the driven apex.
+        """Return the lag g(x) = f(x) - (z1/z2) x of the driven wheel behind its mean motion [rad], with the driver's
+        apex at the angle x [rad] from the line of centres. Here f(x) is the angle of the driven apex.
         """
         return float(self.tooth_pair.angle(phase, x)) - self.ratio * x
 
     def slope(self, phase: str, x: float) -> float:
-        """Return the derivative of the lag g at x, which is the speed ratio minus its mean value."""
+        """Return the derivative of the lag g of the driven wheel, which is the speed ratio minus its mean value, with
+        the driver's apex at the angle x [rad] from the line of centres.
+        """
         return float(self.tooth_pair.speed(phase, x)) - self.ratio
 
     @cached_property
@@ -131,8 +125,8 @@ class RealPath:
         return [MonotonePiece(phase, low, a, first), MonotonePiece(phase, a, high, last)]
 
     def extremes(self, phase: str, low: float, high: float) -> list[float]:
-        """Return a list with the extremum of the lag g [rad] between `low` and `high`, where the speed ratio is
-        monotonic. The list is empty if there is no extremum.
+        """Return a list with the extremum [rad] of the lag of the driven wheel while the driver's apex is at angles
+        from `low` to `high`; empty if there is none.
         """
         if (self.slope(phase, low) < 0) == (self.slope(phase, high) < 0):
             return []
@@ -142,9 +136,7 @@ class RealPath:
 
     @cached_property
     def branches(self) -> list[MonotonePiece]:
-        """Parts of `pieces`, at most one pitch long, in which a tooth pair can have the minimum lag of all tooth pairs
-        on the same piece.
-        """
+        """Parts of `pieces`, at most one pitch long, in which a tooth pair can permit the smallest lag."""
         return [branch for piece in self.pieces for branch in self._branches_of(piece)]
 
     def _branches_of(self, piece: MonotonePiece) -> list[MonotonePiece]:
@@ -166,12 +158,12 @@ class RealPath:
         return [MonotonePiece(piece.phase, start, start + pitch, True)]
 
     def _rise(self, phase: str, x: float) -> float:
-        """Return the increase g(x + p1) - g(x) of the lag over one pitch p1 of the driver [rad]."""
+        """Return the increase g(x + p1) - g(x) of the driven wheel's lag over one pitch p1 of the driver [rad]."""
         return float(self.tooth_pair.angle(phase, x + self.pitch) - self.tooth_pair.angle(phase, x)) - self.sizes.p2
 
     def lowest(self, t: float, besides: int | None = None) -> float:
-        """Return the minimum lag g [rad] over the tooth pairs at driver position t [rad], without the pair `besides`;
-        infinite if no tooth pair is in range.
+        """Return the minimum lag [rad] of the driven wheel that any tooth pair except `besides` permits at the driver
+        position t [rad]; inf if there is no such pair.
         """
         minimum = inf
         for piece in self.pieces:
@@ -186,9 +178,7 @@ class RealPath:
 
     @cached_property
     def envelope(self) -> list[DriveInterval]:
-        """Drive intervals, without dwells, over one pitch in order of decreasing driver position t. Intervals may be
-        separated by gaps.
-        """
+        """Drive intervals over one pitch, by decreasing driver position t, without dwells; gaps are possible."""
         base = max((branch.high for branch in self.branches), default=0.0)
         cuts = {0.0, self.pitch}
         for branch in self.branches:
@@ -200,9 +190,7 @@ class RealPath:
         return self._with_whole_first(_join_neighbours(found))
 
     def _with_whole_first(self, found: list[DriveInterval]) -> list[DriveInterval]:
-        """Return the drive intervals of one period. The period is shifted so that it starts at the start of an interval
-        and no interval is divided.
-        """
+        """Return the drive intervals of one period, shifted so that the period divides no interval."""
         if not found:
             return found
         first, last = found[0], found[-1]
@@ -212,9 +200,7 @@ class RealPath:
         return [*found[1:-1], DriveInterval(last.phase, last.start, first.end, last.tooth_pair)]
 
     def _cell(self, high: float, low: float) -> Iterator[DriveInterval]:
-        """Yield the drive intervals in a range of driver positions t, from `high` down to `low`, in which no branch
-        begins or ends.
-        """
+        """Yield the drive intervals from driver position `high` down to `low` [rad], between ends of branches."""
         middle = low + (high - low) / 2
         found = {}  # the two ends of a concave piece may belong to the same tooth pair
         for branch in self.branches:
@@ -228,33 +214,22 @@ class RealPath:
         for at, one in enumerate(active):
             for other in active[at + 1 :]:
                 marks |= set(self._crossings(one, other, low, high))
-        chosen = None
+        chosen, noise = None, 4 * ulp(self.sizes.reach2 + self.ratio * self.sizes.reach1)
         for upper, lower in pairwise(sorted(marks, reverse=True)):
-            chosen = self._lowest_at(lower + (upper - lower) / 2, active, chosen)
+            t = lower + (upper - lower) / 2
+            lags = [self.g(branch.phase, t + k * self.pitch) for branch, k in active]
+            # branches may coincide over a range, where rounding must not change from one to the other
+            if chosen is None or lags[active.index(chosen)] > min(lags) + noise:
+                chosen = active[lags.index(min(lags))]
             branch, k = chosen
             yield DriveInterval(branch.phase, upper + k * self.pitch, lower + k * self.pitch, k)
-
-    def _lowest_at(
-        self, t: float, active: list[tuple[MonotonePiece, int]], last: tuple[MonotonePiece, int] | None
-    ) -> tuple[MonotonePiece, int]:
-        """Return the branch with the minimum lag g at driver position t. If the previous branch `last` has the same lag
-        within rounding error, it is returned, because branches may coincide over a range.
-        """
-        heights = [self.g(branch.phase, t + k * self.pitch) for branch, k in active]
-        minimum = min(heights)
-        if last is not None and heights[active.index(last)] <= minimum + self._noise:
-            return last
-        return active[heights.index(minimum)]
-
-    @cached_property
-    def _noise(self) -> float:
-        """Rounding error of the lag g [rad], estimated from the magnitudes of its two terms."""
-        return 4 * ulp(self.sizes.reach2 + self.ratio * self.sizes.reach1)
 
     def _crossings(
         self, one: tuple[MonotonePiece, int], other: tuple[MonotonePiece, int], low: float, high: float
     ) -> Iterator[float]:
-        """Yield the driver positions t [rad] from `low` to `high` at which the lags of two branches are equal."""
+        """Yield the driver positions [rad] from `low` to `high` at which two tooth pairs permit the same lag. `one` and
+        `other` each consist of a branch and the number of the tooth pair on it.
+        """
         (a, i), (b, j) = one, other
         shift, turned = (j - i) * self.pitch, (j - i) * self.sizes.p2
         low, high = low + i * self.pitch, high + i * self.pitch
@@ -299,16 +274,12 @@ def _join_neighbours(cells: list[DriveInterval]) -> list[DriveInterval]:
 
 @dataclass(frozen=True, slots=True)
 class SpeedJump(Result):
-    """Impact of teeth: speed ratio before and after the impact, and the relative jump 1 - before/after of Eqs. (22),
-    (25), (26) and (27).
-    """
+    """Impact of teeth: speed ratios before and after, and jump of the normal velocity, Eqs. (22), (25) to (27)."""
 
     KEYS = ("kind", "alpha1", "before", "after", "value")
 
     kind: str
-    """Phase of contact that begins, or "matching" if the flank of one tooth meets the whole flank of the
-    other tooth.
-    """
+    """Phase of contact that begins, or "matching" if the flank of a tooth meets the whole flank of the other tooth."""
     alpha1: float
     """Angle alpha_1 [rad] between the driver's apex and the line of centres at the impact."""
     before: float
@@ -318,13 +289,13 @@ class SpeedJump(Result):
 
     @property
     def value(self) -> float:
-        """Relative jump 1 - before/after of the normal velocity."""
+        """Relative jump 1 - before/after of the normal velocity, from the speed ratios before and after the impact."""
         return 1 - self.before / self.after
 
 
 def matches(last: DriveInterval, new: DriveInterval, pitch: float) -> bool:
-    """Return True if one tooth pair continues from `last` to `new` through the matching position, at which its contact
-    changes flanks.
+    """Return True if one tooth pair drives in both intervals and passes the matching position between them, where the
+    contact moves to other flanks.
     """
     faces = last.held is None and new.held is None and last.phase != new.phase
     # both are the same root, computed from either side
@@ -336,7 +307,7 @@ def matches(last: DriveInterval, new: DriveInterval, pitch: float) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class DraggedPath:
-    """Real path of contact with dwells, and the overlap of the entering tips in a clash [rad of the driven wheel]."""
+    """Real path of contact with dwells, and the angle by which entering tips overlap [rad of the driven wheel]."""
 
     intervals: tuple[DriveInterval, ...]
     clash: float
@@ -347,8 +318,8 @@ class DraggedPath:
 def drag(path: RealPath) -> DraggedPath:
     """Return the real path of contact, with a dwell of the driven wheel wherever no tooth pair drives.
 
-    The envelope is followed over one pitch, starting and ending at its lowest point. The first interval of the result
-    begins after the last dwell.
+    The driven wheel is followed over one pitch, from the position of minimum lag to the next such position. The first
+    interval of the result begins after the last dwell.
     """
     envelope, angle = path.envelope, path.tooth_pair.angle
     if not envelope:
@@ -391,15 +362,15 @@ def drag(path: RealPath) -> DraggedPath:
 
 
 def _minimum(path: RealPath, interval: DriveInterval) -> float:
-    """Return the minimum of the lag g over an interval [rad]. The driven wheel reaches this lag from any earlier
-    position.
+    """Return the minimum lag of the driven wheel over an interval [rad]. At this lag, the tooth pair pushes the driven
+    wheel wherever it was before.
     """
     phase, low, high = interval.phase, interval.end, interval.start
     return min(path.g(phase, low), path.g(phase, high), *path.extremes(phase, low, high))
 
 
 def _arrival(path: RealPath, interval: DriveInterval, y: float) -> float:
-    """Return the angle alpha_1 [rad] of the driver's apex at which a tooth pair reaches the driven wheel, which dwells
-    at alpha_2 = y [rad].
+    """Return the angle alpha_1 [rad] of the driver's apex at which a tooth pair of the interval meets the driven wheel,
+    which rests with its apex at the angle alpha_2 = y [rad].
     """
     return bracketed_root(lambda x: path.tooth_pair.angle(interval.phase, x) - y, interval.end, interval.start)

@@ -44,8 +44,8 @@ the smaller root of Eq. (16).
 
 
 class ToothPair:
-    """Constants of one tooth pair, and functions that describe its contact at any angle alpha_1 = x [rad] of the
-    driver's apex from the line of centres.
+    """Constants of one pair of triangular teeth, and its contact as a function of the angle alpha_1 = x [rad] of the
+    driver's apex from the line of centres. The parameter `m` of a method is `math` or, for arrays, `numpy`.
     """
 
     __slots__ = ("D", "R1", "R2", "cos1", "cos2", "delta", "entry", "leans", "mirror", "side", "sign2", "sin1", "sin2")
@@ -74,11 +74,8 @@ class ToothPair:
         return u, sin_psi, cos_psi, s, q, c * (cos_psi + sin_psi * (sin_psi + s) / (cos_psi + q))
 
     def _driver_arm(self, u: Any, cos_psi: Any, q: Any) -> Any:
-        """Return the distance, along the driver's flank, between the contact and the foot of the perpendicular from the
-        driver's axis.
-
-        The distance is R1 cos(beta1) - v, where R1 is the tip radius and beta1 the half aperture angle of the driver,
-        and v follows from Eq. (9).
+        """Return the distance, along the driver's flank, from the foot of the perpendicular from the driver's axis to
+        the contact: R1 cos(beta1) - v, with v from Eq. (9).
         """
         # with overhang W and its divisor vanish together; at such small tooth numbers the difference loses no digits
         if self.leans:
@@ -102,10 +99,9 @@ class ToothPair:
         return sine, cosine, arm, (across * inner - along * outer) / square, (along * inner + across * outer) / square
 
     def _apex_directions(self, apex: DrivenApex) -> tuple[Any, Any, Any, Any, Any, Any]:
-        """Return six values of a contact in recess: the arm, the cosine and sine of beta2 - x - y, the sine and cosine
-        of beta2 - y, and the sine of x.
-
-        The angles of the apices are x and y, and beta2 is the half aperture angle of the driven wheel.
+        """Return six values of a contact in recess at alpha_1 = x and alpha_2 = y: the arm of `DrivenApex`, cosine and
+        sine of beta2 - x - y, sine and cosine of beta2 - y, and sin x. beta2 is the half aperture angle of the driven
+        wheel.
         """
         sine, cosine, arm, sin_y, cos_y = apex
         sin_psi, cos_psi = self.sin2 * cos_y - self.cos2 * sin_y, self.cos2 * cos_y + self.sin2 * sin_y
@@ -114,8 +110,8 @@ class ToothPair:
     # -------------------------------------------------------------------------------------------- motion and friction
 
     def angle(self, phase: str, x: Any, m: ModuleType = math) -> Any:
-        """Return the angle alpha_2 of the driven apex [rad] at alpha_1 = x [rad], by Eq. (7) in approach and by Eq.
-        (17) in recess and slip.
+        """Return the angle alpha_2 [rad] of the driven apex from the line of centres at alpha_1 = x [rad], by Eq. (7)
+        in approach and by Eq. (17) in recess and slip.
 
         In the return phase, alpha_2 is the second root of Eq. (7).
         """
@@ -133,9 +129,7 @@ class ToothPair:
         return self._arms(phase, self._contact(phase, x, m))
 
     def speed(self, phase: str, x: Any, m: ModuleType = math) -> Any:
-        """Return the speed ratio tau = d alpha_2 / d alpha_1, by Eqs. (12) and (19). It is negative in the return
-        phase.
-        """
+        """Return the speed ratio tau = d alpha_2 / d alpha_1, by Eqs. (12) and (19); negative in the return phase."""
         if phase == RETURN:
             _, _, cos_psi, _, q, _ = self._flank_line(-x, m)
             return -1 - self.D * cos_psi / (self.R2 * q)
@@ -143,9 +137,7 @@ class ToothPair:
         return first / second
 
     def angle_and_speed(self, phase: str, x: Any, m: ModuleType = math) -> tuple[Any, Any]:
-        """Return `angle` and `speed` at the same x. The contact is evaluated only once, which halves the computing
-        time.
-        """
+        """Return `angle` and `speed` at the same x from one evaluation of the contact."""
         if phase == RETURN:
             return self.angle(phase, x, m), self.speed(phase, x, m)
         contact = self._contact(phase, x, m)
@@ -242,7 +234,7 @@ class ToothPair:
         return self.D * n1 / (self.mirror * n1 + self.sign2 * n2)
 
     def contact(self, x: float) -> float:
-        """Return the angle alpha_2 [rad] of the driven apex at alpha_1 = x, where |x| is at most alpha_1max. It is the
-        smaller of the angles in approach and in recess.
+        """Return the angle alpha_2 [rad] of the driven apex at the angle alpha_1 = x of the driver's apex, where |x| is
+        at most alpha_1max. It is the smaller of the angles in approach and in recess.
         """
         return float(min(self.angle(APPROACH, x), self.angle(RECESS, x)))

@@ -66,16 +66,14 @@ class Triangular(ToothForm):
         "below 1 with a ring",
     )
     excess: Figure | None = Field(
-        None,
-        description="Excess of the clearance factor over 1, above 0; in a ring, 1 minus the clearance factor",
+        None, description="Excess of the clearance factor over 1, above 0; in a ring, 1 minus the clearance factor"
     )
     backlash: Length | None = Field(
         None, description="Minimum backlash over a pitch, as an arc of the second wheel's pitch circle"
     )
     centre_distance: Length | None = Field(None, description="Centre distance of the pair")
     window: Figure | None = Field(
-        None,
-        description="Position in the clearance window, from jamming (0) to loss of contact (1)",
+        None, description="Position in the clearance window, from jamming (0) to loss of contact (1)"
     )
     radii: Literal["equal_depth", "pitch_true"] | tuple[Length, Length] | Figure | None = Field(
         None,
@@ -176,17 +174,18 @@ class Triangular(ToothForm):
         from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
 
         del shaft_angle
-        if why := refusal(wheels.kinds, any(wheels.internal)):
-            raise refused("these wheels cannot have triangular teeth", f"{why}; {TRIANGULAR_SCOPE}", IDEAL)
+        ring = any(wheels.internal)
+        if odd := [kind for kind in wheels.kinds if kind not in (("spur",) if ring else ("spur", "contrate"))]:
+            how = "with a ring as a spur wheel does" if ring else "as two spur wheels do"
+            why = f"a {odd[0]} wheel does not mesh {how}; {TRIANGULAR_SCOPE}"
+            raise refused("these wheels cannot have triangular teeth", why, IDEAL)
         transmission = self.transmission(
             *wheels.counts, wheels.friction or 0.0, pitch_distance=wheels.pitch_distance, ring=wheels.ring
         )
         return TriangularMesh(wheels, self, wheels.driver, transmission)
 
     def own_backlash(self, pair: str) -> Problem:
-        """Return the reason why the backlash of the manufacturing options does not apply: the backlash of triangular
-        teeth follows from their clearance.
-        """
+        """Return the reason why a requested backlash does not apply: it follows from the clearance of the teeth."""
         return Problem(
             f"--backlash cannot thin the triangular teeth of pair '{pair}'",
             "the clearance factor sets their backlash, and thinner teeth have another transmission function",
@@ -222,11 +221,8 @@ class Triangular(ToothForm):
         for z in (z1, z2):
             if z < FEWEST:
                 what = f"a wheel of {z} {'tooth' if z == 1 else 'teeth'} cannot have triangular teeth"
-                raise refused(
-                    what,
-                    "flanks of fewer teeth do not meet in valleys",
-                    f"give at least {FEWEST} teeth, or another tooth_form",
-                )
+                why, fix = "flanks of fewer teeth do not meet in valleys", f"give at least {FEWEST} teeth"
+                raise refused(what, why, f"{fix}, or another tooth_form")
         outer, inner = (z1, z2) if ring == 1 else (z2, z1)
         if ring and outer <= inner:
             what = f"a ring of {outer} teeth cannot contain a wheel of {inner} teeth"
@@ -236,12 +232,10 @@ class Triangular(ToothForm):
         sizes = sizes if sizes.surrounds else self._sizes_at_clearance(sizes, pitch_distance)
         # the clearance reduces the centre distance of an internal pair, which may make the circles overlap
         if sizes.surrounds:
-            raise refused(
-                "the teeth overlap at every angle",
-                "the tip circle of the ring is inside the tip circle of its wheel at the centre distance "
-                f"{sizes.D:.6g}",
-                "use a larger radius of the ring, such as `radii: pitch_true`, or less clearance",
-            )
+            at = f"at the centre distance {sizes.D:.6g}"
+            why = f"the tip circle of the ring is inside the tip circle of its wheel {at}"
+            fix = "use a larger radius of the ring, such as `radii: pitch_true`, or less clearance"
+            raise refused("the teeth overlap at every angle", why, fix)
         return sizes
 
     def _sizes_at_deepest(self, z1: int, z2: int, ring: Literal[0, 1, 2]) -> TriangularSizes:
@@ -277,30 +271,24 @@ class Triangular(ToothForm):
         length = self.centre_distance or self.backlash
         assert length is not None
         if not self._given_radii and (pitch_distance is None or length.unit is None):
-            raise refused(
-                f"the length {length.text} cannot be related to the size of these wheels",
-                "neither radii nor modules with a unit are declared",
-                "give `radii: [first, second]` or the `module` of both wheels, or the clearance as a factor",
-            )
+            what = f"the length {length.text} cannot be related to the size of these wheels"
+            fix = "give `radii: [first, second]` or the `module` of both wheels, or the clearance as a factor"
+            raise refused(what, "neither radii nor modules with a unit are declared", fix)
         if self.centre_distance is not None:
             return sizes.at(sizes.side * (self.centre_distance.si / sizes.deepest_distance - 1))
         return sizes.at(excess_of_backlash(sizes, length.si, length.text))
 
     def _declared_excess(self, sizes: TriangularSizes) -> float:
-        """Return the declared excess. Differences are computed exactly before rounding. Raise `GearTrainError` if the
-        excess is not positive.
-        """
+        """Return the declared excess, rounded only at the end. Raise `GearTrainError` if it is not positive."""
         if self.excess is not None or self.clearance_factor is None:
             return 0.0 if self.excess is None else float(self.excess.value)
         # a fraction minus 1 is exact, so that a factor close to 1 loses no digits
         excess = sizes.side * (self.clearance_factor.value - 1)
         if excess <= 0:
             deepest = "maximum, in a ring" if sizes.ring else "minimum"
-            raise refused(
-                f"a clearance factor of {self.clearance_factor.text} presses a tip into the bottom of a space",
-                f"the centre distance at which a tip touches the bottom is the {deepest}",
-                f"give a factor {'below' if sizes.ring else 'above'} 1, or `excess`",
-            )
+            what = f"a clearance factor of {self.clearance_factor.text} presses a tip into the bottom of a space"
+            why = f"the centre distance at which a tip touches the bottom is the {deepest}"
+            raise refused(what, why, f"give a factor {'below' if sizes.ring else 'above'} 1, or `excess`")
         return float(excess)
 
     def transmission(
@@ -346,15 +334,6 @@ class Triangular(ToothForm):
         return TriangularTransmission(sizes if driver == 1 else sizes.swapped(), friction, direction)
 
 
-def refusal(kinds: tuple[str, str], internal: bool) -> str:
-    """Return the reason why wheels of the given kinds cannot have triangular teeth; an empty string if they can."""
-    known = ("spur",) if internal else ("spur", "contrate")
-    odd = [kind for kind in kinds if kind not in known]
-    if odd and internal:
-        return f"a {odd[0]} wheel does not mesh with a ring as a spur wheel does"
-    return f"a {odd[0]} wheel does not mesh as two spur wheels do" if odd else ""
-
-
 def sizes_window(sizes: TriangularSizes) -> ClearanceWindow:
     """Return the clearance window of a pair. Raises `GearTrainError` if the pair does not turn at any clearance."""
     from geartrain.teeth.triangular.clearance_window import find_window
@@ -362,10 +341,8 @@ def sizes_window(sizes: TriangularSizes) -> ClearanceWindow:
 
     window = find_window(sizes)
     if not window:
-        raise refused(
-            f"no clearance lets wheels of {sizes.z1} and {sizes.z2} triangular teeth turn",
-            f"up to a clearance factor of {window.jam_factor:.6g} the verdict is {window.jam_kind}, and from "
-            f"{window.run_factor:.6g} on it is {window.run_kind}",
-            OTHER_SHAPES[bool(sizes.ring)],
-        )
+        what = f"no clearance lets wheels of {sizes.z1} and {sizes.z2} triangular teeth turn"
+        below = f"up to a clearance factor of {window.jam_factor:.6g} the verdict is {window.jam_kind}"
+        why = f"{below}, and from {window.run_factor:.6g} on it is {window.run_kind}"
+        raise refused(what, why, OTHER_SHAPES[bool(sizes.ring)])
     return window

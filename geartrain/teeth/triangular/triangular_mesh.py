@@ -49,12 +49,12 @@ class TriangularDetails(NamedForm, Protocol):
     """Methods of a triangular tooth form that the mesh of a pair uses."""
 
     def in_metres(self, module: float | None) -> bool:
-        """Return True if the lengths of wheels with the given module [m] are in metres."""
+        """Return True if the tooth form gives lengths in metres to wheels with the given module [m]."""
 
 
 @dataclass(frozen=True)
 class TriangularMesh(GearMesh):
-    """Gear pair with triangular teeth in a train. The clearance window of the pair explains why it does not turn."""
+    """Gear pair with triangular teeth in a train."""
 
     tooth_form: TriangularDetails
     transmission: TriangularTransmission
@@ -93,9 +93,7 @@ class TriangularMesh(GearMesh):
 
     @property
     def own_size(self) -> PairSize:
-        """Size of the pair. It follows from the declaration if the declared lengths are in metres, or from pitch
-        circles that touch if they are not.
-        """
+        """Size of the pair from its own lengths in metres, or, without such lengths, from pitch circles that touch."""
         module = self.wheels.module
         if module is None or not self.tooth_form.in_metres(module):
             return self.size({})
@@ -103,17 +101,13 @@ class TriangularMesh(GearMesh):
 
     @property
     def pitch_radius(self) -> float | None:
-        """Pitch radius of the first wheel [m]. It follows from the declared centre distance if this distance is in
-        metres, or from the modules if it is not.
-        """
+        """Pitch radius of the first wheel [m], from a centre distance in metres, or else from the modules."""
         if not self.tooth_form.in_metres(self.wheels.module):
             return super().pitch_radius
         return self.transmission.sizes.D * self.wheels.counts[0] / self.transmission.sizes.pitch_sum
 
     def requirement(self, wheel: str, scale: float, tolerance: float) -> FixedTooth:
-        """Return the required tooth: straight lines from the middle of a tooth space to the apex, and from the apex to
-        the middle of the next tooth space.
-        """
+        """Return the required tooth: straight lines from one tooth space to the apex and on to the next space."""
         del tolerance
         sizes = self.transmission.sizes
         at = 0 if wheel == self.driver else 1
@@ -161,11 +155,16 @@ class TriangularMesh(GearMesh):
     def account(self) -> PairAccount:
         """Return a report on the clearance, the transmission function and the impacts of the pair."""
         figures = triangular_figures(self.transmission, self.window, losses=self.efficiency(self.driver))
-        tables = (
-            AccountTable(_CLEARANCE_HEADER, _clearance_row(self)),
-            AccountTable(_TRANSMISSION_HEADER, _transmission_row(self, figures)),
-        )
-        return PairAccount(_WORDS, tables, figures)
+        window, where, row = self.window, "-", ("-",) * 4
+        if window is not None:
+            where = f"{window.jam_factor:.5f} {window.jam_kind} .. {window.run_factor:.5f} {window.run_kind}"
+        if figures.speed_ratio is not None and figures.efficiency is not None:
+            speeds = "{:.5f}..{:.5f}".format(*figures.speed_ratio.relative)
+            lost = figures.efficiency.text if self.computes_losses else "-"
+            row = speeds, figures.error_text, lost, ", ".join(f"{jump.value:.4f}" for jump in figures.jumps)
+        factor, kind = f"{figures.sizes.clearance_factor:.6g}", self.transmission.verdict.kind
+        clearance = AccountTable(_CLEARANCE_HEADER, (self.name, f"{self.driver} -> {self.driven}", factor, where, kind))
+        return PairAccount(_WORDS, (clearance, AccountTable(_TRANSMISSION_HEADER, (self.name, *row))), figures)
 
     def own_faults(self) -> Iterator[Problem]:
         """Yield all faults of the teeth of the pair, each with its remedy."""
@@ -197,36 +196,8 @@ class TriangularFigures(PairFigures):
     """Impacts within one pitch."""
 
 
-def _clearance_row(mesh: TriangularMesh) -> tuple[str, ...]:
-    transmission, window = mesh.transmission, mesh.window
-    where = (
-        "-"
-        if window is None
-        else f"{window.jam_factor:.5f} {window.jam_kind} .. {window.run_factor:.5f} {window.run_kind}"
-    )
-    return (
-        mesh.name,
-        f"{mesh.driver} -> {mesh.driven}",
-        f"{transmission.sizes.clearance_factor:.6g}",
-        where,
-        transmission.verdict.kind,
-    )
-
-
-def _transmission_row(mesh: TriangularMesh, figures: TriangularFigures) -> tuple[str, ...]:
-    speed, efficiency = figures.speed_ratio, figures.efficiency
-    if speed is None or efficiency is None:
-        return (mesh.name, "-", "-", "-", "-")
-    minimum, most = speed.relative
-    lost = efficiency.text if mesh.computes_losses else "-"
-    jumps = ", ".join(f"{jump.value:.4f}" for jump in figures.jumps)
-    return (mesh.name, f"{minimum:.5f}..{most:.5f}", figures.error_text, lost, jumps)
-
-
 def triangular_figures(
-    transmission: TriangularTransmission,
-    window: ClearanceWindow | None,
-    losses: SlidingEfficiency | None = None,
+    transmission: TriangularTransmission, window: ClearanceWindow | None, losses: SlidingEfficiency | None = None
 ) -> TriangularFigures:
     """Return the results of a pair with triangular teeth.
 
@@ -249,9 +220,7 @@ def triangular_figures(
 
 
 def explain_clearance(transmission: TriangularTransmission, window: ClearanceWindow | None) -> tuple[str, str]:
-    """Return the cause, and the remedy, for a pair that cannot turn. The cause states the clearance window and the
-    bound that is violated.
-    """
+    """Return cause and remedy for a pair that cannot turn: clearance window, and the bound that is violated."""
     if window is None:
         return "", "use more teeth or a smaller half_angle"
     excess, jam, run = transmission.sizes.excess, window.jam_factor, window.run_factor

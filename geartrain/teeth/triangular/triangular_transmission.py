@@ -1,10 +1,8 @@
-"""Transmission function of triangular teeth, vectorised over driver angles, and a table of the contact over
-one pitch.
-"""
+"""Transmission function of triangular teeth over driver angles, and a table of their contact over one pitch."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache, partial
@@ -80,7 +78,7 @@ class TriangularTransmission(ToothTransmission):
 
     @property
     def intervals(self) -> tuple[DriveInterval, ...]:
-        """Intervals of the real path of contact over one pitch of the driver, in order of time. Dwells are included."""
+        """Intervals of the real path of contact over one pitch of the driver, in order of time, including dwells."""
         return self.contact.intervals
 
     @property
@@ -96,13 +94,11 @@ class TriangularTransmission(ToothTransmission):
         return -lag if self.direction > 0 else self.sizes.p2 + lag
 
     def speed(self, S: ArrayLike) -> Floats:
-        """Return the speed ratio tau at driver angles S [rad]."""
+        """Return the speed ratio tau of the driven wheel to the driver at driver angles S [rad]."""
         return self.mapped(S, self._tau)
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """Return the sliding speed and the friction terms of the tooth pair in contact at driver angles S [rad]; NaN
-        during a dwell.
-        """
+        """Return sliding speed and friction terms of the contact at driver angles S [rad]; NaN during a dwell."""
         return ContactRubbing(*(each[None] for each in self._map_all(S, self._friction_terms, 3)))
 
     def sliding(self, phase: str, x: Floats) -> Floats:
@@ -133,8 +129,8 @@ class TriangularTransmission(ToothTransmission):
         return self.friction if by is None else by(self.sliding(phase, x))
 
     def _friction_terms(self, interval: DriveInterval, x: Floats) -> tuple[Any, Any, Any]:
-        """Return three quantities: the sliding speed divided by the pitch-line speed, the friction term of the input
-        power, and the friction term of the output power.
+        """Return three quantities at driver apex angles x [rad] of an interval: the sliding speed divided by the pitch-
+        line speed, the friction term of the input power, and the friction term of the output power.
         """
         if interval.held is not None:
             return nan, nan, nan
@@ -179,35 +175,25 @@ class TriangularTransmission(ToothTransmission):
     def _map_all(
         self, S: ArrayLike, what: Callable[[DriveInterval, Floats], tuple[Any, ...]], count: int
     ) -> list[Floats]:
-        """Return, for each driver angle in S, the values of the `count` functions that `what` computes from the drive
-        interval and alpha_1.
-        """
-        S = np.asarray(S, dtype=float)
+        """Return the `count` values that `what` computes from drive interval and alpha_1 at each driver angle in S."""
+        S, edges = np.asarray(S, dtype=float), self._edges
         flat = S.ravel()
         found = [np.empty_like(flat) for _ in range(count)]
         for block in blocks(len(flat)):
-            self._map_block(flat[block], what, [each[block] for each in found])
+            gone = remainder(self.direction * flat[block], self.period) + self._start
+            # both terms are within one period, so one subtraction is sufficient
+            gone -= np.where(gone < self.period, 0.0, self.period)
+            which = np.searchsorted(edges[1:-1], gone, side="right")
+            for at, interval in enumerate(self.intervals):
+                chosen = np.flatnonzero(which == at) if len(self.intervals) > 1 else slice(None)
+                x = interval.start - (gone[chosen] - edges[at])
+                for each, value in zip(found, what(interval, x), strict=True):
+                    each[block][chosen] = value
         return [each.reshape(S.shape) for each in found]
-
-    def _map_block(
-        self, S: Floats, what: Callable[[DriveInterval, Floats], tuple[Any, ...]], found: Sequence[Floats]
-    ) -> None:
-        edges = self._edges
-        gone = remainder(self.direction * S, self.period) + self._start
-        # both terms are within one period, so one subtraction is sufficient
-        gone -= np.where(gone < self.period, 0.0, self.period)
-        which = np.searchsorted(edges[1:-1], gone, side="right")
-        for at, interval in enumerate(self.intervals):
-            chosen = np.flatnonzero(which == at) if len(self.intervals) > 1 else slice(None)
-            x = interval.start - (gone[chosen] - edges[at])
-            for each, value in zip(found, what(interval, x), strict=True):
-                each[chosen] = value
 
     @cached_property
     def _drive_intervals(self) -> tuple[DriveInterval, ...]:
-        """Intervals of the real path of contact. Dwells are included. Raises `RangeError` for teeth that
-        never touch.
-        """
+        """Intervals of the real path of contact with its dwells. Raises `RangeError` if teeth never touch."""
         if not self.intervals:
             fix = "give a clearance within the clearance window of the pair, and teeth that meet in valleys"
             raise RangeError(Problem(self.verdict.text, "such teeth have no transmission function", fix))
@@ -215,9 +201,7 @@ class TriangularTransmission(ToothTransmission):
 
     @cached_property
     def _start(self) -> float:
-        """Angle [rad] between the driver's tooth and the line of centres at the start of the first interval, reduced to
-        one pitch.
-        """
+        """Angle [rad] of the driver's tooth from the line of centres at the first interval, modulo one pitch."""
         first = self._drive_intervals[0]
         return (first.start - first.tooth_pair * self.period) % self.period
 
@@ -267,8 +251,8 @@ class TriangularTransmission(ToothTransmission):
             yield centre
 
     def _line_of_centres(self, phase: str) -> float:
-        """Return the angle [rad] between the driver's apex and the line of centres when the contact is on the line of
-        centres, where the direction of sliding reverses.
+        """Return the angle [rad] of the driver's apex from the line of centres at which the contact itself is on the
+        line of centres. There the direction of sliding reverses.
         """
         if phase != APPROACH:
             return 0.0
@@ -296,9 +280,7 @@ class TriangularTransmission(ToothTransmission):
         return self.sizes.p2 + min(lags), self.sizes.p2 + max(lags)
 
     def _samples(self) -> Iterator[tuple[str, Floats]]:
-        """Yield the phase of contact and 101 angles alpha_1 of the driver's apex [rad] for each smooth interval in
-        which a tooth pair drives.
-        """
+        """Yield phase and 101 angles alpha_1 [rad] of the driver's apex of each smooth interval of driving teeth."""
         for interval, high, low in self.stretches:
             if interval.held is None:
                 yield interval.phase, np.linspace(high, low, 101)
@@ -332,21 +314,16 @@ class TriangularTransmission(ToothTransmission):
     def jumps(self) -> list[SpeedJump]:
         """Impacts within one pitch, in order of time."""
         found = []
-        for last, new in zip(
-            self._drive_intervals, (*self._drive_intervals[1:], self._drive_intervals[0]), strict=True
-        ):
-            if new.held is not None:
-                continue
-            before, after = self.contact.speed(last, last.end), self.contact.speed(new, new.start)
-            found.append(
-                SpeedJump("matching" if matches(last, new, self.period) else new.phase, new.start, before, after)
-            )
+        intervals = self._drive_intervals
+        for last, new in zip(intervals, (*intervals[1:], intervals[0]), strict=True):
+            if new.held is None:
+                kind = "matching" if matches(last, new, self.period) else new.phase
+                before, after = self.contact.speed(last, last.end), self.contact.speed(new, new.start)
+                found.append(SpeedJump(kind, new.start, before, after))
         return found
 
     def speed_leaps(self) -> tuple[SpeedLeap, ...]:
-        """Return the steps of the speed ratio at all impacts within one pitch: the ratio before and the ratio after
-        each impact.
-        """
+        """Return the steps of the speed ratio, before and after, at all impacts within one pitch."""
         return tuple(SpeedLeap(jump.before, jump.after) for jump in self.jumps)
 
 
@@ -355,9 +332,7 @@ class TriangularTransmission(ToothTransmission):
 
 @dataclass(frozen=True)
 class ContactCourse(Result):
-    """Table of the contact over one pitch in order of time. It has one row for each sample, including the ends of
-    intervals.
-    """
+    """Table of the contact over one pitch, in order of time: a row for each sample and for each interval's end."""
 
     KEYS = (
         *("phases", "alpha1", "alpha2", "speed_ratio", Key("instant_centre", to=finite)),
@@ -380,13 +355,9 @@ class ContactCourse(Result):
     driver_arm: Floats
     """Moment arm b1 of the contact force about the driver's axis, in the length unit of the sizes; NaN in a dwell."""
     driven_arm: Floats
-    """Moment arm b2 of the contact force about the driven wheel's axis, in the length unit of the sizes; NaN in a
-    dwell.
-    """
+    """Moment arm b2 of the contact force about the driven axis, in the unit of the sizes; NaN in a dwell."""
     efficiency: Floats
-    """Efficiency: speed ratio times `driven_arm` divided by `driver_arm`; NaN in a dwell and where friction locks the
-    pair.
-    """
+    """Speed ratio times `driven_arm` divided by `driver_arm`; NaN in a dwell or where friction locks the pair."""
 
 
 def contact_course(
@@ -404,18 +375,15 @@ def contact_course(
         values = [what(each.phase, x) if each.held is None else np.full_like(x, held(each)) for each, x in at]
         return np.concatenate([np.empty(0), *values])
 
-    def arm(wheel: int) -> Floats:
-        return column(
-            lambda phase, x: tooth_pair.moment_arms(phase, x, transmission.coefficient(phase, x, friction), np)[wheel],
-            lambda _: nan,
-        )
+    def f(phase: str, x: Floats) -> float | Floats:
+        return transmission.coefficient(phase, x, friction)
 
-    # the efficiency is defined only where the force acts with a positive arm on both wheels
-    eta = column(
-        lambda phase, x: tooth_pair.efficiency(phase, x, transmission.coefficient(phase, x, friction), np),
-        lambda _: nan,
+    first, second = (
+        column(lambda phase, x, wheel=wheel: tooth_pair.moment_arms(phase, x, f(phase, x), np)[wheel], lambda _: nan)  # type: ignore[misc]
+        for wheel in (0, 1)
     )
-    first, second = arm(0), arm(1)
+    # the efficiency is defined only where the force acts with a positive arm on both wheels
+    eta = column(lambda phase, x: tooth_pair.efficiency(phase, x, f(phase, x), np), lambda _: nan)
     return ContactCourse(
         tuple(each.phase for each, x in at for _ in x),
         np.concatenate([np.empty(0), *(x for _, x in at)]),

@@ -58,10 +58,10 @@ _NONE = 1e-9  # mm, or relative to a unit vector: smaller differences are roundi
 
 
 def mesh_directions(stage: SceneContext, circuit: Circuit) -> tuple[tuple[Vector, Vector], int] | None:
-    """Return the unit vectors from the axes of two wheels to their contact, and a sense; None for screws and couplings.
+    """Return the unit vectors from the axes of two wheels to their contact, and the sense of the pair.
 
     The sense is 1 if positive rotations of both wheels move the teeth in contact in the same direction, and -1 if they
-    move them in opposite directions.
+    move them in opposite directions. The result is None for screw pairs and coaxial wheels.
     """
     one, other = (stage.train.declaration.wheels[name][1] for name in circuit.wheels)
     first, second = (stage.layout.wheels[name] for name in circuit.wheels)
@@ -236,9 +236,9 @@ def find_count_formulas(
     wheels: Sequence[SceneWheel],
     pointers: Sequence[Pointer],
 ) -> SceneFormulas | None:
-    """Return the speeds as functions of tooth counts; None if no link is driven, no count is known, or they are large.
+    """Return the speeds as functions of tooth counts, of which equal planets share one.
 
-    Equal planets share one tooth count.
+    The result is None if no link is driven, no tooth count is known, or the formulas would be too large.
     """
     declared, unfolded = train.declaration, train.unfolded
     case = declared.case(state)

@@ -219,7 +219,26 @@ class Engraving:
 
 
 def engrave(scale: DialScale) -> list[Engraving]:
-    """Return all engraved lines of a scale, including the lines of the scale that surrounds it."""
+    """Return all engraved lines of the scale of a dial, including the lines of a scale that surrounds it.
+
+    Parameters
+    ----------
+    scale : DialScale
+        Scale of a dial, such as `Scene.dials[0].scale`.
+
+    Returns
+    -------
+    list of Engraving
+        Rims, borders of cells and letters, each with its line width and its polylines, in units of the dial's radius.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> from geartrain.scene import make_scene
+    >>> dials = make_scene(geartrain.load("longcase-clock")).dials
+    >>> sorted({part.kind for part in engrave(dials[0].scale)})
+    ['bold', 'fine', 'letters', 'rim']
+    """
     found = [*(_spiral(scale) if scale.turns > 1 else _circle(scale))]
     if scale.around is not None:
         found += engrave(scale.around)

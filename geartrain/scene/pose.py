@@ -48,11 +48,34 @@ def turns_of(speed: str | None, turns: Fraction) -> Fraction:
 
 
 def scene_pose(scene: Scene, turns: Fraction = Fraction(0)) -> ScenePose:
-    """Return the pose of a scene after `turns` turns of the driving link.
+    """Return the positions of all bodies of a scene, with exact mean angles and the errors of teeth and pins.
 
-    Mean angles are exact, and errors of teeth and pins are computed from the scene's tables.
+    Parameters
+    ----------
+    scene : Scene
+        Scene of a train, from `make_scene` or `build_scene`.
+    turns : Fraction
+        Revolutions of the driving link from the start.
 
-    Raise `RangeError` if the iteration for pairs that depend on each other does not converge.
+    Returns
+    -------
+    ScenePose
+        Angles of the bodies [rad], and their rotation matrices and displacements [mm] from the zero pose.
+
+    Raises
+    ------
+    RangeError
+        If the iteration for pairs that depend on each other does not converge.
+
+    Examples
+    --------
+    The sun drives the carrier with the ratio 2/7.
+
+    >>> import geartrain
+    >>> from geartrain.scene import make_scene
+    >>> pose = scene_pose(make_scene(geartrain.load("planetary-24-18-60")), Fraction(7, 4))
+    >>> [round(float(angle), 4) for angle in pose.angles][-1]
+    3.1416
     """
     error = body_errors(scene, turns)
     angles = np.array(

@@ -22,9 +22,7 @@ from sampling import few_or_many
 from strategies import driven_trains, requested_trains, rerooted
 
 from geartrain import GearTrain, load
-from geartrain.scene import Scene, make_scene
-from geartrain.scene.dial_scale import engrave
-from geartrain.scene.pose import scene_pose
+from geartrain.scene import Scene, engrave, make_scene, scene_pose
 
 SAMPLE = few_or_many(20, 40)  # `--slow` draws new trains, and twice as many
 SHIPPED = [

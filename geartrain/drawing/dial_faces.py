@@ -267,7 +267,7 @@ def _draw_pointer(
 
 
 def _reading_text(pointer: Pointer, reading: PointerReading, face: DialPicture, usual: str) -> str:
-    """Return a text with an output's name, position and reading, and its sense of rotation if it is not `usual`."""
+    """Return the name, position and reading of an output as text, and its sense of rotation if it is not `usual`."""
     if reading.turned is None:
         return f"{pointer.output}: undetermined"
     scale = face.scale

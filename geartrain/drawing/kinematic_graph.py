@@ -243,7 +243,7 @@ class _Traces:
         return cls(points, steps * [_EDGE_STYLES[edge.kind][0] for edge in edges])
 
     def hidden(self, box: Box, own: int | None = None) -> float:
-        """Return the inked area that a box with a margin would hide, without that of the edge with the index `own`."""
+        """Return the inked area that a box with a margin would hide, not counting the edge with the index `own`."""
         inside = (np.abs(self.points - box[:2]) < np.array(box[2:]) / 2 + _EDGE_MARGIN).all(2).sum(1)
         ink = inside * self.ink
         return float(ink.sum() - (0.0 if own is None else ink[own]))

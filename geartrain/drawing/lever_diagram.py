@@ -36,7 +36,7 @@ from geartrain.numerics.exact import decimal, fraction_text, is_short
 
 
 class Point(NamedTuple):
-    """Point of a lever: its abscissa, its members, their closed brakes and clutches, and its speed or None."""
+    """Point of a lever: its abscissa, its links, their closed brakes and clutches, and its speed (None if unknown)."""
 
     x: Fraction
     links: list[str]
@@ -127,7 +127,7 @@ def _label_width(text: str) -> float:
 
 
 def _heading(train: GearTrain, answer: Answer, first: bool) -> str:
-    """Return the heading of a state: name, closed elements, unit for the first state, and any faulty verdict."""
+    """Return a state's heading: its name, closed elements, the unit (first state only), and its verdict if faulty."""
     said = [] if answer.state is None else [f"state {answer.state}"]
     if closed := train.kinematics.cases[answer.state].engaged:
         said[-1:] = [f"{said[-1]}: {', '.join(closed)} closed"]
@@ -168,7 +168,7 @@ def _marks(train: GearTrain, state: str | None) -> dict[str, str]:
 
 
 def _points(train: GearTrain, lever: Lever, answer: Answer) -> list[Point]:
-    """Return the points of a lever by abscissa, with an own point for the carrier and speeds in its sense."""
+    """Return the points of a lever from left to right, with speeds in the positive sense of the carrier."""
     own, marks = train.kinematics.signs.get(lever.carrier, 1), _marks(train, answer.state)
     ordered = sorted(lever.abscissae.items(), key=lambda item: item[1])
     found: list[Point] = []

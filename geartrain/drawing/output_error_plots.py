@@ -163,7 +163,7 @@ def _trace(motion: Motion, run: MotionRun, on_done: Callable[[int], None]) -> _T
 
 
 def _thinned(error: Floats, speed: Floats, bins: int) -> NDArray[np.intp]:
-    """Return the indices of positions to draw: the first and the extremes of error and speed of each bin, reversals."""
+    """Return the indices of the positions to draw: all reversals, and the extremes of both curves in each bin."""
     turning = np.flatnonzero(np.diff(np.signbit(speed)))[:_POINTS]
     extremes = (kept_extremes(values, 3 * bins) for values in (error, speed))
     return np.unique(np.concatenate([*extremes, turning, turning + 1]))
@@ -221,7 +221,7 @@ def _speed(panel: Axes, trace: _Trace) -> None:
 
 
 def _curve(panel: Axes, trace: _Trace, whole: Floats, first: Floats) -> tuple[Floats, Floats]:
-    """Plot a curve, or the beginning of a curve that would fill its panel, and return its abscissae and values."""
+    """Plot a curve, or only its beginning if its oscillations would merge. Return the plotted points as (x, y)."""
     turns, values = trace.turns, whole
     # the total variation over the range is twice the number of oscillations
     if np.abs(np.diff(whole)).sum() > _TURNING_POINTS * np.ptp(whole):

@@ -170,7 +170,7 @@ def _lines(parameters: dict[str, Floats], columns: dict[str, Floats], verdicts: 
 
 
 def _panels(columns: dict[str, Floats]) -> dict[str, dict[str, Floats]]:
-    """Return the columns of each panel, by panel, in which the minimum and maximum of a quantity share a panel.
+    """Return the columns of each panel, by panel. The minimum and the maximum of a quantity share a panel.
 
     Columns without a default panel are included only if no other columns are given.
     """
@@ -210,7 +210,7 @@ def _band_styles(verdicts: Texts) -> dict[str, dict[str, Any]]:
 
 
 def _bands(x: Floats, verdicts: Texts) -> Iterator[tuple[float, float, str]]:
-    """Yield the start, end and verdict of each interval of x with one verdict, which end halfway between samples."""
+    """Yield each interval of x with one verdict: its start and its end, halfway between samples, and the verdict."""
     edges = np.concatenate((x[:1], (x[1:] + x[:-1]) / 2, x[-1:]))
     changes = (np.flatnonzero(verdicts[1:] != verdicts[:-1]) + 1).tolist()
     for start, end in zip([0, *changes], [*changes, len(x)], strict=True):

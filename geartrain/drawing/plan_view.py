@@ -411,9 +411,7 @@ class _PlanSize:
 def _names(
     projected: ProjectedScene, plan: _PlanSize, labels: bool
 ) -> tuple[list[tuple[SceneWheel, Box]], CalloutMargin]:
-    """Return the names on wheels and the names next to the plan. Positions are in inches relative to the origin of the
-    train.
-    """
+    """Return the names on wheels and the names next to the plan, in inches from the origin of the train."""
     written: list[tuple[SceneWheel, Box]] = []
     callouts: list[Callout] = []
     facing = [wheel for wheel in from_below(projected)[::-1] if projected.faces(wheel)] if projected.flat else []

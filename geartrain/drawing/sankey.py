@@ -174,7 +174,7 @@ _BACK = 1.1  # maximum height of all return bands together
 
 
 def collapsed(flow: PowerFlow) -> tuple[dict[PowerNode, Fraction], list[PowerStream]]:
-    """Return the losses by node, and the streams, with a loss of its shaft for each bearing fed by only one shaft."""
+    """Return the losses by node, and the streams, with each bearing that only one shaft feeds merged into the shaft."""
     gives = {stream.source for stream in flow.streams}
     takers: dict[PowerNode, list[PowerNode]] = {}
     for stream in flow.streams:
@@ -190,7 +190,7 @@ def collapsed(flow: PowerFlow) -> tuple[dict[PowerNode, Fraction], list[PowerStr
 
 
 def direct(streams: Sequence[PowerStream]) -> tuple[list[PowerStream], list[PowerStream]]:
-    """Return forward streams without loops, and return streams: one purely circulating stream of each loop."""
+    """Return the streams without loops, and the circulating streams that were removed from them, one for each loop."""
     import networkx as nx
 
     # depth-first search from the inputs, the largest stream of a node first: the last stream closes its loop

@@ -121,7 +121,7 @@ def axis_in(train: GearTrain, axis_of: dict[str, str], link: str, carrier: str) 
 
 
 def find_planes(train: GearTrain) -> list[list[Circuit] | str]:
-    """Return groups of meshes that share wheels, and names of brakes and clutches, with those of each link together."""
+    """Return groups of meshes that share wheels, and names of brakes and clutches; those of one link are adjacent."""
     circuits = {circuit.id: circuit for circuit in train.circuits}
     by_wheel: dict[str, list[str]] = {}
     for circuit in train.circuits:
@@ -214,7 +214,7 @@ def _free_column(
     axis_of: dict[str, str],
     row: dict[str, int],
 ) -> int:
-    """Return the first column in which a mesh hides no other mesh (a ring occupies two), and add it to `taken`."""
+    """Return the index of the first column in which a mesh hides no other (a ring occupies two); add it to `taken`."""
     one, other = (row[axis_in(train, axis_of, link, circuit.carrier)] for link in (circuit.i, circuit.j))
     low, high = float(min(one, other)), float(max(one, other))
     ring = ring_of(train, circuit)

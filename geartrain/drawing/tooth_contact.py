@@ -153,7 +153,7 @@ class ToothPairPose:
 
 
 def tooth_pair_pose(transmission: TriangularTransmission, alpha1: float | None = None) -> ToothPairPose:
-    """Return the pose in which a tooth of the driver is at `alpha1` [rad], by default amid the first contact."""
+    """Return the pose with a driver tooth at `alpha1` [rad], by default the middle of the first interval of contact."""
     if alpha1 is None:
         interval = transmission.intervals[0]
         x = (interval.start + interval.end) / 2

@@ -236,7 +236,7 @@ def _body(stage: SceneContext, link: str) -> SceneBody:
 
 
 def find_profiles(stage: SceneContext) -> tuple[dict[str, ToothProfile], tuple[Problem, ...]]:
-    """Return the profile of every wheel, by name, nominal if it cannot be cut as declared, and notices with reasons."""
+    """Return each wheel's profile, nominal if its teeth cannot be cut as declared, and a notice of each reason."""
     toothed = find_train_teeth(stage.train.mechanics, stage.layout.wheels)
     cut = {
         wheel: ToothProfile(each.form, each.section(), each.kind == "pins")

@@ -82,7 +82,7 @@ _ROUNDS = 4
 
 
 class _Mounting:
-    """Angles of wheels at which their teeth mesh: `turns` [rad], about the body's direction, from the reference."""
+    """Finds `turns`, the angles [rad] by which wheels turn from the reference position so that their teeth mesh."""
 
     def __init__(self, stage: SceneContext, moved: MovementStart) -> None:
         self.stage, self.moved = stage, moved
@@ -109,7 +109,7 @@ class _Mounting:
             self.turns.setdefault(wheel, as_placed(stage, wheel))
 
     def _spread(self, first: Circuit) -> None:
-        """Rotate into mesh, by breadth-first search, all wheels without an angle that meshes connect with a pair."""
+        """Rotate all wheels that meshes connect with the pair `first` into mesh, by breadth-first search."""
         if any(wheel in self.turns for wheel in first.wheels):
             return
         at, setting = self._driver(first), self.moved.driving.get(first.id)
@@ -131,7 +131,7 @@ class _Mounting:
                     queue.append(mate)
 
     def _mesh(self, circuit: Circuit, own: int) -> None:
-        """Rotate the mate of a wheel into mesh with this wheel, which has the index `own` in the pair and an angle."""
+        """Rotate one wheel of a pair into mesh with the wheel of index `own` (0 or 1), whose angle is known."""
         position = driving = self._position(circuit, own)
         if own == self._driver(circuit):
             self._set(circuit, 1 - own, position + self._ahead(circuit, position))
@@ -184,7 +184,7 @@ class _Mounting:
         return 0 if mesh is None else circuit.wheels.index(mesh.driver)
 
     def _position(self, circuit: Circuit, at: int) -> float:
-        """Return the position of the first tooth of a wheel with an angle, forwards from the contact [pitches]."""
+        """Return how far the first tooth of the wheel with index `at` has passed the contact of a pair [pitches]."""
         wheel = circuit.wheels[at]
         return self._way(circuit, at) * (self.turns[wheel] - self._zero(circuit, at)) / self._pitch(wheel)
 
@@ -236,7 +236,7 @@ def find_count_formulas(
     wheels: Sequence[SceneWheel],
     pointers: Sequence[Pointer],
 ) -> SceneFormulas | None:
-    """Return the speeds as functions of tooth counts, of which equal planets share one.
+    """Return the speeds as functions of tooth counts; equal planets share one count.
 
     The result is None if no link is driven, no tooth count is known, or the formulas would be too large.
     """

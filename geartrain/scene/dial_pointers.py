@@ -323,7 +323,7 @@ def _rounded(u: Vector) -> Vector:
 
 
 def find_pointers(stage: SceneContext, dials: Mapping[Key, DialFace]) -> tuple[Pointer, ...]:
-    """Return a pointer for every output of the state; in the order of declaration, hands on one dial are stacked."""
+    """Return a pointer for every output of the state; hands on one dial are stacked in the order of declaration."""
     paths, keys, taken = find_dependence(stage), tuple(dials), Counter[str]()
     found, spheres = [], 0
     for name in stage.outputs:
@@ -457,7 +457,7 @@ def angles_at_start(
 
 
 def find_targets(stage: SceneContext, output: Output, speed: Fraction | None) -> tuple[PointerTarget, ...]:
-    """Return the target speeds of an output divided by the driving link's speed; `speed` gives a missing sense."""
+    """Return an output's target speeds divided by the driving link's speed; unsigned ones have the sign of `speed`."""
     if stage.driving_link is None or speed is None:
         return ()
     driving_speed = stage.case.inputs[stage.driving_link]

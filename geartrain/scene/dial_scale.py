@@ -291,7 +291,7 @@ def _circle(scale: DialScale) -> Iterator[Engraving]:
 
 
 def _names(scale: DialScale) -> Iterator[Engraving]:
-    """Yield the names, each centred on its divisions, or only every nth name (n = 2 to 6), or none, if they fit."""
+    """Yield the names, each centred on its divisions; where space is limited, only every nth (n up to 6) or none."""
     radius = scale.outer - _BAND
     named = [(_engraved(scale, name), first, span) for name, first, span in scale.names if name]
     # fewer names leave more space for each
@@ -316,7 +316,7 @@ def _fitting(text: str, radius: float, turn: Fraction) -> float:
 def _written(
     scale: DialScale, text: str, radius: float, turn: Fraction, height: float, turned: bool = True
 ) -> Iterator[Stroke]:
-    """Yield the strokes of a text along a circle, inverted below the centre, to be readable, if `turned` is True."""
+    """Yield the strokes of a text along a circle; with `turned`, a text below the centre is inverted to be readable."""
     angle = 2 * pi * float(scale.way * turn)
     return curved_text(text, height, radius, angle, turned and cos(angle) < -0.01)
 
@@ -382,7 +382,7 @@ def _spiral(scale: DialScale) -> Iterator[Engraving]:
 
 
 def _cell_names(scale: DialScale, pitch: float) -> Iterator[Engraving]:
-    """Yield the name of every cell of a spiral on up to three lines, in the first of a group below the group's name."""
+    """Yield the name of every cell of a spiral, on up to three lines, and that of each group in its first cell."""
     starts = {first: name for name, first, _ in scale.names}
     glyphs = dict(scale.glyphs)
     for cell, name in enumerate(scale.cells):

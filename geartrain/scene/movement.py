@@ -202,7 +202,7 @@ class InitialPosition:
     transmission: ToothTransmission
 
     def error_past(self, shift: float) -> float:
-        """Return the minimum error of the driven link [rad] that is clear of a driver `shift` [rad] ahead of phase."""
+        """Return the least error [rad] with which the driven link clears a driver that is ahead by `shift` [rad]."""
         import numpy as np
 
         S = self.transmission.period * np.arange(_TRIED_ERRORS) / _TRIED_ERRORS

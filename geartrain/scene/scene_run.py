@@ -174,7 +174,7 @@ class ShownSamples:
         return LinkCourse(rate, np.array(kept), line[kept])
 
     def states(self, contact: str) -> tuple[Ints, str]:
-        """Return the samples at which a contact changes, and its states as letters; both empty without flanks."""
+        """Return the samples at which a contact's state changes, and its states as letters; empty without flanks."""
         if contact not in self.run.gaps.labels[0]:
             return np.zeros(0, dtype=np.int64), ""
         front, back = (self.of(gaps[contact]) for gaps in (self.run.gaps, self.run.coast_gaps))

@@ -67,7 +67,7 @@ class LiveServer:
         return f"http://{_LOCAL}:{self._sockets[0].getsockname()[1]}/"
 
     def refresh(self) -> None:
-        """Rebuild the pages and increment the version; if the train has errors, keep the pages, store the message."""
+        """Rebuild the pages and increment the version; if the train has errors, keep the pages and store the error."""
         try:
             self.pages, self.error = self.make(), ""
         except GearTrainError as error:

@@ -516,22 +516,13 @@ def test_the_name_of_a_train_never_leads_out_of_the_folder(here: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("path", "said"),
-    [
-        ("", "a folder"),
-        ("folder", "a folder"),
-        ("nowhere/x.svg", "the folder does not exist"),
-        ("x\x07.svg", "not a valid file name"),
-        ("y" * 300 + ".svg", "not a valid file name"),
-        ("/dev/null", "this is a device"),
-    ],
+    ("path", "said"), [("nowhere/x.svg", "the folder does not exist"), ("x\x07.svg", "not a valid file name")]
 )
 @pytest.mark.parametrize("force", [False, True])
 def test_what_cannot_be_a_file_is_refused_with_a_reason_and_a_way_out(
     here: Path, path: str, said: str, force: bool
 ) -> None:
-    (here / "folder").mkdir()
-    found = call("draw", "four-gear-loop", "-o", path or ".", *["--force"] * force).exception
+    found = call("draw", "four-gear-loop", "-o", path, *["--force"] * force).exception
     assert isinstance(found, GearTrainError)
     assert said in str(found)
     (problem,) = found.problems

@@ -90,8 +90,8 @@ def struck(words: Text, marks: Iterable[Bbox]) -> list[Bbox]:
     ("name", "kind", "part", "count"),
     [
         ("longcase-clock", "stick", "teeth", 2 * 5 + 1),  # the escape wheel meets no other
-        # of the moving links, `b`, mars, jupiter and saturn turn in the frame, and carriers carry 14 others
-        ("carman-thorndike-evans-2012", "stick", "bearing", 0),
+        # of the moving links, `b`, mars, jupiter and saturn turn in the frame, and carriers carry 6 others
+        ("carman-thorndike-evans-2012", "stick", "bearing", 2 * (4 + 6)),
         ("rv-reducer", "plan", "pin ", 0),
         ("cycloidal-reducer", "plan", "pin ", 0),
         ("freeth-2008", "plan", "pin ", 0),

@@ -164,12 +164,8 @@ def test_everything_stands_as_before_after_the_period() -> None:
 def test_a_loop_of_real_teeth_moves_in_the_mean_and_says_why() -> None:
     loop = """
 links: {frame: {}, a: {wheels: {wa: 20}}, b: {wheels: {wb: 30}}, c: {wheels: {wc: 40}}, d: {wheels: {wd: 50}}}
-revolutes:
-  - {pair: [frame, a], axis: A}
-  - {pair: [frame, b], axis: B}
-  - {pair: [frame, c], axis: C}
-  - {pair: [frame, d], axis: D}
-gears: [{pair: [wa, wb]}, {pair: [wb, wc]}, {pair: [wc, wd]}, {pair: [wd, wa]}]
+revolutes: {A: [frame, a], B: [frame, b], C: [frame, c], D: [frame, d]}
+gears: [wa ~ wb, wb ~ wc, wc ~ wd, wd ~ wa]
 tooth_form: {form: triangular, half_angle: 30 deg, clearance_factor: 1.01}
 inputs: {a: 1}
 """
@@ -326,13 +322,7 @@ links:
   d: {{wheels: {{v: 25}}}}
   e: {{wheels: {{x: 22}}}}
   f: {{wheels: {{y: 30}}}}
-revolutes:
-  - {{pair: [frame, a], axis: A}}
-  - {{pair: [frame, b], axis: B}}
-  - {{pair: [frame, c], axis: C}}
-  - {{pair: [frame, d], axis: D}}
-  - {{pair: [frame, e], axis: E}}
-  - {{pair: [frame, f], axis: F}}
+revolutes: {{A: [frame, a], B: [frame, b], C: [frame, c], D: [frame, d], E: [frame, e], F: [frame, f]}}
 gears:
   - {{pair: [p, q], phase: {0}}}
   - {{pair: [s, r], phase: {1}}}

@@ -324,7 +324,7 @@ def _stretches(train: GearTrain) -> dict[str, Fraction]:
 
 
 def _dial_centres(declared: Train, tree: Tree, front: int) -> Iterator[tuple[str, str, Vector]]:
-    """Yield the dials of the frame with a declared centre, as in `DeclaredGeometry.centres`."""
+    """Yield each dial in the frame whose centre is declared: its name, the axis of its pointer, and its centre [mm]."""
     for case in declared.cases:
         for name, output in case.outputs.items():
             dial = declared.dials.get(output.dial or "")

@@ -390,7 +390,7 @@ class _Placing:
                 yield each, point
 
     def _fixed(self, parallels: Parallels, determined: Sequence[tuple[CrossingSide, Vector]]) -> dict[str, Point]:
-        """Return the points in the plan of the axes that cannot move, or points chosen for some axes, by axis [mm]."""
+        """Return points in the plan for the axes that cannot move, or for some axes if all can move, by axis [mm]."""
         fixed = {line.label: parallels.flat(line.given) for line in parallels.lines if line.given is not None}
         for each, point in determined:
             fixed.setdefault(each.side.axis, parallels.flat(point))
@@ -405,7 +405,7 @@ class _Placing:
         return dict.fromkeys(self._collinear(parallels) or driven or labels[:1], (0.0, 0.0))
 
     def _collinear(self, parallels: Parallels) -> list[str]:
-        """Return the axes that coincide, as they intersect the same crossing axes or mesh with one crossing wheel."""
+        """Return coincident axes: those that intersect the same crossing axes or mesh with one crossing wheel."""
         met: dict[str, set[int]] = {label: set() for label in parallels.index}
         mates: dict[str, list[str]] = {}
         for each in self.geometry.crossing:

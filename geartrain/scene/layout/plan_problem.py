@@ -116,7 +116,7 @@ def _chosen_distances(
 def _rows(
     declared: DeclaredGeometry, parallels: Parallels, crossing: Sequence[CrossingSide]
 ) -> Iterator[tuple[tuple[str, str], Point]]:
-    """Yield pairs of axes that both intersect a third axis, each with the unit vector of the third axis in the plan."""
+    """Yield pairs of parallel axes that intersect the same third axis, and the third axis's unit vector in the plan."""
     met: dict[str, list[str]] = {}
     for each in crossing:
         if each.contact.kind != "screw":

@@ -170,7 +170,7 @@ class PlanOrder:
         self.steps = self._find_steps(fixed)
 
     def _find_alike(self, fixed: set[int]) -> Iterable[Sequence[Sequence[int]]]:
-        """Return lists of equal groups of axes on one carrier, which bars connect to each other and to its axis."""
+        """Return lists of equal groups of axes on one carrier; bars join each group only to the axis of the carrier."""
         carried = [at for at in self.pivot if at not in fixed]
         bars = [bar[:2] for bar in self.bars if self.pivot.get(bar[0]) != bar[1] and self.pivot.get(bar[1]) != bar[0]]
         alike: dict[tuple[object, ...], list[list[int]]] = {}
@@ -207,7 +207,7 @@ class PlanOrder:
         return found
 
     def _rank(self, at: int, placed: set[int]) -> tuple[bool, int, float]:
-        """Return the rank of an axis: after its carrier, most placed neighbours first, then by radius or bars."""
+        """Return an axis's sort key: after its carrier, by number of placed neighbours, then by radius or bars."""
         late = at in self.pivot and self.pivot[at] not in placed
         tied = len(self._joined[at].keys() & placed)
         weight = float(self.radius[at]) if tied else float(len(self._joined[at]))
@@ -404,7 +404,7 @@ class _BeamSearch:
         return []
 
     def _rotated(self, step: PlanStep, points: Floats) -> list[Point]:
-        """Return the point of an axis in a copied group of planets: that in the first group, rotated; else empty."""
+        """Return the point of an axis in a repeated group of planets; return an empty list for any other axis."""
         first, turn = self.order.rotated.get(step.axis, (None, 0.0))
         placed = set(step.placed.tolist())
         if first not in placed or self.order.pivot[step.axis] not in placed:

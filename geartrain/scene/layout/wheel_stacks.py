@@ -110,7 +110,7 @@ class _OrderSearch:
 
     @cached_property
     def order(self) -> list[int]:
-        """Stacks in order of placing: the one with the most arbors, then those that share most with earlier ones."""
+        """Order in which stacks are placed: most arbors first, then most arbors shared with stacks already placed."""
         score = np.array([len(arbors) for arbors in self.bearing], float)
         weight = float(score.sum()) + 1  # one shared arbor outweighs any number of others
         order: list[int] = []
@@ -186,7 +186,7 @@ class _OrderSearch:
         return np.asarray(_PIERCED * pierced + _LONG * span.astype(float) + _LEVEL * levels, float)
 
     def _interleaved(self, keys: NDArray[np.float32], low: NDArray[np.float32], high: NDArray[np.float32]) -> Floats:
-        """Return, for each order, the number of pairs of coaxial arbors that interleave, so that neither is a pipe."""
+        """Return, for each order, the number of coaxial pairs of arbors, each with a stack between the other's ends."""
         arbor, stack, starts = self._coaxial
         if not len(starts):
             return np.zeros(keys.shape[1])
@@ -216,7 +216,7 @@ class _OrderSearch:
 
     @cached_property
     def _coaxial(self) -> tuple[Indices, Indices, Indices]:
-        """Rows (arbor, stack of a coaxial arbor) for all ordered pairs: arbors, stacks, first row of each pair."""
+        """Pairs of an arbor and a stack of a coaxial arbor: the arbors, the stacks, first index of each arbor pair."""
         rows, starts = list[tuple[int, int]](), list[int]()
         for about in self._hubs.values():
             for one, other in combinations(about, 2):

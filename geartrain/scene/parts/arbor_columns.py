@@ -172,7 +172,7 @@ class ColumnProblem:
         return [AxisBearing.THROUGH]
 
     def _ordered(self, places: FramePlaces) -> tuple[tuple[CoaxialLink, ...], tuple[str, str] | None]:
-        """Return the pieces from the innermost outwards, and two links that cannot be nested; None if all can."""
+        """Return the pieces from the innermost outwards, and two links that cannot be nested (None if all can)."""
         if not self._fixed_discs:
             return self._turning_order
         middle = (self._fixed_discs[0].low + self._fixed_discs[-1].high) / 2
@@ -217,7 +217,7 @@ class ColumnProblem:
         return sorted((disc for disc in self.discs if disc.hub and disc.link == self.frame), key=lambda disc: disc.low)
 
     def _fixed_pieces(self, plates: Sequence[tuple[float, float]]) -> Iterator[list[CoaxialLink]]:
-        """Yield the possible sets of pieces that hold the fixed wheels: one piece, or two, one of them at its plate."""
+        """Yield the possible sets of pieces that hold the fixed wheels, one or two pieces, each fixed in a plate."""
         own = self._fixed_discs
         yield from ([self._fixed_piece(own, plate)] for plate in plates)
         hubs = [height for each in self._turning_pieces for height in each.hubs]
@@ -333,9 +333,9 @@ class CoaxialLink:
 
 
 def nested(links: Sequence[CoaxialLink]) -> tuple[tuple[CoaxialLink, ...], tuple[str, str] | None]:
-    """Return the links from the innermost outwards (topological order), and None.
+    """Return pieces of coaxial links from the innermost outwards (topological order), and None.
 
-    If no such order exists, return the links as given, and the names of two links that cannot be nested.
+    If no such order exists, return the pieces as given, and the names of two links that cannot be nested.
     """
     # a piece that covers a hub of another one cannot be a pipe around it
     around = [

@@ -145,7 +145,7 @@ def carried_columns(
 
 
 def _stepped(near: AxisColumn, far: AxisColumn, others: Sequence[StackDisc]) -> tuple[AxisColumn, AxisColumn]:
-    """Return the columns of two axes, in which the stud of `far` starts at the end of the stud of `near`."""
+    """Return both columns, changed so that the stud of `far` starts at the end of the stud of `near`."""
     if max(each.high for each in far.members) > max(each.high for each in near.members):
         end = max(each.high for each in near.members) + SHAKE / 2
         near, far = replace(near, high=end, topped=True), replace(far, low=end, on=near.axis)

@@ -416,7 +416,7 @@ class FramePlan:
         return replace(self.stack, layout=self.layout).across
 
     def across(self, low: float, high: float) -> list[tuple[Point, float]]:
-        """Return circles (centre and radius [mm]) around the wheels between two heights whose axes are not upright."""
+        """Return circles (centre and radius [mm]) around those wheels on inclined axes that are between two heights."""
         return [circle for wheel in self.wheels_across if wheel.is_between(low, high) for circle in wheel.circles]
 
     @cached_property

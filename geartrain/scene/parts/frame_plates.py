@@ -251,7 +251,7 @@ class FramePlates:
     # ---------------------------------------------------------------------------------------------- pillars and posts
 
     def turned(self) -> Iterator[TurnedPart]:
-        """Yield all turned parts: parts of axes, sleeves, barrels, washers, cup walls, pillars, posts, pins, feet."""
+        """Yield all turned parts: rods, sleeves, barrels, washers, walls of cups, pillars, posts, pins and feet."""
         plan = self.plan
         for column in plan.columns:
             bridged = column.bearing is AxisBearing.BRIDGE and plan.bridge is not None

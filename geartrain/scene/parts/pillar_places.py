@@ -124,7 +124,7 @@ def ring_posts(plan: FramePlan) -> tuple[TurnedPart, ...]:
         if disc.hub:
             continue
         if disc.link == plan.stack.frame:
-            found += _posts(plan, disc, nearer_plate(plan, disc.middle))
+            found += _posts(plan, disc)
         elif disc.name in discs:
             wall = Band(*_between(disc, plan.heights.plates[discs[disc.name]]), disc.outer, disc.root)
             found.append(TurnedPart(disc.link, f"{disc.name} drum", "drum", disc.at, (wall,), plan.process.joint))
@@ -141,26 +141,21 @@ def _between(ring: StackDisc, plate: tuple[float, float]) -> tuple[float, float]
     return (plate[1], ring.low) if plate[1] < ring.low else (ring.high, plate[0])
 
 
-def _posts(plan: FramePlan, ring: StackDisc, plate: tuple[float, float]) -> Iterator[TurnedPart]:
-    """Yield the posts of one ring in a frame plate, placed with clearance from other parts."""
-    radius = min(_RIM_PART / TENON * (ring.outer - ring.root), _POST_WIDEST)
-    spots = _spots(plan, ring, plate, (ring.outer + ring.root) / 2, radius)
+def _posts(plan: FramePlan, ring: StackDisc) -> Iterator[TurnedPart]:
+    """Yield three equally spaced posts of a ring in the nearer frame plate, with clearance from other parts."""
+    plate, radius = nearer_plate(plan, ring.middle), min(_RIM_PART / TENON * (ring.outer - ring.root), _POST_WIDEST)
+    start, end = sorted((sum(plate) / 2, ring.middle))
+    between = [disc for disc in plan.discs if start < disc.middle < end and disc.name != ring.name]
     low, high, inner = min(plate[0], ring.low), max(plate[1], ring.high), _between(ring, plate)
+    circles = [swept_circle(disc) for disc in between]
+    circles += [(column.at, column.radius(low, high)) for column in plan.columns]
+    away = (ring.outer + ring.root) / 2
+    tried = [evenly(ring.at, away, _POSTS, 2 * pi * k / _TRIED / _POSTS) for k in range(_TRIED)]
+    # clearance above 0.5 mm does not matter: the first such rotation is used, so that the result is stable
+    spots = max(tried, key=lambda spots: min(0.5, *(clear_of(at, circles) - radius for at in spots)))
     for number, at in enumerate(spots, 1):
         bands = Band(low, inner[0], radius * TENON), Band(*inner, radius), Band(inner[1], high, radius * TENON)
         yield TurnedPart(ring.link, f"{ring.name} post {number}", "post", at, bands, plan.process.joint, (ring.name,))
-
-
-def _spots(plan: FramePlan, ring: StackDisc, plate: tuple[float, float], away: float, radius: float) -> list[Point]:
-    """Return three equally spaced positions on a rim with the maximum clearance from other parts, up to 0.5 mm."""
-    low, high = sorted((sum(plate) / 2, ring.middle))
-    between = [disc for disc in plan.discs if low < disc.middle < high and disc.name != ring.name]
-    circles = [swept_circle(disc) for disc in between]
-    reach = min(plate[0], ring.low), max(plate[1], ring.high)
-    circles += [(column.at, column.radius(*reach)) for column in plan.columns]
-    tried = [evenly(ring.at, away, _POSTS, 2 * pi * k / _TRIED / _POSTS) for k in range(_TRIED)]
-    # more than 0.5 mm does not matter: the first such rotation is used, so that the result is stable
-    return max(tried, key=lambda spots: min(0.5, *(clear_of(at, circles) - radius for at in spots)))
 
 
 def blocked_posts(plan: FramePlan, posts: Iterable[TurnedPart]) -> Iterator[Problem]:

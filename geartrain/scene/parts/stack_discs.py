@@ -180,14 +180,14 @@ def _is_inside(line: Floats, point: Floats) -> bool:
 
 
 def _notched(line: Floats, start: float, width: float) -> Floats:
-    """Return a closed counter-clockwise line with a notch beyond x = `start`, up to `width` from the x axis."""
+    """Return a closed counter-clockwise line with a notch where x > `start` and y is between -`width` and `width`."""
     (last, below), (first, above) = (_exit(line, level, start) for level in (-width, width))
     order = (first + 1 + np.arange((last - first - 1) % len(line) + 1)) % len(line)
     return np.vstack([above, line[order], below, [[start, -width], [start, width]]])
 
 
 def _exit(line: Floats, level: float, start: float) -> tuple[int, Floats]:
-    """Return the first edge beyond x = `start` that crosses y = `level`: index of its first point, intersection."""
+    """Return the index of the first edge beyond x = `start` that crosses y = `level`, and the intersection."""
     after = np.roll(line, -1, axis=0)
     crossing = np.flatnonzero((line[:, 1] < level) != (after[:, 1] < level))
     a, b = line[crossing], after[crossing]

@@ -211,64 +211,45 @@ def wheel_ends(scene: Scene, at: int) -> tuple[float, float] | None:
 def _brackets(
     scene: Scene, plan: FramePlan, sides: Mapping[str, tuple[float, float]], at: int, radius: float
 ) -> Iterator[Bracket]:
-    body, ends = scene.bodies[at], wheel_ends(scene, at)
+    """Yield the brackets of an arbor, at both ends or at the end nearer to the middle of the train."""
+    body, ends, stack = scene.bodies[at], wheel_ends(scene, at), plan.stack
     if ends is None:
         return
-    middle = np.mean([plan.stack.in_space(column.at) for column in plan.columns], axis=0)
-    centre = float((middle - np.array(body.point)) @ np.array(body.direction))
+    along, normal = np.array(body.direction), np.array(stack.normal)
+    middle = np.mean([stack.in_space(column.at) for column in plan.columns], axis=0)
+    centre = float((middle - np.array(body.point)) @ along)
     low, high = ends
     faces = {1: high + _ROOM, -1: low - _ROOM}
+    places = {way: np.array(body.point) + (face + way * plan.thickness / 2) * along for way, face in faces.items()}
+    best = {way: _best_plate(plan, place, sides) for way, place in places.items()}
     ways = [way for way, inner in ((1, high > centre - _FLAT), (-1, low < centre + _FLAT)) if inner]
     if len(ways) == 1:  # on the inner side, unless wheels obstruct it there
-        ways = [min(ways[0], -ways[0], key=lambda way: _best_plate(plan, body, faces[way], way, sides)[0])]
+        ways = [min(ways[0], -ways[0], key=lambda way: best[way][0])]
+    aside = np.cross(body.direction, normal)
+    turn, edge = np.column_stack([normal, aside, body.direction]), radius + LAND
     for way in ways:
-        yield _bracket(scene, plan, sides, at, faces[way], way, radius)
+        place, side = places[way], best[way][1]
+        height, foot = float(place @ normal), stack.flat(tuple(place.tolist()))
+        away = max(sides[side], key=lambda each: abs(each - height)) - height
+        down = max(abs(away) - edge, 0.0) * (1 if away > 0 else -1)
+        cut = around([(0.0, 0.0), (down, 0.0)], edge), Contour.circle(radius + plan.process.running / 2)
+        name = f"{body.id} bracket" + (" 2" if way < 0 else "")
+        mortise = Passage(foot, stack.flat(tuple(aside.tolist())), edge, (plan.thickness + plan.process.press) / 2)
+        part = SolidPart(_frame(scene, plan), name, "plate", turn, place, "", cut, plan.thickness)
+        yield Bracket(at, faces[way] + way * plan.thickness, side, mortise, part)
 
 
-def _best_plate(
-    plan: FramePlan, body: SceneBody, face: float, way: int, sides: Mapping[str, tuple[float, float]]
-) -> tuple[int, float, str]:
-    """Return the best plate for a bracket: the number of wheels in front of it, its distance [mm], and its name."""
-    place, stack = _middle(plan, body, face, way), plan.stack
-    height, foot = float(place @ np.array(stack.normal)), stack.flat(tuple(place.tolist()))
+def _best_plate(plan: FramePlan, place: Floats, sides: Mapping[str, tuple[float, float]]) -> tuple[int, str]:
+    """Return the number of wheels between a bracket at `place` and the best plate for it, and the plate's name."""
+    height, foot = float(place @ np.array(plan.stack.normal)), plan.stack.flat(tuple(place.tolist()))
 
-    def cost(side: str) -> tuple[int, float, str]:
+    def cost(side: str) -> tuple[int, float]:
         low, high = sorted((height, sum(sides[side]) / 2))
         wheels = [swept_circle(disc) for disc in plan.discs if disc.low < high and low < disc.high]
-        return sum(dist(foot, middle) < reach for middle, reach in wheels), high - low, side
+        return sum(dist(foot, middle) < reach for middle, reach in wheels), high - low
 
-    return min(map(cost, sides), key=lambda each: each[:2])
-
-
-def _middle(plan: FramePlan, body: SceneBody, face: float, way: int) -> Floats:
-    """Return the centre of a bracket in space [mm], on the axis that it supports."""
-    return np.array(body.point) + (face + way * plan.thickness / 2) * np.array(body.direction)
-
-
-def _bracket(
-    scene: Scene,
-    plan: FramePlan,
-    sides: Mapping[str, tuple[float, float]],
-    at: int,
-    face: float,
-    way: int,
-    radius: float,
-) -> Bracket:
-    """Return the bracket at one end of an arbor, on the best plate."""
-    body, stack = scene.bodies[at], plan.stack
-    place, normal = _middle(plan, body, face, way), np.array(stack.normal)
-    height, foot, edge = float(place @ normal), stack.flat(tuple(place.tolist())), radius + LAND
-    _, _, side = _best_plate(plan, body, face, way, sides)
-    away = max(sides[side], key=lambda each: abs(each - height)) - height
-    down = max(abs(away) - edge, 0.0) * (1 if away > 0 else -1)
-    hole = Contour.circle(radius + plan.process.running / 2)
-    cut = around([(0.0, 0.0), (down, 0.0)], edge), hole
-    name = f"{body.id} bracket" + (" 2" if way < 0 else "")
-    aside = np.cross(body.direction, normal)
-    turn = np.column_stack([normal, aside, body.direction])
-    mortise = Passage(foot, stack.flat(tuple(aside.tolist())), edge, (plan.thickness + plan.process.press) / 2)
-    part = SolidPart(_frame(scene, plan), name, "plate", turn, place, "", cut, plan.thickness)
-    return Bracket(at, face + way * plan.thickness, side, mortise, part)
+    side = min(sides, key=cost)
+    return cost(side)[0], side
 
 
 def _frame(scene: Scene, plan: FramePlan) -> int:

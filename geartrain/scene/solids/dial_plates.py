@@ -258,7 +258,10 @@ def dial_feet(
     plate = plan.places.front if above else plan.places.back
     low, high = (plate[1], faces[0]) if above else (faces[1], plate[0])
     turning = list(_between(plan, low, high))
-    tried = corners or [spot for at, radius in circles for spot in _tried(at, radius)]
+    tried = list(corners)
+    for ((x, y), radius), share, way in product(circles, _SHARES, range(_WAYS) if not corners else ()):
+        away, turn = min(share * radius, radius - FOOT_RADIUS - _EDGE), 2 * pi * (way + 0.5) / _WAYS
+        tried.append((x + away * cos(turn), y + away * sin(turn)))
     free = [spot for spot in tried if clear_of(spot, turning) > FOOT_RADIUS + _GAP]
     spots = far_apart(free, free[0], _MOST) if free else []
     if len(spots) < _FEET or max(dist(one, other) for one, other in combinations(spots, 2)) < circles[0][1]:
@@ -290,12 +293,6 @@ def _reaches(spot: Point, dials: Sequence[tuple[Point, float]], others: Sequence
             at = x + t * (spot[0] - x), y + t * (spot[1] - y)
             minimum = min(minimum, clear_of(at, others) - (radius + t * (FOOT_RADIUS + _EDGE - radius)))
     return minimum
-
-
-def _tried(at: Point, radius: float) -> Iterator[Point]:
-    for share, way in product(_SHARES, range(_WAYS)):
-        away, turn = min(share * radius, radius - FOOT_RADIUS - _EDGE), 2 * pi * (way + 0.5) / _WAYS
-        yield at[0] + away * cos(turn), at[1] + away * sin(turn)
 
 
 def _foot(plan: FramePlan, name: str, at: Point, ends: tuple[tuple[float, float], ...]) -> TurnedPart:

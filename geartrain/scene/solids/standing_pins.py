@@ -101,9 +101,7 @@ def slot_frame(scene: Scene, coupling: SceneCoupling) -> Floats:
 
 
 def holes(scene: Scene, cut: CutCoupling, wheel: str, turn: Floats, place: Floats, process: Process) -> list[Contour]:
-    """Return the holes in a wheel for pins and for a slot, in its own coordinates with rotation `turn` and origin
-    `place`.
-    """
+    """Return a wheel's holes for pins and for a slot, in its coordinates (rotation matrix `turn`, origin `place`)."""
     coupling, thick = cut.coupling, pin_width(cut.coupling)
     found = []
     if cut.pin is not None and wheel == cut.pin.id:

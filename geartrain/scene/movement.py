@@ -202,7 +202,7 @@ class InitialPosition:
     transmission: ToothTransmission
 
     def error_past(self, shift: float) -> float:
-        """Return the least error [rad] with which the driven link clears a driver that is ahead by `shift` [rad]."""
+        """Return the minimum error [rad] with which the driven link clears a driver that leads by `shift` [rad]."""
         import numpy as np
 
         S = self.transmission.period * np.arange(_TRIED_ERRORS) / _TRIED_ERRORS

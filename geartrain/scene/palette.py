@@ -129,6 +129,7 @@ THEMES: dict[ThemeName, Theme] = {
         ),
     ),
 }  # fmt: skip
+"""Themes of drawings and pages, by name."""
 
 
 def series_colour(at: int, theme: ThemeName = "light") -> str:

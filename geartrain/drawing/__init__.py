@@ -1,11 +1,8 @@
 """Static pictures of trains and of results.
 
-The input is a train or a result of another package. The output is a matplotlib figure, which `render` writes as SVG,
-PNG or PDF. The same figure gives the same bytes. `picture` draws a train as a plan to scale, stick diagram, kinematic
-graph, speed diagram or dials, and each other function draws one kind of result. Plots of the results of the optional
-packages are in those packages. Only positions on the page are computed here: the members of a speed diagram are placed
-at the abscissae that their tooth counts determine (docs/theory.md, equations 18 and 19), and the width of a band
-is proportional to its power (docs/torques.md, 7).
+The output is a matplotlib figure, which `render` writes as SVG, PNG or PDF. The same figure gives the same bytes.
+`picture` draws a train, and each other function draws one kind of result. Plots of the results of the optional packages
+are in those packages.
 
 train_pictures        `picture`, which calls one of the next five modules
 plan_view             plan to scale; `projection` puts scenes on a page, from the side or obliquely

@@ -1,9 +1,4 @@
-"""Arrangement of nodes, text and callouts on a page.
-
-Nodes of a graph are ordered so that lines are short (`arrange`), spread along a line (`spread`), or placed at about
-given distances (`settle`: stress majorization). Text is placed in the free rectangles that `LabelSpace` finds. Callouts
-are placed in two columns next to a picture, with lines to the points that they name.
-"""
+"""Arrangement of nodes, text and callouts on a page."""
 
 from __future__ import annotations
 
@@ -84,10 +79,7 @@ def _length(sequence: Sequence[int], ends: Sequence[tuple[int, int]]) -> int:
 
 
 def spread(wanted: Sequence[float], needs: Sequence[float], bounds: tuple[float, float] = (-inf, inf)) -> list[float]:
-    """Return the centres of boxes in a row, close to the wanted centres and in the same order, so that the boxes do not
-    overlap.
-
-    The sum of the squared distances from the wanted centres is minimised.
+    """Return the centres of boxes in a row without overlap, in the order of the wanted centres (least squares).
 
     needs    width of each box
     bounds   interval that contains the boxes if there is enough space
@@ -119,7 +111,15 @@ def settle(items: Sequence[str], pairs: Pairs, lengths: Mapping[tuple[str, str],
     order = {item: at for at, item in enumerate(arrange(items, pairs))}
     angle = [2 * pi * order[item] / count for item in items]
     places = np.array([(cos(each), sin(each)) for each in angle]) * count**0.5
-    wanted = _distances(items, pairs, lengths)
+    far = np.full((count, count), np.inf)
+    np.fill_diagonal(far, 0.0)
+    at = {item: position for position, item in enumerate(items)}
+    for one, other in pairs:
+        i, j = at[one], at[other]
+        length = lengths[one, other] if (one, other) in lengths else lengths[other, one]
+        far[i, j] = far[j, i] = min(far[i, j], length) if i != j else 0.0
+    wanted = floyd_warshall(np.where(np.isfinite(far), far, 0.0))
+    wanted = np.where(np.isfinite(wanted), wanted, 0.0)  # unconnected items do not attract each other
     weights = np.where(wanted > 0, 1 / np.where(wanted > 0, wanted, 1.0) ** 2, 0.0)
     # the Laplacian is singular, as a common translation costs nothing; the pseudoinverse keeps the mean
     inverse = np.linalg.pinv(np.diag(weights.sum(1)) - weights)
@@ -133,21 +133,6 @@ def settle(items: Sequence[str], pairs: Pairs, lengths: Mapping[tuple[str, str],
         np.fill_diagonal(pull, -pull.sum(1))
         places = inverse @ (pull @ places)
     return np.asarray(np.round(places, 4))  # coarser than rounding errors, so that all machines agree
-
-
-def _distances(items: Sequence[str], pairs: Pairs, lengths: Mapping[tuple[str, str], float]) -> Floats:
-    """Return the lengths (n, n) of the shortest paths between items (Floyd-Warshall algorithm); 0 for unconnected
-    items.
-    """
-    at = {item: position for position, item in enumerate(items)}
-    far = np.full((len(items), len(items)), np.inf)
-    np.fill_diagonal(far, 0.0)
-    for one, other in pairs:
-        i, j = at[one], at[other]
-        length = lengths[one, other] if (one, other) in lengths else lengths[other, one]
-        far[i, j] = far[j, i] = min(far[i, j], length) if i != j else 0.0
-    far = floyd_warshall(np.where(np.isfinite(far), far, 0.0))
-    return np.where(np.isfinite(far), far, 0.0)
 
 
 # --------------------------------------------------------------------------------------------------- words on a picture
@@ -178,11 +163,10 @@ def text_box(lines: Sequence[str], size: float, x: float, y: float, weight: str 
 
 @dataclass(slots=True)
 class LabelSpace:
-    """Page on which labels are placed without overlap. The occupied boxes are an array (n, 4) of centres, widths and
-    heights [in].
-    """
+    """Page on which labels are placed without overlap."""
 
     taken: Floats = field(default_factory=lambda: np.zeros((0, 4)))
+    """Centres, widths and heights of the occupied boxes [in]. Shape (n, 4)."""
 
     def free(self, box: Box) -> bool:
         """Return True if a box does not overlap any occupied box."""
@@ -234,9 +218,7 @@ class Callout:
 
 @dataclass(frozen=True, slots=True)
 class CalloutMargin:
-    """Callouts in columns left and right of a picture: the ordinate of each callout and the inner edges of the columns
-    [in].
-    """
+    """Callouts in columns left and right of a picture, each with its ordinate, and inner edges of the columns [in]."""
 
     left: Sequence[tuple[Callout, float]]
     right: Sequence[tuple[Callout, float]]
@@ -274,9 +256,7 @@ class CalloutMargin:
         return CalloutMargin(left, right, (self.edges[0] + x, self.edges[1] + x))
 
     def draw(self, axes: Axes) -> None:
-        """Draw the text of the callouts, the leader lines, each with a dot at the named point, and a bar next to each
-        list.
-        """
+        """Draw the text of the callouts, leader lines with a dot at the named point, and a bar next to each list."""
         for side, edge, ha, step in ((self.left, self.edges[0], "right", -1), (self.right, self.edges[1], "left", 1)):
             for each, y in side:
                 axes.plot([edge, each.anchor[0]], [y, each.anchor[1]], **_THIN)
@@ -308,10 +288,13 @@ def find_margin(callouts: Sequence[Callout], edges: tuple[float, float], bounds:
 
 
 def _column(callouts: Sequence[Callout], edge: float, bounds: tuple[float, float]) -> list[tuple[Callout, float]]:
-    """Return the callouts of one column with their ordinates [in], which are close to the named points, in an order
-    with few crossing leader lines.
-    """
-    order = _shortest_lines(callouts, edge, bounds)
+    """Return the callouts of one column with ordinates [in] close to the named points, and few crossing lines."""
+    order: list[Callout] = []
+    if callouts:  # the order that minimises the total length of leader lines (linear assignment)
+        heights = np.array(spread([each.anchor[1] for each in callouts], [each.height for each in callouts], bounds))
+        anchors = np.array([each.anchor for each in callouts])
+        _, given = linear_sum_assignment(np.hypot(anchors[:, :1] - edge, anchors[:, 1:] - heights))
+        order = [callouts[at] for at in np.argsort(heights[given], kind="stable")]
     best, minimum = _level_positions(order, bounds), inf
     for _ in range(len(order) + 1):
         placed = _level_positions(order, bounds)
@@ -325,22 +308,8 @@ def _column(callouts: Sequence[Callout], edge: float, bounds: tuple[float, float
     return best
 
 
-def _shortest_lines(callouts: Sequence[Callout], edge: float, bounds: tuple[float, float]) -> list[Callout]:
-    """Return callouts from bottom to top in the order that minimises the total length of their leader lines (linear
-    assignment).
-    """
-    if not callouts:
-        return []
-    heights = np.array(spread([each.anchor[1] for each in callouts], [each.height for each in callouts], bounds))
-    anchors = np.array([each.anchor for each in callouts])
-    _, given = linear_sum_assignment(np.hypot(anchors[:, :1] - edge, anchors[:, 1:] - heights))
-    return [callouts[at] for at in np.argsort(heights[given], kind="stable")]
-
-
 def _level_positions(order: Sequence[Callout], bounds: tuple[float, float]) -> list[tuple[Callout, float]]:
-    """Return the callouts with ordinates [in] that are as close to their anchors as the order permits (isotonic
-    regression).
-    """
+    """Return the callouts with ordinates [in] as close to their anchors as the order permits (isotonic regression)."""
     wanted = isotonic_regression([each.anchor[1] for each in order]).x.tolist() if order else []
     return list(zip(order, spread(wanted, [each.height for each in order], bounds), strict=True))
 

@@ -50,39 +50,30 @@ class PointerReading:
 
     output: str
     turned: Fraction | None
-    """Exact mean rotation since the zero pose [turns], positive clockwise as seen by the reader; None if the rotation
-    is not determined.
-    """
+    """Exact mean rotation since the zero pose [turns], clockwise for the reader; None if it is not determined."""
     error: float
-    """Contribution of the starting angle, teeth and pins to the reading [turns], positive clockwise as seen by the
-    reader.
-    """
+    """Contribution of the starting angle, teeth and pins to the reading [turns], clockwise for the reader."""
     reach: float = 1.0
-    """Length of the hand divided by the radius of its scale. The points of `outline` are (x, half the width), both
-    divided by the length of the hand.
-    """
+    """Length of the hand divided by the radius of its scale."""
     outline: Sequence[tuple[float, float]] = ()
+    """Outline of the hand: pairs (x, half the width), both divided by the length of the hand."""
 
     @property
     def at(self) -> Fraction:
-        """Position of the pointer [turns], measured clockwise from the zero mark as seen by the reader. A mean rotation
-        that is not determined counts as 0.
-
-        The value is exact except for the error, which is rounded. A hand on a line is read in the cell after the line,
-        and an error of -1e-17 turns would move it to the cell before the line.
-        """
+        """Position of the pointer [turns], clockwise from the zero mark; an undetermined mean rotation counts as 0."""
+        # the error is rounded, as -1e-17 turns would move a hand on a line to the cell before the line
         return (self.turned or Fraction(0)) + Fraction(round(self.error, _DECIMALS))
 
 
 @dataclass(frozen=True, slots=True)
 class DialPicture:
-    """Dial face to be drawn, with the indices of the pointers that are read on the face. `name` is empty for a plain
-    face.
-    """
+    """Dial face to be drawn."""
 
     name: str
+    """Name of the dial; empty for a plain face."""
     scale: DialScale
     pointers: tuple[int, ...]
+    """Indices of the pointers that are read on the face."""
     title: str = ""
     """Text above the face. If it is empty, the name is written."""
     ball: bool = False
@@ -121,7 +112,13 @@ def dials_figure(
     columns = min(len(faces), 4)
     rows = [faces[at : at + columns] for at in range(0, len(faces), columns)]
     tall = [_FACE + 0.35 + (_ROW * max(len(face.pointers) for face in row) if labels else 0.0) for row in rows]
-    usual = _usual_sense([scene.pointers[at] for face in faces for at in face.pointers])
+    senses = Counter(
+        scene.pointers[at].text.removesuffix(" as read")
+        for face in faces
+        for at in face.pointers
+        if scene.pointers[at].speed
+    )
+    usual = senses.most_common(1)[0][0] if senses else ""  # sense of rotation of most hands
     keys = [
         _sample_length(face) + text_width(_reading_text(scene.pointers[at], readings[at], face, usual))
         for face in faces
@@ -146,9 +143,7 @@ def dials_figure(
 
 
 def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
-    """Return the dial faces to draw. Raise `QuestionError` if an output is unknown, or if no face or more than 60 faces
-    would be drawn.
-    """
+    """Return the dial faces to draw; raise `QuestionError` for unknown outputs, and for no face or more than 60."""
     known = {pointer.output: at for at, pointer in enumerate(scene.pointers) if scene.asks}
     for name in outputs:
         if name not in known:
@@ -171,10 +166,8 @@ def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
         what = f"'{scene.name}' has no dial to draw"
         raise QuestionError(Problem(what, "it declares no `outputs`", "declare `outputs` and `dials`"))
     if len(faces) > _MOST:
-        what = f"{len(faces)} dial faces do not fit on a page"
-        raise QuestionError(
-            Problem(what, f"a page has space for at most {_MOST} faces", "select fewer outputs with --of")
-        )
+        what, why = f"{len(faces)} dial faces do not fit on a page", f"a page has space for at most {_MOST} faces"
+        raise QuestionError(Problem(what, why, "select fewer outputs with --of"))
     return faces
 
 
@@ -182,9 +175,7 @@ def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
 
 
 def place(centre: tuple[float, float], radius: float, turn: float | Fraction) -> tuple[float, float]:
-    """Return the point at the distance `radius` from a centre and at the angle `turn` [turns], measured clockwise from
-    the zero mark at the top.
-    """
+    """Return the point at a radius from a centre and an angle [turns] measured clockwise from the top."""
     x, y = clock_point(radius, turn)
     return centre[0] + x, centre[1] + y
 
@@ -208,25 +199,15 @@ def _draw_face(axes: Axes, face: DialPicture, readings: Sequence[PointerReading]
 
 
 def _draw_moon(axes: Axes, reading: PointerReading, centre: tuple[float, float]) -> None:
-    """Draw the ball that shows the phase of the Moon, with its axis upright and its white half as seen from the front.
-
-    The black half faces the reader at angle 0. The terminator is half an ellipse, because it is the projection of a
-    great circle.
-    """
+    """Draw the ball that shows the phase of the Moon, with its axis upright; its black half is in front at angle 0."""
     axes.add_patch(Circle(centre, _MOON, facecolor=BLACK, edgecolor=BLACK, zorder=3, gid="moon"))
     turn = 2 * pi * float(reading.at % 1)
     side = 1 if turn <= pi else -1
     angle = np.linspace(-pi / 2, pi / 2, 61)
     limb = np.column_stack([side * np.cos(angle), np.sin(angle)])
-    terminator = limb[::-1] * (np.cos(turn), 1.0)
+    terminator = limb[::-1] * (np.cos(turn), 1.0)  # half an ellipse: the projection of a great circle
     lit = np.array(centre) + _MOON * np.concatenate([limb, terminator])
     axes.add_patch(Polygon(lit, facecolor="white", edgecolor="none", zorder=4, gid="lit"))
-
-
-def _usual_sense(pointers: Sequence[Pointer]) -> str:
-    """Return the sense of rotation of most hands as seen by the reader; an empty string if no hand turns."""
-    senses = Counter(pointer.text.removesuffix(" as read") for pointer in pointers if pointer.speed)
-    return senses.most_common(1)[0][0] if senses else ""
 
 
 def _draw_key(
@@ -258,21 +239,14 @@ def _draw_scale(axes: Axes, face: DialPicture, centre: tuple[float, float], oute
         points = [point for line in part.lines for point in (*line, (np.nan, np.nan))]
         colour = BLACK if part.kind in ("rim", "letters") else GREY
         wide = max(72 * outer * part.width, _FINEST)
-        axes.plot(
-            *(outer * np.array(points) + centre).T,
-            color=colour,
-            linewidth=wide,
-            zorder=3,
-            gid=f"{part.kind} {face.name}",
-        )
+        xs, ys = (outer * np.array(points) + centre).T
+        axes.plot(xs, ys, color=colour, linewidth=wide, zorder=3, gid=f"{part.kind} {face.name}")
 
 
 def _draw_pointer(
     axes: Axes, face: DialPicture, reading: PointerReading, centre: tuple[float, float], reach: float, order: int
 ) -> None:
-    """Draw a hand from the centre if its reading is determined. On a spiral dial, the hand ends at the current turn of
-    the spiral.
-    """
+    """Draw a hand from the centre, on a spiral dial as far as the current turn, if its reading is determined."""
     if reading.turned is None:
         return
     scale = face.scale
@@ -282,26 +256,18 @@ def _draw_pointer(
     axes.plot(*zip(tail, tip, strict=True), color="white", linewidth=4.0, solid_capstyle="round", zorder=6)
     axes.plot(*zip(centre, tip, strict=True), linewidth=2.2, zorder=6, gid=f"pointer {reading.output}", **look)
     axes.plot(*zip(tail, centre, strict=True), color=look["color"], linewidth=2.2, zorder=6)
-    if scale.turns == 1 and len(reading.outline) > _PLAIN:
-        _fill_hand(axes, reading, centre, tip, look["color"])
+    if scale.turns == 1 and len(reading.outline) > _PLAIN:  # a hand that is wider than a line
+        along = np.subtract(tip, centre)
+        across = np.array([along[1], -along[0]])
+        right, left = ([centre + x * along + way * w * across for x, w in reading.outline] for way in (1, -1))
+        outline = [*right, *left[::-1]]
+        axes.add_patch(Polygon(outline, closed=True, facecolor=look["color"], edgecolor="none", zorder=6))
     if scale.turns > 1 or len(face.pointers) > 1:  # a dot keeps the tip of a hand visible under another hand
         axes.plot(*tip, "o", color=look["color"], markersize=4, zorder=7)
 
 
-def _fill_hand(
-    axes: Axes, reading: PointerReading, centre: tuple[float, float], tip: tuple[float, float], colour: str
-) -> None:
-    """Draw the outline of a hand that is wider than a line."""
-    along = np.subtract(tip, centre)
-    across = np.array([along[1], -along[0]])
-    right, left = ([centre + x * along + way * w * across for x, w in reading.outline] for way in (1, -1))
-    axes.add_patch(Polygon([*right, *left[::-1]], closed=True, facecolor=colour, edgecolor="none", zorder=6))
-
-
 def _reading_text(pointer: Pointer, reading: PointerReading, face: DialPicture, usual: str) -> str:
-    """Return a string with the name of an output, the position and the reading of its pointer, and, if it is unusual,
-    the sense of rotation.
-    """
+    """Return the name, position and reading of an output as text, and its sense of rotation if it is not `usual`."""
     if reading.turned is None:
         return f"{pointer.output}: undetermined"
     scale = face.scale

@@ -1,18 +1,10 @@
-"""Drawings as SVG, DXF and CSV files.
-
-SVG: one user unit is a millimetre, and y points downwards as SVG requires, so that the part is not mirrored.
-
-DXF: units are millimetres. Contours to cut, curves for orientation and engraving are on separate layers, and contours
-are closed polylines with arcs.
-
-Outlines of single wheels are written as SVG, DXF or CSV, in mm.
-"""
+"""Drawings as SVG, DXF and CSV files, in mm. Contours of DXF files are closed polylines with arcs."""
 
 from __future__ import annotations
 
 from html import escape
 from io import StringIO
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from geartrain.errors import GearTrainError, MissingExtraError, Problem, printable
 from geartrain.numerics.files import csv_text
@@ -20,16 +12,11 @@ from geartrain.scene.solids.bearing_plates import CUT, ENGRAVE, LAYERS, PITCH, E
 from geartrain.teeth.outlines.contour import Contour, arc_radius
 from geartrain.teeth.outlines.wheel_outline import WheelOutline
 
-if TYPE_CHECKING:
-    from geartrain.numerics.arrays import Floats
-
 _STRAIGHT = 1e-9  # bulge below which an arc is drawn as a line
 
 
 def to_svg(drawing: FlatDrawing) -> str:
-    """Return a drawing as an SVG string that contains one path to be cut, and a group for each layer that is
-    not cut.
-    """
+    """Return a drawing as an SVG string with one path to be cut, and a group for each layer that is not cut."""
     (left, low), (right, high) = (corner.tolist() for corner in drawing.box)
     width, height = right - left, high - low
     cut = " ".join(map(path_data, drawing.cut))
@@ -45,7 +32,8 @@ def to_svg(drawing: FlatDrawing) -> str:
         lines.append(f'<g id="{PITCH}" {style}>{"".join(guides)}</g>')
     if drawing.marks or drawing.lines:
         style = 'fill="#c02020" font-family="sans-serif" text-anchor="middle" dominant-baseline="central"'
-        drawn = f'<path fill="none" stroke="#c02020" stroke-width="0.1" d="{" ".join(map(_chords, drawing.lines))}"/>'
+        chords = ("M " + " L ".join(f"{x:.4f} {-y:.4f}" for x, y in line) for line in drawing.lines)
+        drawn = f'<path fill="none" stroke="#c02020" stroke-width="0.1" d="{" ".join(chords)}"/>'
         letters = "".join(map(_text, drawing.marks))
         lines.append(f'<g id="{ENGRAVE}" {style}>{drawn if drawing.lines else ""}{letters}</g>')
     return printable("\n".join([*lines, "</svg>", ""]))
@@ -66,10 +54,6 @@ def path_data(contour: Contour) -> str:
     return " ".join([*parts, "Z"])
 
 
-def _chords(line: Floats) -> str:
-    return "M " + " L ".join(f"{x:.4f} {-y:.4f}" for x, y in line)
-
-
 def _circle(contour: Contour) -> str:
     (x, y), radius = contour.points.mean(axis=0), abs(contour.points[0] - contour.points[1]).max() / 2
     return f'<circle cx="{x:.6f}" cy="{-y:.6f}" r="{radius:.6f}"/>'
@@ -85,9 +69,7 @@ _COLOURS = dict(zip(LAYERS, (7, 5, 1), strict=True))  # black or white, blue, re
 
 
 def to_dxf(drawing: FlatDrawing) -> str:
-    """Return a drawing as a DXF R2010 string. The title of the drawing is stored as a property. Raise
-    `MissingExtraError` if ezdxf is not installed.
-    """
+    """Return a drawing as a DXF R2010 string; raise `MissingExtraError` if ezdxf is not installed."""
     try:
         from ezdxf import options, units  # type: ignore[attr-defined]
         from ezdxf.enums import TextEntityAlignment
@@ -179,20 +161,10 @@ def outline_text(wheel: WheelOutline, suffix: str) -> str:
     if suffix == ".dxf":
         return to_dxf(wheel_drawing(wheel))
     if suffix == ".csv":
-        return _csv(wheel)
-    what, fix = (
-        f"an outline cannot be written as {suffix or 'a file without suffix'}",
-        f"use one of {', '.join(OUTLINES)}",
-    )
-    raise GearTrainError(Problem(what, "the suffix determines the format", fix, "--profile"))
-
-
-def _csv(wheel: WheelOutline) -> str:
-    """Return closed contours as CSV rows, one for each point. Arcs are replaced by chords within the
-    wheel's tolerance.
-    """
-    rows: list[tuple[object, ...]] = []
-    for at, contour in enumerate(wheel.contours):
-        points = contour.flattened(wheel.tolerance)
-        rows += [(at, f"{x:.6f}", f"{y:.6f}") for x, y in [*points, points[0]]]
-    return csv_text(("contour", "x_mm", "y_mm"), rows)
+        rows: list[tuple[object, ...]] = []
+        for at, contour in enumerate(wheel.contours):
+            points = contour.flattened(wheel.tolerance)
+            rows += [(at, f"{x:.6f}", f"{y:.6f}") for x, y in [*points, points[0]]]
+        return csv_text(("contour", "x_mm", "y_mm"), rows)
+    what, fix = f"an outline cannot be written as {suffix or 'a file without suffix'}", ", ".join(OUTLINES)
+    raise GearTrainError(Problem(what, "the suffix determines the format", f"use one of {fix}", "--profile"))

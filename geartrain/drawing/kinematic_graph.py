@@ -60,14 +60,8 @@ _EDGE_STYLES: dict[str, tuple[float, Dash, str]] = {
 }
 """Line width [pt], dash pattern and colour of an edge, keyed by the kind of the edge."""
 _JOINTS = ("revolute", "prismatic")
-_LABEL_OFFSETS = (
-    (0.0, 0.12),
-    (0.0, -0.12),
-    (0.2, 0.06),
-    (-0.2, -0.06),
-    (0.0, 0.24),
-    (0.0, -0.24),
-)  # inches: offsets of a label next to its edge
+# inches: offsets of a label next to its edge
+_LABEL_OFFSETS = (0.0, 0.12), (0.0, -0.12), (0.2, 0.06), (-0.2, -0.06), (0.0, 0.24), (0.0, -0.24)
 _NAME = 8.5  # points: a name next to its vertex
 _INNER_NAME = 9  # points: a name in its vertex
 _SMALL, _LARGE = 0.11, 0.19  # inches: half width of a vertex with its name outside, minimum with its name inside
@@ -76,20 +70,18 @@ _RIM, _HEAD, _FOOT = 0.75, 0.75, 0.55
 
 @dataclass(frozen=True, slots=True)
 class GraphEdge:
-    """Edge between two links, of the kind revolute, prismatic, gear or coupling. `label` is the axis of a joint or the
-    name of a pair.
-    """
+    """Edge between two links."""
 
     ends: tuple[str, str]
     kind: str
+    """Kind of the edge: revolute, prismatic, gear or coupling."""
     label: str
+    """Axis of a joint, or name of a gear pair or coupling."""
     broken: bool = False
 
 
 def edges_of(train: GearTrain, broken: Sequence[str] = ()) -> list[GraphEdge]:
-    """Return the edges of turning pairs, gear pairs and couplings. An edge is marked as broken if its name is in
-    `broken`.
-    """
+    """Return the edges of joints, gear pairs and couplings, marked as broken if their names are in `broken`."""
     declared = train.declaration
     wheels = declared.wheels
     found = [GraphEdge(joint.pair, "revolute", joint.axis) for joint in declared.revolutes]
@@ -104,8 +96,9 @@ def edges_of(train: GearTrain, broken: Sequence[str] = ()) -> list[GraphEdge]:
 
 
 def graph_figure(train: GearTrain, state: str | None = None, labels: bool = True) -> Figure:
-    """Return a figure of the kinematic graph of a train, in which faulty loops are red. Raise `QuestionError` if there
-    are too many links.
+    """Return a figure of the kinematic graph of a train, with red faulty loops.
+
+    Raise `QuestionError` if there are too many links.
     """
     declared = train.declaration
     links = list(declared.links)
@@ -150,9 +143,7 @@ def graph_figure(train: GearTrain, state: str | None = None, labels: bool = True
 
 
 def graph_layout(train: GearTrain) -> tuple[dict[str, tuple[float, float]], list[tuple[GraphEdge, Floats]]]:
-    """Return the positions of links [in], and a list of the edges with their curves (3, 2): start, control point and
-    end.
-    """
+    """Return the positions of links [in], and the edges with their curves (3, 2): start, control point and end."""
     links, edges = list(train.declaration.links), edges_of(train)
     at = {link: (float(x), float(y)) for link, (x, y) in zip(links, _places(links, edges), strict=True)}
     return at, list(zip(edges, _curves(edges, at), strict=True))
@@ -182,9 +173,7 @@ def _places(links: Sequence[str], edges: Sequence[GraphEdge]) -> Floats:
 
 
 def _curves(edges: Sequence[GraphEdge], at: Mapping[str, tuple[float, float]]) -> list[Floats]:
-    """Return the curve of every edge. If several edges connect the same two links, each is bent more than the previous
-    one.
-    """
+    """Return the curve of every edge; of several edges between the same links, each is bent more than the previous."""
     turns: dict[frozenset[str], int] = {}
     found = []
     for edge in edges:
@@ -194,9 +183,7 @@ def _curves(edges: Sequence[GraphEdge], at: Mapping[str, tuple[float, float]]) -
 
 
 def _curve(edge: GraphEdge, at: Mapping[str, tuple[float, float]], turn: int) -> Floats:
-    """Return the curve (3, 2) of an edge: start, control point and end. The curve is bent only as far as needed to
-    avoid other vertices.
-    """
+    """Return the curve (3, 2) of an edge: start, control point, end, bent only as needed to avoid other vertices."""
     start, end = (np.array(at[link]) for link in edge.ends)
     along = end - start
     normal = np.array([-along[1], along[0]]) / max(float(hypot(*along)), 1e-9)  # coincident ends: no bend
@@ -242,12 +229,12 @@ def _draw_edge(axes: Axes, edge: GraphEdge, curve: Floats) -> None:
 
 @dataclass(frozen=True, slots=True)
 class _Traces:
-    """Sampled points (edge, point, 2) of all edges, and the inked area that each point represents: length [in] times
-    line width [pt].
-    """
+    """Sampled points of all edges."""
 
     points: Floats
+    """Positions of the points [in]. Shape (edges, points, 2)."""
     ink: Floats
+    """Inked area that each point of an edge represents, length [in] times line width [pt]. Shape (edges,)."""
 
     @classmethod
     def of(cls, edges: Sequence[GraphEdge], curves: Sequence[Floats]) -> _Traces:
@@ -256,9 +243,7 @@ class _Traces:
         return cls(points, steps * [_EDGE_STYLES[edge.kind][0] for edge in edges])
 
     def hidden(self, box: Box, own: int | None = None) -> float:
-        """Return the inked area of edges that a box with a margin would hide. The edge with the index `own` is not
-        counted.
-        """
+        """Return the inked area that a box with a margin would hide, not counting the edge with the index `own`."""
         inside = (np.abs(self.points - box[:2]) < np.array(box[2:]) / 2 + _EDGE_MARGIN).all(2).sum(1)
         ink = inside * self.ink
         return float(ink.sum() - (0.0 if own is None else ink[own]))
@@ -269,8 +254,7 @@ def _draw_labels(
 ) -> None:
     """Draw every edge's label on the edge, close to its middle, where it hides the smallest inked area of other edges.
 
-    Labels with the fewest unobstructed positions are placed first. A label is placed next to its edge only if no
-    position on the edge is free.
+    A label is placed next to its edge only if no position on the edge is free.
     """
     spots = [_spots(edge, curve, at, traces) for at, (edge, curve) in enumerate(zip(edges, curves, strict=True))]
     order = sorted(range(len(edges)), key=lambda at: (sum(not ink for ink, _ in spots[at]), at))
@@ -284,9 +268,7 @@ def _draw_labels(
 
 
 def _spots(edge: GraphEdge, curve: Floats, at: int, traces: _Traces) -> list[tuple[float, Box]]:
-    """Return the positions of a label along its edge, from the middle outwards. Each position is given with the inked
-    area of other edges that the label would hide there.
-    """
+    """Return the boxes of a label along its edge, from the middle outwards, each with the inked area it would hide."""
     found = []
     for share in sorted(_SHARES, key=lambda share: abs(share - 0.5)):
         x, y = map(float, _point(curve, share))
@@ -320,9 +302,7 @@ def _name_vertex(
     traces: _Traces,
     room: LabelSpace,
 ) -> None:
-    """Draw a link's name at the position that covers the smallest inked area. Ties are broken in favour of the side
-    with the fewest edges.
-    """
+    """Draw a link's name where it covers the smallest inked area; ties are broken by the distance from edges."""
     boxes = []
     for reach in (_SMALL + 0.05, _SMALL + 0.13):
         for dx, dy in _free_sides(link, at, edges):
@@ -338,9 +318,7 @@ def _name_vertex(
 def _free_sides(
     link: str, at: Mapping[str, tuple[float, float]], edges: Sequence[GraphEdge]
 ) -> list[tuple[float, float]]:
-    """Return sixteen unit directions from a vertex, in descending order of their angular distance from the edges of the
-    vertex.
-    """
+    """Return sixteen unit directions from a vertex, those with the largest angles from its edges first."""
     here = np.array(at[link])
     mates = [other for edge in edges if link in edge.ends for other in edge.ends if other != link]
     if not mates:

@@ -36,9 +36,7 @@ from geartrain.numerics.exact import decimal, fraction_text, is_short
 
 
 class Point(NamedTuple):
-    """Point of a lever: its abscissa, its members, their closed brakes and clutches, and its speed (None
-    if unknown).
-    """
+    """Point of a lever: its abscissa, its links, their closed brakes and clutches, and its speed (None if unknown)."""
 
     x: Fraction
     links: list[str]
@@ -76,8 +74,14 @@ def lever_figure(train: GearTrain, state: str | None = None, labels: bool = True
     too_many(train, len(levers) * len(states), _MOST, "panels of sets and states")
     answers = [train.solve(name) for name in states]
     wide = [max(_width(_points(train, lever, answer)) for answer in answers) for lever in levers]
-    bands = _even_rows(wide)
-    wide = _widened(wide, bands)
+    # as few rows as the total width permits, with nearly equal numbers of panels
+    rows = ceil((sum(wide) + _GAP * len(wide)) / _PAGE)
+    bands = [band.tolist() for band in np.array_split(np.arange(len(wide)), min(rows, len(wide)))]
+    # panels are widened if the widest row is narrower than the minimum page width
+    most = max(bands, key=lambda band: sum(wide[at] + _GAP for at in band))
+    room = _NARROW - _EDGE - _GAP * len(most)
+    factor = max(room / sum(wide[at] for at in most), 1.0)
+    wide = [each * factor for each in wide]
     span = max(sum(wide[at] + _GAP for at in band) for band in bands) + _EDGE
     tall = (_TALL + _HEAD) * len(bands) + 0.45
     columns = min(max(round((tall * len(answers) / (_UPRIGHT * span)) ** 0.5), 1), len(answers))
@@ -104,30 +108,11 @@ def lever_figure(train: GearTrain, state: str | None = None, labels: bool = True
 
 
 def _limits(train: GearTrain, levers: Sequence[Lever], answers: Sequence[Answer]) -> tuple[float, float]:
-    """Return the limits of the speed axis, which contain all speeds with a margin, so that all panels have the same
-    scale.
-    """
+    """Return the limits of the speed axis of all panels, which contain all speeds with a margin."""
     points = (point for lever in levers for answer in answers for point in _points(train, lever, answer))
     speeds = [0.0, *(float(point.speed) for point in points if point.speed is not None)]
     more = 0.08 * (max(speeds) - min(speeds)) or 0.5
     return min(speeds) - more, max(speeds) + more
-
-
-def _even_rows(wide: Sequence[float]) -> list[list[int]]:
-    """Return the indices of the panels in each row: as few rows as their total width permits, with nearly equal numbers
-    of panels.
-    """
-    rows = ceil((sum(wide) + _GAP * len(wide)) / _PAGE)
-    return [band.tolist() for band in np.array_split(np.arange(len(wide)), min(rows, len(wide)))]
-
-
-def _widened(wide: Sequence[float], bands: Sequence[Sequence[int]]) -> list[float]:
-    """Return the widths of the panels [in]. The panels are widened if the widest row is narrower than the minimum page
-    width.
-    """
-    most = max(bands, key=lambda band: sum(wide[at] + _GAP for at in band))
-    room = _NARROW - _EDGE - _GAP * len(most)
-    return [each * max(room / sum(wide[at] for at in most), 1.0) for each in wide]
 
 
 def _width(points: Sequence[Point]) -> float:
@@ -142,9 +127,7 @@ def _label_width(text: str) -> float:
 
 
 def _heading(train: GearTrain, answer: Answer, first: bool) -> str:
-    """Return the heading of a state: its name, its closed brakes and clutches, the verdict if speeds are not
-    determined, and, for the first state, the unit of speeds.
-    """
+    """Return a state's heading: its name, closed elements, the unit (first state only), and its verdict if faulty."""
     said = [] if answer.state is None else [f"state {answer.state}"]
     if closed := train.kinematics.cases[answer.state].engaged:
         said[-1:] = [f"{said[-1]}: {', '.join(closed)} closed"]
@@ -154,9 +137,7 @@ def _heading(train: GearTrain, answer: Answer, first: bool) -> str:
 
 
 def _panel(axes: Axes, train: GearTrain, lever: Lever, answer: Answer, labels: bool) -> None:
-    """Draw one epicyclic set in one state: a vertical line for each member, and the line through the speeds of the
-    members.
-    """
+    """Draw one epicyclic set in one state: a vertical line for each member, and the line through their speeds."""
     points = _points(train, lever, answer)
     xs = [float(point.x) for point in points]
     known = [(float(point.x), float(point.speed)) for point in points if point.speed is not None]
@@ -177,9 +158,7 @@ def _panel(axes: Axes, train: GearTrain, lever: Lever, answer: Answer, labels: b
 
 
 def _marks(train: GearTrain, state: str | None) -> dict[str, str]:
-    """Return a dictionary that maps each link to a text in brackets with the names of closed brakes and clutches that
-    act on the link.
-    """
+    """Return the names of the closed brakes and clutches of each link, as a text in brackets, by link."""
     found: dict[str, list[str]] = {}
     for name in train.kinematics.cases[state].engaged:
         clutch = train.declaration.clutches[name]
@@ -189,11 +168,7 @@ def _marks(train: GearTrain, state: str | None) -> dict[str, str]:
 
 
 def _points(train: GearTrain, lever: Lever, answer: Answer) -> list[Point]:
-    """Return the points of a lever in ascending order of abscissa. Speeds are about the reference direction of the
-    carrier.
-
-    The carrier has its own point, even if other members have the same abscissa.
-    """
+    """Return the points of a lever from left to right, with speeds in the positive sense of the carrier."""
     own, marks = train.kinematics.signs.get(lever.carrier, 1), _marks(train, answer.state)
     ordered = sorted(lever.abscissae.items(), key=lambda item: item[1])
     found: list[Point] = []
@@ -220,9 +195,7 @@ def _frame(axes: Axes, xs: Sequence[float]) -> None:
 
 
 def _names(axes: Axes, points: Sequence[Point], xs: Sequence[float]) -> None:
-    """Write names and speeds above a panel and abscissae below it. Texts of neighbouring vertical lines are moved apart
-    where they would overlap.
-    """
+    """Write names and speeds above a panel and abscissae below it, moved apart where they would overlap."""
     low, high = axes.get_xlim()
     figure = axes.get_figure(root=True)
     assert figure is not None
@@ -238,13 +211,8 @@ def _names(axes: Axes, points: Sequence[Point], xs: Sequence[float]) -> None:
         up, down = up / inches, down / inches
         axes.plot([x, up], [1.0, 1.07], color=PALE, linewidth=0.8, transform=across, clip_on=False)
         axes.plot([x, down], [0.0, -0.07], color=PALE, linewidth=0.8, transform=across, clip_on=False)
-        how: dict[str, Any] = {
-            "transform": across,
-            "ha": "center",
-            "fontsize": _FINE,
-            "parse_math": False,
-            "clip_on": False,
-        }
+        how: dict[str, Any] = {"ha": "center", "fontsize": _FINE, "parse_math": False, "clip_on": False}
+        how["transform"] = across
         links = "\n".join(point.links)
         axes.text(up, 1.08, speed, va="bottom", color=BLUE if point.x else ORANGE, gid=f"speed {links}", **how)
         axes.text(up, 1.19, "\n".join(point.names), va="bottom", color=BLACK, fontweight="bold", **how)
@@ -252,9 +220,7 @@ def _names(axes: Axes, points: Sequence[Point], xs: Sequence[float]) -> None:
 
 
 def _speed_text(value: Fraction | None) -> str:
-    """Return a text for a speed: a fraction if it is short, a decimal number if the fraction is long, and a question
-    mark for None.
-    """
+    """Return a speed as text: a short fraction, a decimal number, or a question mark for None."""
     if value is None:
         return "?"
     return fraction_text(value) if is_short(value, _LONG) else f"≈ {decimal(value, 6)}"

@@ -89,9 +89,7 @@ def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: Non
 
 
 def _error_chart(run: MotionRun, title: str) -> Figure:
-    """Return a chart of the output errors of a run that has been computed. Outputs that move uniformly have no row,
-    unless all outputs move uniformly.
-    """
+    """Return a chart of the output errors of a computed run, without outputs that move uniformly, unless all do."""
     uneven = [tally for tally in run.statistics if tally.peak_to_peak > _ROUNDING]
     ranked = sorted(uneven or run.statistics, key=lambda tally: -tally.peak_to_peak)
     shown = ranked[:MOST_ROWS]
@@ -129,7 +127,13 @@ def _kind(motion: Motion) -> str:
 def _curves(motion: Motion, run: MotionRun, on_done: Callable[[int], None]) -> Figure:
     """Return a figure with the curves of the only output of a motion, one below the other."""
     trace = _trace(motion, run, on_done)
-    drawers = _drawers(trace)
+    uneven = np.ptp(trace.error) > _ROUNDING or np.ptp(trace.speed) > _ROUNDING
+    drawers: list[Callable[[Axes, _Trace], None]] = [_error, _speed] if uneven else []
+    if trace.slides or np.ptp(trace.mean) <= _MAX_TURNS:
+        drawers.insert(0, _angle)
+    elif (trace.speed < 0).any():  # for many turns, only backward motion
+        drawers.insert(0, _backward_motion)
+    drawers = drawers or [_speed]
     figure, panels = curve_panels([2.1] * len(drawers), 0.5, share=False)
     for drawer, panel in zip(drawers, panels, strict=True):
         drawer(panel, trace)
@@ -137,22 +141,8 @@ def _curves(motion: Motion, run: MotionRun, on_done: Callable[[int], None]) -> F
     return figure
 
 
-def _drawers(trace: _Trace) -> list[Callable[[Axes, _Trace], None]]:
-    """Return the functions that draw the panels of an output. For many turns, the angle is not drawn, only backward
-    motion.
-    """
-    errors: list[Callable[[Axes, _Trace], None]] = (
-        [_error, _speed] if np.ptp(trace.error) > _ROUNDING or np.ptp(trace.speed) > _ROUNDING else []
-    )
-    if trace.slides or np.ptp(trace.mean) <= _MAX_TURNS:
-        return [_angle, *errors]
-    return [_backward_motion, *errors] if (trace.speed < 0).any() else errors or [_speed]
-
-
 def _trace(motion: Motion, run: MotionRun, on_done: Callable[[int], None]) -> _Trace:
-    """Return the trace of the only output of a motion, reduced to the resolution of the picture. `on_done` is called
-    with numbers of computed positions.
-    """
+    """Return the trace of the only output of a motion, reduced to the resolution of the picture."""
     (tally,), (start,), toothed = motion._statistics(), motion._start_angles, motion.without_anomaly()
     parts: list[tuple[Floats, Floats, Floats, Floats]] = []
     first: tuple[Floats, Floats, Floats] | None = None
@@ -173,16 +163,14 @@ def _trace(motion: Motion, run: MotionRun, on_done: Callable[[int], None]) -> _T
 
 
 def _thinned(error: Floats, speed: Floats, bins: int) -> NDArray[np.intp]:
-    """Return the indices of the positions to draw: the first position of each bin, the positions of extreme error and
-    speed in each bin, and all reversals.
-    """
+    """Return the indices of the positions to draw: all reversals, and the extremes of both curves in each bin."""
     turning = np.flatnonzero(np.diff(np.signbit(speed)))[:_POINTS]
     extremes = (kept_extremes(values, 3 * bins) for values in (error, speed))
     return np.unique(np.concatenate([*extremes, turning, turning + 1]))
 
 
 def _angle(panel: Axes, trace: _Trace) -> None:
-    line = _travel_line if trace.slides else _dial_line
+    line = (lambda x, travel: (x, travel)) if trace.slides else _dial_line
     looks: tuple[dict[str, Any], ...] = (
         {"color": GREY, "linewidth": 0.8, "linestyle": "--", "label": "mean"},
         {"color": BLUE, "linewidth": 1.2, "label": "true"},
@@ -199,10 +187,6 @@ def _angle(panel: Axes, trace: _Trace) -> None:
     legend_above(panel, 3)
 
 
-def _travel_line(x: Floats, travel: Floats) -> tuple[Floats, Floats]:
-    return x, travel
-
-
 def _backward_motion(panel: Axes, trace: _Trace) -> None:
     back = np.where(trace.speed < 0, trace.angle, np.nan)
     panel.plot(*_dial_line(trace.turns, back), color=RED, linewidth=1.5)
@@ -216,9 +200,7 @@ def _set_degrees(panel: Axes, label: str) -> None:
 
 
 def _dial_line(x: Floats, turns: Floats) -> tuple[Floats, Floats]:
-    """Return the abscissae and the angles [deg], modulo 360, of a pointer's line. NaN interrupts the line where the
-    pointer passes 0.
-    """
+    """Return the abscissae and angles [deg], modulo 360, of a pointer's line, with NaN where the pointer passes 0."""
     degrees = 360 * np.mod(turns, 1)
     cuts = np.flatnonzero(np.abs(np.diff(degrees)) > 180) + 1
     return np.insert(x, cuts, np.nan), np.insert(degrees, cuts, np.nan)
@@ -239,12 +221,9 @@ def _speed(panel: Axes, trace: _Trace) -> None:
 
 
 def _curve(panel: Axes, trace: _Trace, whole: Floats, first: Floats) -> tuple[Floats, Floats]:
-    """Plot a curve and return its abscissae and values.
-
-    If a curve oscillates so often that it would fill its panel, only its beginning is plotted, between its bounds. The
-    criterion is the total variation over the range, compared with `_TURNING_POINTS`.
-    """
+    """Plot a curve, or only its beginning if its oscillations would merge. Return the plotted points as (x, y)."""
     turns, values = trace.turns, whole
+    # the total variation over the range is twice the number of oscillations
     if np.abs(np.diff(whole)).sum() > _TURNING_POINTS * np.ptp(whole):
         turning = np.flatnonzero(np.diff(np.sign(np.diff(first))) != 0)
         end = turning[_TURNING_POINTS // 6] if len(turning) > _TURNING_POINTS // 6 else len(first)
@@ -291,9 +270,7 @@ def torque_cycle_figure(found: TorqueCycle, title: str = "") -> Figure:
 
 
 def _prefixed(maximum: float, unit: str) -> tuple[float, str]:
-    """Return the factor that converts values to a unit with a decimal prefix, and this unit in parentheses. The factor
-    is 1 if `unit` is empty.
-    """
+    """Return the factor to a unit with a decimal prefix that suits the maximum, and this unit in parentheses."""
     if not unit:
         return 1.0, ""
     size, prefix = next((each for each in _PREFIXES if maximum >= each[0]), (1.0, "") if not maximum else _PREFIXES[-1])

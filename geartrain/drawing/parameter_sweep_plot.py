@@ -129,20 +129,15 @@ def sweep_figure(
         why = "a sweep has one or two parameters, and arrays of one shape that are not empty"
         fix = "pass one parameter with arrays (n,), or two with grids (n, m), and at least one column"
         raise QuestionError(Problem(f"cannot draw a sweep of {given}", why, fix))
-    units = units or {}
-    places = {parameter_label(name, units.get(name, "")): column for name, column in places.items()}
+    labels = {}
+    for name, column in places.items():
+        unit = (units or {}).get(name, "") or _NAMES.get(name, ("", ""))[1]
+        labels[f"{parameter_name(name)} ({unit})" if unit else parameter_name(name)] = column
+    places = labels
     figure = _lines(places, values, verdicts) if len(places) == 1 else _map(places, values, verdicts)
     if title:
         headed(figure, title)
     return figure
-
-
-def parameter_label(name: str, unit: str = "") -> str:
-    """Return the axis label of a parameter with its unit. The default is the unit that the parameter has in triangular
-    teeth.
-    """
-    unit = unit or _NAMES.get(name, ("", ""))[1]
-    return f"{parameter_name(name)} ({unit})" if unit else parameter_name(name)
 
 
 def parameter_name(name: str) -> str:
@@ -175,7 +170,7 @@ def _lines(parameters: dict[str, Floats], columns: dict[str, Floats], verdicts: 
 
 
 def _panels(columns: dict[str, Floats]) -> dict[str, dict[str, Floats]]:
-    """Return the columns of each panel, keyed by panel. The minimum and maximum of a quantity are in the same panel.
+    """Return the columns of each panel, by panel. The minimum and the maximum of a quantity share a panel.
 
     Columns without a default panel are included only if no other columns are given.
     """
@@ -202,9 +197,7 @@ def _curves(axes: Axes, x: Floats, curves: dict[str, Floats], verdicts: Texts) -
 
 
 def _band_styles(verdicts: Texts) -> dict[str, dict[str, Any]]:
-    """Return the style of each verdict's band, keyed by verdict: coloured if the pair runs with this verdict, grey and
-    hatched if it does not.
-    """
+    """Return the style of the band of each verdict, by verdict: coloured if the pair runs, grey and hatched if not."""
     others = count(1 + max(series for series, _ in _PHASE_STYLES.values()))
     styles: dict[str, dict[str, Any]] = {}
     for kind in dict.fromkeys(verdicts.tolist()):
@@ -217,9 +210,7 @@ def _band_styles(verdicts: Texts) -> dict[str, dict[str, Any]]:
 
 
 def _bands(x: Floats, verdicts: Texts) -> Iterator[tuple[float, float, str]]:
-    """Yield the start, end and verdict of each interval of x with a single verdict. Intervals meet halfway between
-    samples.
-    """
+    """Yield each interval of x with one verdict: its start and its end, halfway between samples, and the verdict."""
     edges = np.concatenate((x[:1], (x[1:] + x[:-1]) / 2, x[-1:]))
     changes = (np.flatnonzero(verdicts[1:] != verdicts[:-1]) + 1).tolist()
     for start, end in zip([0, *changes], [*changes, len(x)], strict=True):
@@ -258,18 +249,14 @@ def _sorted(x: Floats, y: Floats, values: Floats, verdicts: Texts) -> tuple[Floa
 
 
 def _regions(axes: Axes, x: Floats, y: Floats, verdicts: Texts) -> None:
-    """Draw hatching in the regions of faults. If there are several regions in which the pair runs, also draw their
-    borders and names.
-    """
+    """Draw hatching in the regions of faults, and borders and names of several regions in which the pair runs."""
     for kind, hatch in _FAULTS.items():
         if hatch and (verdicts == kind).any():
             here = (verdicts == kind).astype(float)
             area = axes.contourf(x, y, here, levels=[0.5, 1.5], colors="none", hatches=[hatch])
             area.set_edgecolor(GREY)
             area.set_linewidth(0.0)
-    running = [
-        kind for kind in dict.fromkeys(verdicts.ravel().tolist()) if kind not in _FAULTS
-    ]  # in order of appearance
+    running = [kind for kind in dict.fromkeys(verdicts.ravel().tolist()) if kind not in _FAULTS]
     faulty = np.isin(verdicts, list(_FAULTS))
     for kind in running[1:]:
         bound = np.ma.masked_array((verdicts == kind).astype(float), faulty)

@@ -114,18 +114,9 @@ def _draw_wheel(
     for pin in projected.pins(wheel):
         page.axes.add_artist(Polygon(page.at(projected.seen(pin)), facecolor="white", **style))
     centre = page.at(projected.seen(projected.centre(wheel)))
-    page.axes.add_artist(
-        Circle(
-            (float(centre[0]), float(centre[1])),
-            wheel.radius * page.scale,
-            fill=False,
-            edgecolor=RED if red else BLUE,
-            linewidth=0.6,
-            linestyle="-.",
-            zorder=order,
-            gid=f"pitch {wheel.id}",
-        )
-    )
+    pitch = Circle((float(centre[0]), float(centre[1])), wheel.radius * page.scale, fill=False, gid=f"pitch {wheel.id}")
+    pitch.set(edgecolor=RED if red else BLUE, linewidth=0.6, linestyle="-.", zorder=order)
+    page.axes.add_artist(pitch)
 
 
 def _area_between(outer: Floats, inner: Floats) -> Path:
@@ -195,9 +186,7 @@ _HUB, _LINE = 0.12, 0.04  # inches kept free around a hub or a point of an arm, 
 
 @dataclass(frozen=True, slots=True)
 class PlanNames:
-    """Names of the wheels that face the reader, starting with the nearest wheel, and candidate positions of the names
-    [in].
-    """
+    """Names of the wheels that face the reader, starting with the nearest wheel, and their candidate positions [in]."""
 
     wheels: Sequence[SceneWheel]
     centres: Floats
@@ -422,9 +411,7 @@ class _PlanSize:
 def _names(
     projected: ProjectedScene, plan: _PlanSize, labels: bool
 ) -> tuple[list[tuple[SceneWheel, Box]], CalloutMargin]:
-    """Return the names on wheels and the names next to the plan. Positions are in inches relative to the origin of the
-    train.
-    """
+    """Return the names on wheels and the names next to the plan, in inches from the origin of the train."""
     written: list[tuple[SceneWheel, Box]] = []
     callouts: list[Callout] = []
     facing = [wheel for wheel in from_below(projected)[::-1] if projected.faces(wheel)] if projected.flat else []
@@ -452,9 +439,7 @@ def _write_above(axes: Axes, shifted: Sequence[tuple[str, str]], said: str) -> N
 
 
 def _verdict(scene: Scene, width: float) -> str:
-    """Return the verdict on the train, wrapped to a width [in] and at most four lines; an empty string for a determined
-    train.
-    """
+    """Return the verdict on the train, wrapped to a width [in] and at most four lines; empty for a determined train."""
     if scene.verdict["kind"] == "determined":
         return ""
     room = int((width - 0.3) / (_NOTE_SIZE * LETTER))

@@ -1,6 +1,4 @@
-"""Sankey diagram of power flow: input at the left, shafts and pairs, output at the right, and losses that leave
-downwards.
-"""
+"""Sankey diagram of power flow: input at the left, shafts and pairs, output at the right, losses downwards."""
 
 from __future__ import annotations
 
@@ -56,7 +54,7 @@ def power_figure(flow: PowerFlow | Torques, title: str, watts: float | None = No
         why, fix = f"at most {_MOST} are legible in a picture", "draw a train with fewer shafts and pairs"
         raise GearTrainError(Problem(what, why, fix))
     words = _NodeLabels(flow, watts)
-    placed = lay_out_sankey(flow, words.width, words.loss_width, WIDTH)
+    placed = lay_out_sankey(flow, words.width, lambda *lost: len(words.loss(*lost)) * SMALL * LETTER, WIDTH)
     title = fill(title, int(placed.width / (TEXT * LETTER)) + 8)
     head = _HEAD + 0.17 * title.count("\n")
     height = placed.height + head + _FOOT
@@ -67,8 +65,11 @@ def power_figure(flow: PowerFlow | Torques, title: str, watts: float | None = No
     axes.set_axis_off()
     for turn in placed.turns:
         _draw_return_band(axes, placed, turn)
-    for band in placed.bands:
-        _draw_forward_band(axes, placed, band)
+    for band in placed.bands:  # circulating power as the upper part, transmitted power as the lower part
+        circling = float(band[0].stream.circling) * placed.scale
+        for top, width, color in ((0.0, circling, PURPLE), (circling, band[0].width - circling, SKY)):
+            if width > 0:
+                _ribbon(axes, placed, band, top, width, color)
     for spot in placed.spots:
         if spot.node:
             _draw_node(axes, placed, spot, spot.node, words)
@@ -102,20 +103,8 @@ class _NodeLabels:
         """Return the label of the power lost at a node."""
         return percent_text(power / self.whole, 3)
 
-    def loss_width(self, node: PowerNode, power: Fraction) -> float:
-        """Return the width of the label of the power lost at a node [in]."""
-        return len(self.loss(node, power)) * SMALL * LETTER
-
 
 # --------------------------------------------------------------------------------------------------------------- bands
-
-
-def _draw_forward_band(axes: Axes, placed: SankeyLayout, band: Sequence[BandSegment]) -> None:
-    """Draw a forward band, with the circulating power as its upper part and the transmitted power as its lower part."""
-    circling = float(band[0].stream.circling) * placed.scale
-    for top, width, color in ((0.0, circling, PURPLE), (circling, band[0].width - circling, SKY)):
-        if width > 0:
-            _ribbon(axes, placed, band, top, width, color)
 
 
 def _ribbon(
@@ -145,9 +134,7 @@ def _fill(axes: Axes, points: list[tuple[float, float]], codes: list[int], color
 
 
 def _draw_return_band(axes: Axes, placed: SankeyLayout, turn: ReturnBand) -> None:
-    """Draw a return band: from its source to the right, up, leftwards above all other bands, down, and into
-    its target.
-    """
+    """Draw a return band: from its source rightwards, up, leftwards above all other bands, down, into its target."""
     piece, w = turn.piece, turn.piece.width
     right = placed.x[piece.source.column] + piece.source.width / 2
     left = placed.x[piece.target.column] - piece.target.width / 2
@@ -229,11 +216,8 @@ def _write_circulating(axes: Axes, placed: SankeyLayout, flow: PowerFlow) -> Non
         x = (placed.x[piece.source.column] + placed.x[piece.target.column]) / 2
         text = f"{percent_of_text(loop.power / flow.power_in, 'the power in')} circulates"
         how: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": TEXT, "color": BLACK, "zorder": 5}
-        box = {
-            "boxstyle": "round,pad=0.2",
-            "facecolor": WHITE,
-            "linewidth": 0,
-        }  # keeps the text readable in print, where the band is hatched
+        # the box keeps the text readable in print, where the band is hatched
+        box = {"boxstyle": "round,pad=0.2", "facecolor": WHITE, "linewidth": 0}
         axes.text(x, turn.lane + piece.width / 2, text, parse_math=False, bbox=box, gid="circulates", **how)
 
 

@@ -43,7 +43,6 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
     Place = Callable[[Floats], Floats]
-    from geartrain.numerics.arrays import Floats
 
 _OBLIQUE = (0.52, -0.62, 0.59)  # direction towards the reader in an oblique view
 _MOST = 0.7  # share of the wheels that must face the reader in a plan; the others are drawn from their side
@@ -53,13 +52,12 @@ _FINE = 5000  # teeth beyond which a wheel is drawn as a circle, as its teeth ar
 
 @dataclass(frozen=True, slots=True)
 class ProjectedScene:
-    """Scene in a pose as seen by a reader. The rows of the matrix `screen` (3, 3) point right, up and towards the
-    reader.
-    """
+    """Scene in a pose as seen by a reader."""
 
     scene: Scene
     pose: ScenePose
     screen: Floats
+    """Matrix (3, 3) whose rows are unit vectors to the right, up and towards the reader."""
 
     @property
     def flat(self) -> bool:
@@ -76,9 +74,7 @@ class ProjectedScene:
         return np.asarray(np.asarray(points, dtype=float) @ self.screen.T)
 
     def axis(self, wheel: SceneWheel) -> Floats:
-        """Return the unit vector along the axis of a wheel, in the direction of the axis of the body that carries the
-        wheel.
-        """
+        """Return the unit vector along the axis of a wheel, in the direction of the axis of its body."""
         return self.pose.way(wheel.body, wheel.direction)
 
     def centre(self, wheel: SceneWheel) -> Floats:
@@ -86,8 +82,7 @@ class ProjectedScene:
         return self.pose.point(wheel.body, wheel.centre)
 
     def outline(self, wheel: SceneWheel, scale: float = 1.0, height: float = 0.0, chord: float = 0.0) -> Floats:
-        """Return the tooth outline of a wheel (points, 3), multiplied by `scale` and moved by `height` [mm] along its
-        axis, rotated with its helix.
+        """Return the tooth outline of a wheel (points, 3), times `scale`, at a height [mm] along its axis and helix.
 
         For a lantern pinion, and for a wheel whose teeth are too small to be visible, the result is the tip circle.
 
@@ -118,9 +113,7 @@ class ProjectedScene:
         return self._bent(wave, np.full(_ROUND, wave.middle - wave.wall / 2), angle)
 
     def _bent(self, wave: SceneWave, radius: Floats, angle: Floats) -> Floats:
-        """Return the points (n, 3) in the deflected middle plane of a flexible wheel that have the given radius and
-        angle, each of shape (n,), in the undeformed wheel.
-        """
+        """Return points (n, 3) of a deflected flexible wheel from radii and angles (n,) in the undeformed wheel."""
         wheel = self.scene.wheels[wave.wheel]
         first, along = np.array(wheel.reference), np.array(wheel.direction)
         x, y = first @ wave.towards, np.cross(along, first) @ wave.towards
@@ -160,9 +153,7 @@ class ProjectedScene:
         return self.pose.point(wheel.body, np.array(wheel.centre) + radius[:, None] * ring + height * along)
 
     def ends(self, wheel: SceneWheel) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Return two pairs, one for each end of a wheel: the height along the axis [mm] and the scale. The large end of
-        a bevel wheel is first.
-        """
+        """Return the height [mm] and the scale of both ends of a wheel; the large end of a bevel wheel is first."""
         half = wheel.thickness / 2
         if wheel.cone <= 0 or wheel.cone > CROWN:  # a crown wheel has no narrow end
             return (half, 1.0), (-half, 1.0)
@@ -171,9 +162,7 @@ class ProjectedScene:
 
 
 def project_scene(scene: Scene, turns: Fraction) -> ProjectedScene:
-    """Return a scene after `turns` of its driving link. The view is from the front if most wheels face the front, or
-    oblique if they do not.
-    """
+    """Return a scene after `turns` of its driving link, from the front if most wheels face the front, or obliquely."""
     posed = scene_pose(scene, turns)
     front = ProjectedScene(scene, posed, np.diag([float(scene.front), 1.0, float(scene.front)]))
     return front if front.flat else ProjectedScene(scene, posed, screen_of(np.array(_OBLIQUE)))
@@ -190,9 +179,7 @@ def screen_of(view: Floats) -> Floats:
 
 
 class ScaledPage:
-    """Page in inches, on which millimetres are drawn to scale. `foot` is the height of the text below a side
-    view [in].
-    """
+    """Page in inches, on which millimetres are drawn to scale; the text below a side view is at the height `foot`."""
 
     def __init__(self, axes: Axes, scale: float, shift: Floats, foot: float = 0.0) -> None:
         self.axes, self.scale, self.shift, self.foot = axes, scale, shift, foot
@@ -203,9 +190,7 @@ class ScaledPage:
 
 
 def arms_of(projected: ProjectedScene) -> Iterator[tuple[int, Floats, Floats]]:
-    """Yield a tuple for each arm of a carrier: the index of the carrier's body, a point of its axis, and a point of the
-    carried axis.
-    """
+    """Yield each arm of a carrier: index of the carrier's body, a point of its axis, a point of the carried axis."""
     scene = projected.scene
     seen = set()
     for at, body in enumerate(scene.bodies):
@@ -221,8 +206,7 @@ def arms_of(projected: ProjectedScene) -> Iterator[tuple[int, Floats, Floats]]:
 def coupling_spans(
     projected: ProjectedScene, coupling: SceneCoupling, at: Callable[[Floats], Floats], scale: float
 ) -> list[Floats]:
-    """Return lines (2, 2) [in] across the area of a coupling: one line along its slot, or two diameters of each of its
-    holes.
+    """Return lines (2, 2) [in] across a coupling: one along its slot, or two diameters of each of its holes.
 
     at      conversion of view coordinates (..., 3) to inches (..., 2)
     scale   inches per millimetre
@@ -241,9 +225,7 @@ def coupling_spans(
 
 
 def part_points(part: ScenePart, outline: int = 0) -> Floats:
-    """Return points (n, 3) of a part in the zero pose [mm]: on an outline of a flat part, or on the section of a turned
-    part.
-    """
+    """Return points (n, 3) of an outline of a flat part, or of the section of a turned part, in the zero pose [mm]."""
     x, z = np.array(part.across), np.array(part.direction)
     if part.outlines:
         flat = np.array(part.outlines[outline]).reshape(-1, 2)
@@ -255,19 +237,14 @@ def part_points(part: ScenePart, outline: int = 0) -> Floats:
 
 
 def draw_shapes(axes: Axes, projected: ProjectedScene, place: Place) -> None:
-    """Draw the shapes of couplings. Flat parts are drawn by their outlines, and turned parts by their section or their
-    circle.
+    """Draw the shapes of couplings: outlines of flat parts, and sections or circles of turned parts.
 
     place   conversion of view coordinates (..., 3) to inches (..., 2)
     """
     # turned parts after flat parts, whose holes are white
     for part in sorted(projected.scene.shapes, key=lambda part: bool(part.bands)):
-        style: dict[str, Any] = {
-            "facecolor": (*to_rgb(PURPLE), 0.12),
-            "edgecolor": PURPLE,
-            "linewidth": 0.8,
-            "zorder": 5,
-        }
+        style: dict[str, Any] = {"edgecolor": PURPLE, "linewidth": 0.8, "zorder": 5}
+        style["facecolor"] = (*to_rgb(PURPLE), 0.12)
         lines = range(len(part.outlines)) if part.outlines else (0,)
         outlines = [place(projected.seen(projected.pose.point(part.body, part_points(part, at)))) for at in lines]
         if part.bands:
@@ -282,9 +259,7 @@ def draw_shapes(axes: Axes, projected: ProjectedScene, place: Place) -> None:
 
 
 def broken_wheels(scene: Scene) -> set[str]:
-    """Return the names of the wheels of broken pairs. A pair is broken if its loop does not close or its teeth cannot
-    run.
-    """
+    """Return the names of the wheels of pairs whose loop does not close or whose teeth cannot run."""
     return {scene.wheels[wheel].id for pair in scene.pairs if pair.broken for wheel in pair.wheels}
 
 
@@ -306,8 +281,7 @@ class _Face:
 
 
 def draw_obliquely(axes: Axes, projected: ProjectedScene, place: Place) -> None:
-    """Draw every wheel by its two ends and the surface between its ends, with a colour for each body, then draw the
-    arms over the wheels.
+    """Draw every wheel by its two ends and the surface between its ends, then the axes of wheels and the arms.
 
     place   conversion of view coordinates (..., 3) to inches (..., 2)
     """
@@ -315,13 +289,18 @@ def draw_obliquely(axes: Axes, projected: ProjectedScene, place: Place) -> None:
     red = broken_wheels(scene)
     faces = [(wheel, face) for wheel in scene.wheels for face in _faces(projected, wheel)]
     _draw_faces(axes, sorted(faces, key=lambda each: each[1].depth), place, red, 2.0)
-    _draw_arbors(axes, projected, place)
+    for wheel in scene.wheels:
+        centre, along = projected.centre(wheel), projected.axis(wheel)
+        reach = max(2.5 * wheel.thickness, 0.25 * wheel.radius)
+        line = place(projected.seen(np.array([centre - reach * along, centre + reach * along])))
+        axes.plot(*line.T, color=BLACK, linewidth=1.2, zorder=4)
+    for body, start, end in arms_of(projected):
+        line = place(projected.seen(np.array([start, end])))
+        axes.plot(*line.T, color=ORANGE, linewidth=4.0, zorder=4, gid=f"arm {scene.bodies[body].id}")
 
 
 def oblique_callouts(projected: ProjectedScene, place: Place, wheels: Sequence[SceneWheel]) -> list[Callout]:
-    """Return a callout for each wheel. If possible, its anchor is a point of the wheel's faces that no nearer wheel
-    hides.
-    """
+    """Return a callout for each wheel, anchored if possible at a point of its faces that no nearer wheel hides."""
     ends = {wheel.id: _ends(projected, wheel) for wheel in projected.scene.wheels if wheels}
     seen = {name: place(np.concatenate([face.points for face in both])) for name, both in ends.items()}
     outlines = {name: Path(points[ConvexHull(points).vertices]) for name, points in seen.items()}
@@ -329,7 +308,11 @@ def oblique_callouts(projected: ProjectedScene, place: Place, wheels: Sequence[S
     found = []
     for wheel in wheels:
         back, front = ends[wheel.id]
-        trials = np.concatenate([_inner_points(face.points, place) for face in (front, back)])
+        points = []  # within each face, from its rim inwards
+        for face in (front, back):
+            centre = face.points.mean(0)
+            points += [centre + share * (face.points[::4] - centre) for share in (0.85, 0.6, 0.35, 0.1)]
+        trials = place(np.concatenate(points))
         nearer = [outlines[name] for name, (_, near) in ends.items() if near.depth > front.depth]
         hidden = np.any([path.contains_points(trials) for path in nearer], axis=0) if nearer else np.zeros(len(trials))
         free = trials if hidden.all() else trials[hidden == 0]
@@ -337,12 +320,6 @@ def oblique_callouts(projected: ProjectedScene, place: Place, wheels: Sequence[S
         words = [(f"name {wheel.id}", f"{wheel.id} {wheel.teeth}")]
         found.append(Callout(words, (round(float(best[0]), 6), round(float(best[1]), 6))))
     return found
-
-
-def _inner_points(rim: Floats, place: Place) -> Floats:
-    """Return points (n, 2) [in] within a face, ordered from its rim inwards."""
-    middle = rim.mean(0)
-    return place(np.concatenate([middle + share * (rim[::4] - middle) for share in (0.85, 0.6, 0.35, 0.1)]))
 
 
 def draw_across(
@@ -378,9 +355,7 @@ def _draw_faces(
 
 
 def _faces(projected: ProjectedScene, wheel: SceneWheel) -> Iterator[_Face]:
-    """Yield the faces of a wheel: strips between its ends (tiles of the thread for a worm), then its far end and its
-    near end.
-    """
+    """Yield the faces of a wheel: strips between its ends (tiles of a worm's thread), then its far and near ends."""
     far, near = _ends(projected, wheel)
     if wheel.kind == "worm":
         yield from _thread(projected, wheel)
@@ -425,20 +400,6 @@ def _ends(projected: ProjectedScene, wheel: SceneWheel) -> tuple[_Face, _Face]:
     return back, _Face(near, float(near[:, 2].mean()), 0.45 + 0.4 * light, 0.8)
 
 
-def _draw_arbors(axes: Axes, projected: ProjectedScene, place: Place) -> None:
-    """Draw the axes of wheels as lines through the wheel centres, and an arm from each carrier to each axis that it
-    carries.
-    """
-    for wheel in projected.scene.wheels:
-        centre, along = projected.centre(wheel), projected.axis(wheel)
-        reach = max(2.5 * wheel.thickness, 0.25 * wheel.radius)
-        line = place(projected.seen(np.array([centre - reach * along, centre + reach * along])))
-        axes.plot(*line.T, color=BLACK, linewidth=1.2, zorder=4)
-    for body, start, end in arms_of(projected):
-        line = place(projected.seen(np.array([start, end])))
-        axes.plot(*line.T, color=ORANGE, linewidth=4.0, zorder=4, gid=f"arm {projected.scene.bodies[body].id}")
-
-
 _FACE = (_DARK + _LIGHT) / 2  # colour of a bar
 
 
@@ -449,16 +410,12 @@ class SideScale:
         self.left, self.scale, self.low = left, width / size, low
 
     def at(self, height: Any) -> Any:
-        """Return the abscissa on the page [in] of a height [mm] measured towards the reader, or of an array
-        of heights.
-        """
+        """Return the abscissa on the page [in] of a height [mm] towards the reader, or of an array of heights."""
         return self.left + (height - self.low) * self.scale
 
 
 def draw_side(page: ScaledPage, projected: ProjectedScene, depth: SideScale) -> None:
-    """Draw a train as seen from its left side: its layers are side by side, and the reader of the plan is on
-    the right.
-    """
+    """Draw a train as seen from its left side, with its layers side by side and the reader of the plan at the right."""
     red = broken_wheels(projected.scene)
     stacks: dict[tuple[float, float], list[float]] = {}
     for wheel in sorted(projected.scene.wheels, key=lambda each: -float(projected.seen(projected.centre(each))[0])):
@@ -474,7 +431,12 @@ def draw_side(page: ScaledPage, projected: ProjectedScene, depth: SideScale) -> 
         box = Rectangle((left, middle - half), right - left, 2 * half, gid=f"side {wheel.id}", **style)
         page.axes.add_artist(box)
         if wheel.helix:
-            _draw_slants(page.axes, wheel, (left, right), (middle, half), edge)
+            # right-hand teeth fall towards the right; the thread of a worm rises by more than the bar
+            rise = min(max(-float(np.tan(wheel.helix)) * (right - left), -half), half)
+            for at in (-1, 0, 1):  # three lines, as in ISO 2203
+                start = middle + at * half / 3 - rise / 2
+                look: dict[str, Any] = {"color": edge, "linewidth": 0.5, "zorder": 3.5}
+                page.axes.plot((left, right), [start, start + rise], gid=f"helix {wheel.id}", **look)
         stacks.setdefault((round(x, 4), round(middle, 4)), []).extend((left, right))
     for (_, middle), ends in stacks.items():
         page.axes.plot([min(ends) - 0.06, max(ends) + 0.06], [middle, middle], color=BLACK, linewidth=1.4, zorder=4)
@@ -482,30 +444,10 @@ def draw_side(page: ScaledPage, projected: ProjectedScene, depth: SideScale) -> 
     page.axes.text(depth.left - 0.25, page.foot, text, fontsize=FINE, color=GREY)
 
 
-def _draw_slants(
-    axes: Axes, wheel: SceneWheel, ends: tuple[float, float], height: tuple[float, float], color: str
-) -> None:
-    """Draw three lines on the bar of a helical wheel or worm. The lines follow the teeth on the side towards the
-    reader.
-
-    ends     abscissae of the left and right end of the bar [in]
-    height   ordinate of the middle, and half the height, of the bar [in]
-    """
-    # right-hand teeth fall towards the right, because the axis is level
-    rise = -float(np.tan(wheel.helix)) * (ends[1] - ends[0])
-    middle, half = height
-    rise = min(max(rise, -half), half)  # the thread of a worm rises by more than the bar
-    for at in (-1, 0, 1):  # three lines, as in ISO 2203
-        start = middle + at * half / 3 - rise / 2
-        axes.plot(ends, [start, start + rise], color=color, linewidth=0.5, zorder=3.5, gid=f"helix {wheel.id}")
-
-
 def _draw_across_side(
     page: ScaledPage, projected: ProjectedScene, wheel: SceneWheel, depth: SideScale, style: dict[str, Any]
 ) -> None:
-    """Draw a wheel that does not face the reader: with its teeth if it faces right, or as a silhouette if it
-    does not.
-    """
+    """Draw a wheel that does not face the reader: with its teeth if it faces right, else as a silhouette."""
     ends = [face.points for face in _ends(projected, wheel)]
     places = [np.column_stack([depth.at(points[:, 2]), page.at(points)[:, 1]]) for points in ends]
     if abs(float(projected.seen(projected.axis(wheel))[0])) > _FACES_RIGHT:

@@ -32,8 +32,9 @@ class SankeySpot:
     column: int
     height: float
     power: Fraction = Fraction(0)
-    """Power that passes through the node. `shed` is the width of the band of the node's loss [in]."""
+    """Power that passes through the node."""
     shed: float = 0.0
+    """Width of the band of the node's loss [in]."""
     left: float = 0.0
     """Space for text to the left of the node's centre [in]."""
     right: float = 0.0
@@ -67,19 +68,18 @@ class SankeySpot:
 
 @dataclass(eq=False)
 class BandSegment:
-    """Segment of a band between two spots. `start` and `end` are the positions of the upper edge of the segment at
-    these spots [in].
-
-    Only return bands skip columns.
-    """
+    """Segment of a band between two spots; only return bands skip columns."""
 
     source: SankeySpot
     target: SankeySpot
     stream: PowerStream
     width: float
     back: bool = False
+    """True for a return band."""
     start: float = 0.0
+    """Ordinate of the upper edge of the segment at `source` [in]."""
     end: float = 0.0
+    """Ordinate of the upper edge of the segment at `target` [in]."""
 
     @property
     def span(self) -> int:
@@ -89,14 +89,15 @@ class BandSegment:
 
 @dataclass(frozen=True)
 class ReturnBand:
-    """Band that leads power back, with its horizontal distances from the source and target to its turns, and the top of
-    its lane [in].
-    """
+    """Band that leads power back."""
 
     piece: BandSegment
     right: float
+    """Distance from the source to the turn at its right [in]."""
     left: float
+    """Distance from the target to the turn at its left [in]."""
     lane: float
+    """Ordinate of the top of the band above all other bands [in]."""
 
 
 @dataclass(frozen=True)
@@ -105,7 +106,7 @@ class SankeyLayout:
 
     spots: Sequence[SankeySpot]
     bands: Sequence[Sequence[BandSegment]]
-    """Forward bands. Each band is a sequence of segments from column to column. `turns` contains the return bands."""
+    """Forward bands, each a sequence of segments from column to column."""
     turns: Sequence[ReturnBand]
     x: Sequence[float]
     """Abscissa of the centre of each column [in]."""
@@ -125,8 +126,7 @@ _CLEAR = 0.06  # between text and a return band next to it
 def turns(
     table: Sequence[Sequence[SankeySpot]], back: Sequence[BandSegment]
 ) -> tuple[list[ReturnBand], dict[tuple[int, bool], float]]:
-    """Return the return bands, with the shortest band innermost, and the space [in] that they require on either side of
-    each column.
+    """Return the return bands, with the shortest band innermost, and the space that they require at columns [in].
 
     The space is keyed by (column, True) for the right side and (column, False) for the left side.
     """
@@ -151,9 +151,7 @@ def turns(
 def abscissae(
     table: Sequence[Sequence[SankeySpot]], room: Mapping[tuple[int, bool], float], minimum: float
 ) -> list[float]:
-    """Return the abscissae of the column centres [in], with space for names and return bands. The total width is not
-    less than `minimum` [in].
-    """
+    """Return the abscissae of column centres [in], with space for names and return bands, at least `minimum` wide."""
     left = [max(spot.left for spot in column) for column in table]
     right = [max(spot.right for spot in column) for column in table]
     lost = [max(spot.lost for spot in column) for column in table]
@@ -176,9 +174,7 @@ _BACK = 1.1  # maximum height of all return bands together
 
 
 def collapsed(flow: PowerFlow) -> tuple[dict[PowerNode, Fraction], list[PowerStream]]:
-    """Return the losses, keyed by node, and the streams. A bearing fed by only one shaft is replaced by a loss of this
-    shaft.
-    """
+    """Return the losses by node, and the streams, with each bearing that only one shaft feeds merged into the shaft."""
     gives = {stream.source for stream in flow.streams}
     takers: dict[PowerNode, list[PowerNode]] = {}
     for stream in flow.streams:
@@ -194,9 +190,7 @@ def collapsed(flow: PowerFlow) -> tuple[dict[PowerNode, Fraction], list[PowerStr
 
 
 def direct(streams: Sequence[PowerStream]) -> tuple[list[PowerStream], list[PowerStream]]:
-    """Return two lists: forward streams without loops, and, as return streams, one purely circulating stream of each
-    loop.
-    """
+    """Return the streams without loops, and the circulating streams that were removed from them, one for each loop."""
     import networkx as nx
 
     # depth-first search from the inputs, the largest stream of a node first: the last stream closes its loop
@@ -220,27 +214,13 @@ def _graph(streams: Sequence[PowerStream]) -> Any:
 
 
 def find_columns(ahead: Sequence[PowerStream]) -> dict[PowerNode, int]:
-    """Return the index of the column of each node. A node is to the right of all nodes that feed it (longest path), and
-    outputs are in the last column.
-    """
+    """Return the column of each node, right of all nodes that feed it (longest path); outputs are in the last one."""
     import networkx as nx
 
     graph = _graph(ahead)
     columns = {node: at for at, nodes in enumerate(nx.topological_generations(graph)) for node in nodes}
     last = 1 + max(at for node, at in columns.items() if node.kind != "out")
     return {node: last if node.kind == "out" else columns[node] for node in graph}
-
-
-def find_scale(
-    columns: Mapping[PowerNode, int], through: Mapping[PowerNode, Fraction], back: Sequence[PowerStream]
-) -> float:
-    """Return the scale [inches per unit of power], which is limited by the fullest column and by the return bands."""
-    sums = [Fraction(0)] * (max(columns.values()) + 1)
-    for node, at in columns.items():
-        sums[at] += through[node]
-    scale = TALL / float(max(sums))
-    returning = float(sum((stream.power for stream in back), Fraction(0)))
-    return min(scale, _BACK / returning) if returning else scale
 
 
 def make_bands(
@@ -269,12 +249,8 @@ _CROSSING = 1e-3  # cost of each crossing, so that crossings of the thinnest ban
 
 
 def order_columns(table: Sequence[list[SankeySpot]]) -> None:
-    """Sort the nodes of each column in place to reduce crossings of bands: first by barycentre sweeps in both
-    directions, then by pairwise swaps.
-
-    The nodes are first sorted in descending order of the recirculating power that leaves them.
-    """
-    for column in table:
+    """Sort the nodes of each column in place to reduce crossings of bands: by barycentre sweeps, then by swaps."""
+    for column in table:  # first in descending order of the recirculating power that leaves a node
         column.sort(key=lambda spot: -sum(piece.stream.circling for piece in spot.after))
     whole = range(len(table))
     best, minimum = [list(column) for column in table], _crossing_cost(table, whole)
@@ -282,7 +258,14 @@ def order_columns(table: Sequence[list[SankeySpot]]) -> None:
         forth = sweep % 2 == 0
         places = _ranks(table)
         for column in table if forth else reversed(table):
-            column.sort(key=lambda spot: _barycentre(spot, forth, places))
+            middles = {}  # mean positions of the neighbours in the previous or next column, weighted by band width
+            for spot in column:
+                pieces = [piece for piece in (spot.before if forth else spot.after) if not piece.back]
+                others = [(piece.source if forth else piece.target, piece.width) for piece in pieces]
+                whole_width = sum(width for _, width in others)
+                weighted = sum(places[other] * width for other, width in others)
+                middles[spot] = weighted / whole_width if pieces else places[spot]
+            column.sort(key=middles.__getitem__)
             places |= _ranks([column])
         if (tangle := _crossing_cost(table, whole)) < minimum:
             best, minimum = [list(column) for column in table], tangle
@@ -301,9 +284,8 @@ def _swap(table: Sequence[list[SankeySpot]], at: int) -> bool:
     for upper in range(len(column) - 1):
         for lower in range(upper + 1, len(column)):
             column[upper], column[lower] = column[lower], column[upper]
-            if (
-                now := _crossing_cost(table, near)
-            ) < tangle - 1e-9:  # gains at the level of rounding could alternate for ever
+            now = _crossing_cost(table, near)
+            if now < tangle - 1e-9:  # gains at the level of rounding could alternate for ever
                 tangle, swapped = now, True
             else:
                 column[upper], column[lower] = column[lower], column[upper]
@@ -314,21 +296,8 @@ def _ranks(table: Sequence[Sequence[SankeySpot]]) -> dict[SankeySpot, float]:
     return {spot: (at + 0.5) / len(column) for column in table for at, spot in enumerate(column)}
 
 
-def _barycentre(spot: SankeySpot, forth: bool, places: Mapping[SankeySpot, float]) -> float:
-    """Return the mean position of a spot's neighbours in the next or previous column, weighted by band width. If the
-    spot has no neighbours there, return its own position.
-    """
-    pieces = [piece for piece in (spot.before if forth else spot.after) if not piece.back]
-    if not pieces:
-        return places[spot]
-    others = [(piece.source if forth else piece.target, piece.width) for piece in pieces]
-    return sum(places[other] * width for other, width in others) / sum(width for _, width in others)
-
-
 def _crossing_cost(table: Sequence[Sequence[SankeySpot]], columns: range) -> float:
-    """Return the cost of crossings within a range of columns. The cost of a crossing is the product of the widths of
-    both bands, plus a constant.
-    """
+    """Return the cost of crossings within a range of columns; each costs the product of both widths plus a constant."""
     total = 0.0
     for at in columns:
         places = {spot: place for place, spot in enumerate(table[at])}
@@ -375,9 +344,7 @@ def settle_heights(table: Sequence[list[SankeySpot]]) -> None:
 
 
 def _level_top(spot: SankeySpot, before: bool, after: bool) -> tuple[float, float]:
-    """Return the top [in] of a spot at which its bands are level, and the weight of this position, which is largest for
-    bands that pass a column.
-    """
+    """Return the top [in] of a spot at which its bands are level, and the weight of this position."""
     shift = weight = 1e-9
     for sense, pieces in ((1, spot.before if before else ()), (-1, spot.after if after else ())):
         for piece in pieces:
@@ -390,9 +357,7 @@ def _level_top(spot: SankeySpot, before: bool, after: bool) -> tuple[float, floa
 
 
 def _separated_tops(column: Sequence[SankeySpot], wanted: Sequence[tuple[float, float]]) -> list[float]:
-    """Return separated tops [in] of the spots of a column, as close to the wanted tops as possible in the sense of
-    weighted least squares (isotonic regression).
-    """
+    """Return separated tops of the spots of a column [in], close to the wanted tops (weighted isotonic regression)."""
     import numpy as np
     from scipy.optimize import isotonic_regression
 
@@ -403,9 +368,7 @@ def _separated_tops(column: Sequence[SankeySpot], wanted: Sequence[tuple[float, 
 
 
 def _set_band_tops(table: Sequence[Sequence[SankeySpot]]) -> None:
-    """Set the tops of both ends of all bands in place, in the order of the spots at their opposite ends. Return bands
-    are uppermost.
-    """
+    """Set the tops of both ends of all bands in place, return bands first, in the order of their opposite ends."""
     for column in table:
         for spot in column:
             spot.before.sort(key=lambda piece: (not piece.back, piece.span, piece.source.top + piece.source.height / 2))
@@ -437,7 +400,13 @@ def lay_out_sankey(flow: PowerFlow, name: Width, loss: Width, minimum: float) ->
     for node in columns:
         given = sum((s.power for s in streams if s.source == node), Fraction(0)) + sheds.get(node, Fraction(0))
         through[node] = max(given, sum((s.power for s in streams if s.target == node), Fraction(0)))
-    scale = find_scale(columns, through, back)
+    # the scale is limited by the fullest column and by the return bands
+    sums = [Fraction(0)] * (max(columns.values()) + 1)
+    for node, at in columns.items():
+        sums[at] += through[node]
+    scale = TALL / float(max(sums))
+    if returning := float(sum((stream.power for stream in back), Fraction(0))):
+        scale = min(scale, _BACK / returning)
     spots = {}
     for node, at in columns.items():
         lost = sheds.get(node, Fraction(0))

@@ -81,9 +81,7 @@ def sphere_figure(
 
 
 def _face(kind: int) -> tuple[float, float, float, float]:
-    """Return the face colour (RGBA) of a kind of gear. It is translucent so that overlapping teeth of mating gears are
-    visible.
-    """
+    """Return the face colour (RGBA) of a kind of gear, translucent so that overlapping teeth of mates are visible."""
     return (*to_rgb(series_colour(kind)), _STRONG)
 
 

@@ -104,9 +104,7 @@ class StickLabels:
         self.room.take(((left + right) / 2, (low + high) / 2, wide, tall))
 
     def name_link(self, link: str, left: float, right: float, y: float) -> None:
-        """Add the name of a link to the left of its shaft, or above, below or to the right of the shaft. The shaft
-        extends from `left` to `right` at the height `y` [in].
-        """
+        """Add the name of a link next to its shaft, which extends from `left` to `right` at the height `y` [in]."""
         wide = text_width(link, _LINK_NAME, "bold") + 2 * _APART
         along = np.arange(left + wide / 2, max(right - wide / 2, left + wide / 2) + _STEP, _STEP)
         before = [(left - gap - wide / 2, y) for gap in (0.04, 0.1)]  # the second is next to a bearing
@@ -126,9 +124,7 @@ class StickLabels:
         self.wheels.append(_Label(text, color, places, {"fontsize": FINE, "rotation": 90}))
 
     def name_axis(self, axis: str, right: float, y: float) -> None:
-        """Add the name of an axis to the right of its right end, or near this end above or below the line of
-        the axis.
-        """
+        """Add the name of an axis at the right end of its line, or above or below the line near this end."""
         wide = text_width(axis)
         spots = [
             (right + 0.05 + wide / 2 + step * _STEP, y + lift) for lift in (0.0, 0.12, -0.12, 0.24) for step in range(9)
@@ -148,10 +144,7 @@ class StickLabels:
         self.wheels.append(_Label(name, PURPLE if closed else GREY, places, how))
 
     def write(self, axes: Axes) -> None:
-        """Place and write all labels. Labels with the fewest candidate positions are placed first.
-
-        A label without a free position is written at its best position.
-        """
+        """Place and write all labels, those with the fewest free or candidate positions first in their group."""
         links = sorted(self.links, key=lambda each: sum(map(self.room.free, each.places)))
         for each in chain(links, sorted(self.wheels, key=lambda each: len(each.places)), self.axes):
             x, y, _, _ = self.room.place(each.places) or each.places[0]
@@ -179,18 +172,16 @@ REACH = 0.34  # inches from a planet's axis to where its ring touches it
 
 @dataclass(frozen=True, slots=True)
 class StickMesh:
-    """Gear pair or coupling in its column between two rows; `ring` is the name of its ring wheel, or an empty string if
-    the mesh has none.
-    """
+    """Gear pair or coupling in its column between two rows."""
 
     name: str
     kind: str
     ends: tuple[str, str]
-    """Links of the mesh; the link on the lower row is first. `wheels` contains the wheels of these links, or the links
-    themselves for a coupling.
-    """
+    """Links of the mesh; the link on the lower row is first."""
     wheels: tuple[str, str]
+    """Wheels of these links, or the links themselves for a coupling."""
     ring: str
+    """Name of the ring wheel; empty if the mesh has none."""
     x: float
     """Abscissa of the column [in]. The vertical line of a ring wheel is one column further to the right."""
     low: float
@@ -224,7 +215,12 @@ def find_skeleton(train: GearTrain) -> StickSkeleton:
     for _ in range(_TRIES):  # fixed-point iteration: columns follow from levels, and levels from columns
         shafts = {link: StickShaft(link, axis_of[link]) for link in axis_of if link != train.declaration.frame}
         columns = find_columns(train, planes, row, axis_of, shafts)
-        _reach_cranks(shafts, columns.cranks)
+        for crank in columns.cranks:  # the shaft of the carrier, and one shaft on the carried axis, extend to the crank
+            shafts[crank.carrier].xs.append(crank.x)
+            borne = [shaft for shaft in shafts.values() if shaft.axis == crank.axis]
+            min(borne, key=lambda shaft: min(shaft.xs, default=0.0)).xs.append(crank.x)
+        for shaft in shafts.values():
+            shaft.xs = shaft.xs or [0.3]
         spans = [
             *(
                 (axis_in(train, axis_of, c.i, c.carrier), axis_in(train, axis_of, c.j, c.carrier), x)
@@ -237,8 +233,19 @@ def find_skeleton(train: GearTrain) -> StickSkeleton:
         row = {axis: level for level, axes in enumerate(levels) for axis in axes}
         rows, height = _set_heights(levels, shafts)
         meshes = [_mesh(circuit, x, train, axis_of, rows) for circuit, x in columns.meshes]
-        elements = {name: (x, _element_height(_element_axes(train, name), rows)) for name, x in columns.elements}
-        tries.append((_overlaps(spans, row), StickSkeleton(rows, shafts, meshes, columns, elements, height)))
+        elements = {}  # plates are above the shafts of one axis, or between two axes
+        for name, x in columns.elements:
+            own = [rows[axis] for axis in _element_axes(train, name)]
+            low, high = min(own), max(own)
+            elements[name] = (x, high[1] + _RISE if low == high else (low[1] + high[0]) / 2)
+        # pairs of vertical lines that overlap in one column
+        known = [(*sorted((row[one], row[other])), x) for one, other, x in spans]
+        overlaps = sum(
+            x == at and low < top and bottom < high
+            for index, (low, high, x) in enumerate(known)
+            for bottom, top, at in known[:index]
+        )
+        tries.append((overlaps, StickSkeleton(rows, shafts, meshes, columns, elements, height)))
         if not tries[-1][0]:
             break
     # the iteration may alternate between arrangements, so the one with the fewest overlaps is used
@@ -249,36 +256,6 @@ def _element_axes(train: GearTrain, name: str) -> list[str]:
     """Return the axes of the links that a brake or clutch joins, without duplicates."""
     axes = (train.kinematics.tree.axis(link) for link in train.declaration.clutches[name].links)
     return list(dict.fromkeys(axis for axis in axes if axis))
-
-
-def _element_height(axes: Sequence[str], rows: dict[str, tuple[float, float]]) -> float:
-    """Return the height of the plates of a brake or clutch [in]: above the shafts of its axis, or between two axes."""
-    if len({rows[axis] for axis in axes}) == 1:
-        return rows[axes[0]][1] + _RISE
-    low, high = sorted(rows[axis] for axis in axes)
-    return (low[1] + high[0]) / 2
-
-
-def _overlaps(spans: Sequence[tuple[str, str, float]], row: dict[str, int]) -> int:
-    """Return the number of pairs of vertical lines that overlap in one column."""
-    known = [(*sorted((row[one], row[other])), x) for one, other, x in spans]
-    return sum(
-        x == at and low < top and bottom < high
-        for index, (low, high, x) in enumerate(known)
-        for bottom, top, at in known[:index]
-    )
-
-
-def _reach_cranks(shafts: dict[str, StickShaft], cranks: Sequence[StickCrank]) -> None:
-    """Extend shafts in place: the shaft of each carrier to its cranks, and one shaft on each carried axis to the crank
-    that carries it.
-    """
-    for crank in cranks:
-        shafts[crank.carrier].xs.append(crank.x)
-        borne = [shaft for shaft in shafts.values() if shaft.axis == crank.axis]
-        min(borne, key=lambda shaft: min(shaft.xs, default=0.0)).xs.append(crank.x)
-    for shaft in shafts.values():
-        shaft.xs = shaft.xs or [0.3]
 
 
 def _row_order(train: GearTrain, axis_of: dict[str, str]) -> list[str]:
@@ -300,8 +277,7 @@ def _row_order(train: GearTrain, axis_of: dict[str, str]) -> list[str]:
 def _set_heights(
     levels: Sequence[Sequence[str]], shafts: dict[str, StickShaft]
 ) -> tuple[dict[str, tuple[float, float]], float]:
-    """Set the height of every shaft in `shafts`. Return the heights of the lowest and highest shaft of each axis, keyed
-    by axis, and the total height [in].
+    """Set the heights of `shafts`; return those of the lowest and highest shaft, by axis, and the total height [in].
 
     Shafts of one axis that overlap are drawn above each other, with the longest shaft lowest.
     """
@@ -375,8 +351,7 @@ _KEY, _ENTRY = 0.5, 0.17  # inches: sample and height of an entry of the legend
 
 
 def stick_figure(train: GearTrain, labels: bool = True, state: str | None = None) -> Figure:
-    """Return a figure with axes, shafts, wheels and tooth counts, cranks of carriers, the hatched frame, brakes and
-    clutches.
+    """Return a figure with axes, shafts, wheels, tooth counts, cranks of carriers, the frame, brakes and clutches.
 
     state   state whose brakes and clutches are drawn closed, by default the first state
 
@@ -395,13 +370,20 @@ def stick_figure(train: GearTrain, labels: bool = True, state: str | None = None
     for text in list(axes.texts):
         text.set_position((0.15 - margin, skeleton.height + _HEAD - 0.12))
     drawing = _Drawing(axes, train, skeleton, declared.state_or_first(state))
-    drawing.draw_axes()
+    for axis, (low, _) in skeleton.rows.items():
+        xs = [x for shaft in skeleton.shafts.values() if shaft.axis == axis for x in shaft.xs]
+        ends = [min(xs) - 0.2, max(xs) + 0.25]
+        draw_line(axes, ends, [low, low], PALE, 0.8, linestyle="-.", zorder=1, gid=f"axis {axis}")
+        drawing.words.name_axis(axis, ends[1], low)
     for mesh in skeleton.meshes:
         drawing.draw_mesh(mesh)
     for crank in skeleton.columns.cranks:
         drawing.draw_crank(crank)
     for wheel, x in skeleton.columns.lone:
-        drawing.draw_lone(wheel, x)
+        link = declared.wheels[wheel][0]
+        y = skeleton.shafts[link].y
+        drawing.draw_wheel_line(x, y, y + _LONE, wheel, link)
+        drawing.tick(x, y + _LONE, "spur")
     for shaft in skeleton.shafts.values():
         drawing.draw_shaft(shaft)
     for name in skeleton.elements:
@@ -443,14 +425,6 @@ class _Drawing:
             heights = [middle, *(end for end in self._ends(name) if end is not None)]
             self.words.keep_off((x - 0.1, x + 0.1), (min(heights), max(heights)))
 
-    def draw_axes(self) -> None:
-        """Draw the centre lines of all axes."""
-        for axis, (low, _) in self.skeleton.rows.items():
-            xs = [x for shaft in self.skeleton.shafts.values() if shaft.axis == axis for x in shaft.xs]
-            ends = [min(xs) - 0.2, max(xs) + 0.25]
-            draw_line(self.axes, ends, [low, low], PALE, 0.8, linestyle="-.", zorder=1, gid=f"axis {axis}")
-            self.words.name_axis(axis, ends[1], low)
-
     def draw_shaft(self, shaft: StickShaft) -> None:
         """Draw the shaft of a link with the link's name, and a bearing if the link turns in the frame."""
         left, right = min(shaft.xs) - 0.14, max(shaft.xs) + 0.14
@@ -460,18 +434,13 @@ class _Drawing:
         if self.train.kinematics.tree.top[shaft.link] == frame:
             draw_bearing(self.axes, joint, shaft.y, slides=shaft.link in self.train.declaration.sliding)
             self.words.keep_off((joint - BEARING, joint + BEARING), (shaft.y - BAR, shaft.y + BAR))
-        if self._is_held(shaft.link):
+        braked = {self.train.declaration.clutches[name].fixes for name in self.case.engaged}
+        fixed = shaft.link in self.case.fixed and shaft.link not in braked
+        if fixed or self.case.inputs.get(shaft.link) == 0:
             draw_ground(self.axes, right + 0.045, shaft.y, upright=True)
             right += 0.09
         self.words.keep_off((left, right), (shaft.y, shaft.y))
         self.words.name_link(shaft.link, left, right, shaft.y)
-
-    def _is_held(self, link: str) -> bool:
-        """Return True if a link is fixed by the declaration or by an input of 0. A link that is fixed by a brake does
-        not count.
-        """
-        braked = {self.train.declaration.clutches[name].fixes for name in self.case.engaged}
-        return (link in self.case.fixed and link not in braked) or self.case.inputs.get(link) == 0
 
     def draw_element(self, name: str) -> None:
         """Draw a brake or clutch between its members, with its name above its plates."""
@@ -480,9 +449,7 @@ class _Drawing:
         self.words.name_element(name, closed, *place)
 
     def _ends(self, name: str) -> list[float | None]:
-        """Return the heights of the shafts that a brake or clutch joins [in]; None for the frame, which is the first
-        member of a brake.
-        """
+        """Return the heights of the shafts that a brake or clutch joins [in]; None for the frame."""
         clutch = self.train.declaration.clutches[name]
         links = clutch.locks or (self.train.declaration.frame, *clutch.links)
         return [self.skeleton.shafts[link].y if link in self.skeleton.shafts else None for link in links]
@@ -497,8 +464,8 @@ class _Drawing:
         else:
             for wheel, link, foot, side in zip(mesh.wheels, mesh.ends, (low, high), (-1, 1), strict=True):
                 end = mesh.meet + TOUCH * side
-                self._draw_wheel_line(mesh.x, foot, end, wheel, link)
-                self._tick(mesh.x, end, mesh.kind)
+                self.draw_wheel_line(mesh.x, foot, end, wheel, link)
+                self.tick(mesh.x, end, mesh.kind)
 
     def _foot(self, link: str, mesh: StickMesh) -> float:
         shaft = self.skeleton.shafts.get(link)
@@ -508,18 +475,16 @@ class _Drawing:
         return self.skeleton.rows[self.skeleton.shafts[carrier].axis][0] - 0.22
 
     def _draw_ring(self, mesh: StickMesh, low: float, high: float) -> None:
-        """Draw the line of a planet, extended beyond its axis, and the ring wheel as lines across the planet's end and
-        next to the planet.
-        """
+        """Draw the line of a planet, extended beyond its axis, and the ring wheel across and next to its end."""
         ring = mesh.wheels.index(mesh.ring)
         planet, side = 1 - ring, 1 if ring == 0 else -1
         foot = (low, high)
         end = mesh.meet - TOUCH * side
-        self._draw_wheel_line(mesh.x, foot[planet], end, mesh.wheels[planet], mesh.ends[planet])
-        self._tick(mesh.x, end, "spur")
+        self.draw_wheel_line(mesh.x, foot[planet], end, mesh.wheels[planet], mesh.ends[planet])
+        self.tick(mesh.x, end, "spur")
         over, beside = mesh.meet + TOUCH * side, mesh.x + COLUMN
         draw_line(self.axes, [mesh.x - TICK, beside], [over, over], BLUE, WHEEL, zorder=4)
-        self._draw_wheel_line(beside, foot[ring], over, mesh.ring, mesh.ends[ring])
+        self.draw_wheel_line(beside, foot[ring], over, mesh.ring, mesh.ends[ring])
 
     def _draw_coupling(self, mesh: StickMesh, low: float, high: float) -> None:
         """Draw a coupling by the symbol of its kind, with the name of the coupling and the names of its pulleys."""
@@ -556,7 +521,7 @@ class _Drawing:
             self.feet[wheel] = (x, ends[0])
             self.words.name_upright(f"{wheel} {self.train.declaration.wheels[wheel][1].count}", x, ends, color)
 
-    def _draw_wheel_line(self, x: float, foot: float, end: float, wheel: str, link: str) -> None:
+    def draw_wheel_line(self, x: float, foot: float, end: float, wheel: str, link: str) -> None:
         """Draw a wheel as a line from its shaft to its mate, connected to any earlier line of the same wheel."""
         draw_line(self.axes, [x, x], [foot, end], BLUE, WHEEL, zorder=3, gid=f"wheel {wheel}")
         if link == self.train.declaration.frame:
@@ -567,29 +532,16 @@ class _Drawing:
             draw_line(self.axes, [known[0], x], [level, level], BLUE, WHEEL, zorder=3)
         self._name_wheel(wheel, x, (foot, end), BLUE)
 
-    def draw_lone(self, wheel: str, x: float) -> None:
-        """Draw a wheel that has no mate."""
-        link = self.train.declaration.wheels[wheel][0]
-        y = self.skeleton.shafts[link].y
-        self._draw_wheel_line(x, y, y + _LONE, wheel, link)
-        self._tick(x, y + _LONE, "spur")
-
     def draw_crank(self, crank: StickCrank) -> None:
         """Draw a carrier's arm, which ends in a bearing on the axis that the carrier carries."""
         y = self.skeleton.shafts[crank.carrier].y
         far = self.skeleton.rows[crank.axis][0]
         draw_line(self.axes, [crank.x, crank.x], [y, far], ORANGE, CARRIER, zorder=3, gid=f"crank {crank.carrier}")
-        slides = any(
-            link in self.train.declaration.sliding
-            for link, shaft in self.skeleton.shafts.items()
-            if shaft.axis == crank.axis
-        )
-        draw_bearing(self.axes, crank.x, far, ORANGE, slides)
+        own = {link for link, shaft in self.skeleton.shafts.items() if shaft.axis == crank.axis}
+        draw_bearing(self.axes, crank.x, far, ORANGE, not own.isdisjoint(self.train.declaration.sliding))
 
-    def _tick(self, x: float, y: float, kind: str) -> None:
-        """Draw a tooth mark at the end of a wheel: level for spur wheels, slanted for bevel and contrate wheels, long
-        and dashed for worms.
-        """
+    def tick(self, x: float, y: float, kind: str) -> None:
+        """Draw a tooth mark at the end of a wheel: level, slanted (bevel, contrate), or long and dashed (worm)."""
         lean = {"bevel": 0.06, "contrate": 0.06}.get(kind, 0.0)
         reach = TICK * (1.6 if kind == "worm" else 1.0)
         style = (0, (1.2, 0.8)) if kind == "worm" else "-"

@@ -20,9 +20,7 @@ _NEAREST = 9  # levels tried for an axis
 
 @dataclass(slots=True)
 class StickShaft:
-    """Shaft of a link on its axis, with the height of the shaft and the abscissae of its parts [in]. The frame has no
-    shaft.
-    """
+    """Shaft of a link other than the frame on its axis, with its height and the abscissae of its parts [in]."""
 
     link: str
     axis: str
@@ -33,10 +31,9 @@ class StickShaft:
 def find_levels(
     order: Sequence[str], shafts: dict[str, StickShaft], spans: Sequence[tuple[str, str, float]]
 ) -> list[list[str]]:
-    """Return the axes on each level, starting with the lowest level. Axes that do not overlap may share a level.
+    """Return the axes on each level, starting with the lowest level, by greedy search.
 
-    The axes are placed one after another (greedy search), each on a level near the axes with which it is paired, with
-    the minimum cost of line lengths and crossings.
+    Axes that do not overlap may share a level. Each axis is placed near the axes with which it is paired.
 
     spans   vertical lines between two axes, with the abscissa of their column
     """
@@ -76,9 +73,7 @@ def _cost(
     ends: dict[str, tuple[float, float]],
     spans: Sequence[tuple[str, str, float]],
 ) -> float:
-    """Return the cost of placing an axis on the level `here`: the lengths of its vertical lines, and penalties for
-    crossings and overlaps.
-    """
+    """Return the cost of placing an axis on the level `here`, from the lengths, crossings and overlaps of its lines."""
     cost = 0.3 * abs(here)
     placed = {**level, axis: here}
     known = [(*sorted((placed[one], placed[other])), x, axis in (one, other)) for one, other, x in spans
@@ -121,16 +116,12 @@ class StickColumns:
 
 
 def axis_in(train: GearTrain, axis_of: dict[str, str], link: str, carrier: str) -> str:
-    """Return the axis on which a link is drawn in a mesh. The frame is drawn on the axis of `carrier`, the carrier of
-    the mesh.
-    """
+    """Return the axis on which a link is drawn in a mesh; the frame is drawn on the axis of the mesh's carrier."""
     return axis_of[link] or axis_of[carrier]
 
 
 def find_planes(train: GearTrain) -> list[list[Circuit] | str]:
-    """Return groups of meshes that share wheels, and the names of brakes and clutches. They are ordered so that the
-    groups, brakes and clutches of each link are close together.
-    """
+    """Return groups of meshes that share wheels, and names of brakes and clutches; those of one link are adjacent."""
     circuits = {circuit.id: circuit for circuit in train.circuits}
     by_wheel: dict[str, list[str]] = {}
     for circuit in train.circuits:
@@ -165,7 +156,7 @@ def find_columns(
     A crank is placed before the first group in which its carried axis meshes. Abscissae are appended to `shafts` in
     place.
     """
-    found = StickColumns()
+    found, tree = StickColumns(), train.kinematics.tree
     borne: set[str] = set()
     x = 0.0
     for plane in planes:
@@ -181,7 +172,9 @@ def find_columns(
         taken: list[list[tuple[float, float]]] = []
         for circuit in plane:
             for axis in (axis_of[circuit.i], axis_of[circuit.j]):
-                bearer = _bearer(train, axis, axis_of)
+                links = (link for link, own in axis_of.items() if own == axis and link in tree.top)
+                # the moving link that carries the axis
+                bearer = next((tree.top[each] for each in links if tree.top[each] != train.declaration.frame), None)
                 if axis and axis not in borne and bearer is not None:
                     borne.add(axis)
                     x += _CRANK
@@ -207,20 +200,8 @@ def find_columns(
     return found
 
 
-def _bearer(train: GearTrain, axis: str, axis_of: dict[str, str]) -> str | None:
-    """Return the moving link that carries an axis; None if the frame carries the axis."""
-    tops = (
-        train.kinematics.tree.top[link]
-        for link, own in axis_of.items()
-        if own == axis and link in train.kinematics.tree.top
-    )
-    return next((top for top in tops if top != train.declaration.frame), None)
-
-
 def ring_of(train: GearTrain, circuit: Circuit) -> str:
-    """Return the name of the ring wheel of a gear pair; an empty string for a pair without a ring wheel and for a
-    coupling.
-    """
+    """Return the name of the ring wheel of a gear pair; empty for a pair without a ring and for a coupling."""
     if circuit.kind != "gear":
         return ""
     return next((wheel for wheel in circuit.wheels if train.declaration.wheels[wheel][1].internal), "")
@@ -233,9 +214,7 @@ def _free_column(
     axis_of: dict[str, str],
     row: dict[str, int],
 ) -> int:
-    """Return the index of the first column in which a mesh hides no other mesh, and add the mesh to `taken`. A ring
-    wheel occupies two columns.
-    """
+    """Return the index of the first column in which a mesh hides no other (a ring occupies two); add it to `taken`."""
     one, other = (row[axis_in(train, axis_of, link, circuit.carrier)] for link in (circuit.i, circuit.j))
     low, high = float(min(one, other)), float(max(one, other))
     ring = ring_of(train, circuit)

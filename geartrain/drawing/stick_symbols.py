@@ -103,9 +103,7 @@ def draw_element(
 
 
 def draw_belt(axes: Axes, x: float, ends: tuple[float, float], crossed: bool, name: str) -> None:
-    """Draw two pulleys on their shafts and both strands of the belt between them. Crossed strands make the pulleys turn
-    in opposite senses.
-    """
+    """Draw two pulleys on their shafts and both strands of the belt between them, which may cross."""
     for y in ends:
         _box(axes, x, y, _PULLEY, PURPLE, gid=f"pulley {name}")
     low, high = min(ends) + _PULLEY[1], max(ends) - _PULLEY[1]
@@ -123,9 +121,7 @@ def draw_screw(axes: Axes, x: float, screw: float, nut: float, name: str) -> Non
 
 
 def draw_rack(axes: Axes, x: float, meet: float, ends: tuple[float, float], name: str) -> None:
-    """Draw a pinion on a stem from the first end, and a long toothed bar, which the pinion touches, on a stem from the
-    second end.
-    """
+    """Draw a pinion on a stem from the first end, and a long toothed bar on a stem from the second end."""
     side = 1 if ends[1] > meet else -1
     for foot, level, half, color in (
         (ends[0], meet - 0.032 * side, TICK, BLUE),

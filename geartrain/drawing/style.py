@@ -134,9 +134,7 @@ def render(figure: _Figure, suffix: str, dots: float = 100.0, theme: ThemeName =
 
 
 def _texts(artist: Artist) -> Iterator[Text]:
-    """Yield the text objects of an artist. Hidden axes are skipped, because their ticks would be created only for this
-    purpose.
-    """
+    """Yield the text objects of an artist, except those of hidden axes, whose ticks are not created yet."""
     for child in artist.get_children():
         if isinstance(child, Text):
             yield child
@@ -163,9 +161,7 @@ LETTER = 0.62 / 72  # mean width of a letter [in] per point of font size
 
 
 def series_look(at: int) -> dict[str, Any]:
-    """Return the colour and dash pattern of a series, whose index starts at 0, as keyword arguments for matplotlib
-    lines.
-    """
+    """Return the colour and dash pattern of the series with index `at`, as keyword arguments of matplotlib lines."""
     return {"color": series_colour(at), "linestyle": series_dash(at)}
 
 
@@ -189,8 +185,7 @@ def name_axes(axes: Axes, x: str = "", y: str = "", title: str = "", size: float
 
 
 def curve_panels(heights: Sequence[float], margin: float = 0.0, share: bool = True) -> tuple[Figure, list[Axes]]:
-    """Return a figure and its panels for curves, which are placed one below the other. The panels have a common
-    abscissa unless `share` is False.
+    """Return a figure and its panels for curves, one below the other, with a common abscissa if `share` is True.
 
     heights   heights of the panels [in]
     margin    additional height of the figure [in]
@@ -209,9 +204,7 @@ class Row(NamedTuple):
     marks: Mapping[str, float]
     """Value of each mark in the row, keyed by series."""
     spans: Sequence[tuple[float, float]] = ()
-    """Ends of the intervals in the row, the widest first. Each interval is drawn as a thicker line than the one before
-    it.
-    """
+    """Ends of the intervals in the row, the widest first; each is drawn thicker than the one before it."""
     beside: Sequence[str] = ()
     """Texts of the cells to the right of the row."""
 
@@ -227,8 +220,7 @@ def interval_chart(
     title: str = "",
     log: bool = False,
 ) -> Figure:
-    """Return a chart of marks and intervals with one panel for each key of `panels`, which labels its axis. The first
-    row of a panel is at the top.
+    """Return a chart of marks and intervals with one panel for each key of `panels`, which labels its axis.
 
     looks   matplotlib properties of the marks, keyed by series
     heads   heads of the cells next to the rows
@@ -302,15 +294,8 @@ def legend_below(
 
 def legend_above(axes: Axes, columns: int) -> None:
     """Draw the legend of a panel above the panel, at the right."""
-    axes.legend(
-        loc="lower right",
-        bbox_to_anchor=(1, 1),
-        borderpad=0,
-        borderaxespad=0.1,
-        frameon=False,
-        fontsize=SMALL,
-        ncols=columns,
-    )
+    how: dict[str, Any] = {"bbox_to_anchor": (1, 1), "borderpad": 0, "borderaxespad": 0.1, "frameon": False}
+    axes.legend(loc="lower right", fontsize=SMALL, ncols=columns, **how)
 
 
 def short(name: str, letters: int = 20) -> str:
@@ -334,9 +319,8 @@ def kept_extremes(values: Floats, most: int) -> Ints:
 
 
 def write(axes: Axes, x: float, y: float, text: str, color: str = BLACK, halo: float = 3.0, **how: Any) -> None:
-    """Write a text without interpreting markup, and its halo as a separate text, because a single text with a halo
-    would become outlines in a vector file.
-    """
+    """Write a text without interpreting markup, with a halo."""
+    # the halo is a separate text, because a single text with a halo would become outlines in a vector file
     how = {"ha": "center", "va": "center", "fontsize": SMALL, "color": color, "zorder": 8, "parse_math": False, **how}
     behind = {key: value for key, value in how.items() if key != "gid"}
     axes.text(x, y, text, path_effects=(Stroke(linewidth=halo, foreground=WHITE),), **behind)
@@ -353,9 +337,7 @@ def note(axes: Axes, text: str, at: tuple[float, float], offset: tuple[float, fl
 
 
 def sheet(width: float, height: float, title: str) -> tuple[Figure, Axes]:
-    """Return a figure with one panel and a title of at most two lines. The coordinates of the panel are inches from its
-    lower left corner.
-    """
+    """Return a figure with one panel, whose coordinates are inches, and a title of at most two lines."""
     figure = Figure(figsize=(width, height), dpi=100)
     axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
     axes.set_xlim(0.0, width)
@@ -369,9 +351,7 @@ def sheet(width: float, height: float, title: str) -> tuple[Figure, Axes]:
 
 
 def headed(figure: Figure, title: str) -> Figure:
-    """Return the figure with a title above all its panels. The title is broken into as many lines as the figure's width
-    requires.
-    """
+    """Return the figure with a title above all its panels, in as many lines as the figure's width requires."""
     letters = int(figure.get_size_inches()[0] / (TEXT * LETTER))
     title = "\n".join(line for part in title.splitlines() for line in wrap(part, letters))
     figure.suptitle(title, fontsize=TEXT, x=0.01, ha="left", color=BLACK, parse_math=False)
@@ -384,9 +364,7 @@ def title_of(name: str, title: str) -> str:
 
 
 def after_turns(scene: Scene, turns: Fraction) -> str:
-    """Return the end of a picture's title, which states the number of `turns` of the driving link; an empty string for
-    0 turns.
-    """
+    """Return the end of a picture's title with the number of turns of the driving link; empty for 0 turns."""
     driver = "nothing" if scene.driving_link is None else scene.bodies[scene.driving_link].id
     return f", after {turns} turns of {driver}" if turns else ""
 

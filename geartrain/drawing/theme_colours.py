@@ -41,10 +41,7 @@ def themed(figure: Figure, name: ThemeName) -> Iterator[None]:
     figure.draw_without_rendering()  # ticks and their labels are created on the first drawing
     painter = _Painter(name)
     try:
-        for artist in _all(figure):
-            painter.paint(artist)
-        for axes in figure.axes:
-            painter.paint_grid(axes)
+        painter.paint(figure)
         yield
     finally:
         for put, old in reversed(painter.undo):
@@ -70,24 +67,18 @@ class _Painter:
         self._halos: list[object] = []  # converted once, as texts share them
         self._scales: list[Colormap] = []  # converted scales, as a colour bar shares the scale of its map
 
-    def paint(self, artist: Artist) -> None:
-        """Convert the colours of one artist. An artist whose values are shown on a colour scale gets the theme's colour
-        scale.
-        """
-        if isinstance(artist, Collection) and artist.get_array() is not None:
-            self._scale(artist)
-        elif not isinstance(artist, (Figure, Axes)):  # their colours are those of their patches
-            self._colours(artist)
-        for effect in artist.get_path_effects() or ():
-            self._halo(effect)
-
-    def paint_grid(self, axes: Axes) -> None:
-        """Convert the grid colour of ticks that will be created later, because a file of another resolution may have
-        more ticks.
-        """
-        for axis in (axes.xaxis, axes.yaxis):
-            old = axis.get_tick_params().get("grid_color")
-            if old is not None:
+    def paint(self, figure: Figure) -> None:
+        """Convert the colours and colour scales of all artists of a figure."""
+        for artist in _all(figure):
+            if isinstance(artist, Collection) and artist.get_array() is not None:
+                self._scale(artist)
+            elif not isinstance(artist, (Figure, Axes)):  # their colours are those of their patches
+                self._colours(artist)
+            for effect in artist.get_path_effects() or ():
+                self._halo(effect)
+        # ticks that will be created later, because a file of another resolution may have more ticks
+        for axis in (axis for axes in figure.axes for axis in (axes.xaxis, axes.yaxis)):
+            if (old := axis.get_tick_params().get("grid_color")) is not None:
                 new = to_hex(themed_colour(to_rgba(old), self.name))
                 self._put(partial(_set_grid, axis), old, new)
 
@@ -110,9 +101,8 @@ class _Painter:
     def _colours(self, artist: Artist) -> None:
         area = _area_of(artist, self.name)
         kinds = [kind for kind in _COLOURS if hasattr(artist, f"get_{kind}") and hasattr(artist, f"set_{kind}")]
-        olds = [
-            getattr(artist, f"get_{kind}")() for kind in kinds
-        ]  # read before any is set, as a marker follows its line
+        # read before any is set, as a marker follows its line
+        olds = [getattr(artist, f"get_{kind}")() for kind in kinds]
         for kind, old in zip(kinds, olds, strict=True):
             self._put(getattr(artist, f"set_{kind}"), old, _themed_all(old, self.name))
         if area is not None:
@@ -139,9 +129,7 @@ def _set_grid(axis: Axis, colour: Any) -> None:
 
 
 def _area_of(artist: Artist, name: ThemeName) -> tuple[Rgba, str] | None:
-    """Return the fill colour and hatch of an area in a series colour; None if the area has no such colour or the theme
-    defines no areas.
-    """
+    """Return the fill colour and hatch of an area in a series colour; None for other areas, and in other themes."""
     areas = THEMES[name].areas
     if not areas or isinstance(artist, (Circle, FancyArrowPatch)) or not isinstance(artist, (Patch, PolyCollection)):
         return None
@@ -173,25 +161,18 @@ def themed_colour(colour: Rgba, name: ThemeName) -> Rgba:
     light, theme = THEMES["light"], THEMES[name]
     known = dict(zip(_named(light), _named(theme), strict=True))
     found, own = known.get(to_hex(colour[:3])), np.array(colour[:3])
+    shade, along = _rgb_of(light.shade), _rgb_of(light.fill) - _rgb_of(light.shade)
+    share = float((own - shade) @ along / (along @ along))
     if found:
         rgb = _rgb_of(found)
+    elif 0.0 <= share <= 1.0 and np.abs(shade + share * along - own).max() <= _ROUNDED:
+        rgb = _rgb_of(theme.shade) + share * (_rgb_of(theme.fill) - _rgb_of(theme.shade))
     else:
-        mixed = _mixed_faces(own, light, theme)
-        rgb = _same_lightness(own, theme) if mixed is None else mixed
+        paper, ink, lightness = _rgb_of(theme.paper), _rgb_of(theme.ink), float(_LUMA @ own)
+        hue = 0.0 if name == "print" else own - lightness
+        rgb = np.clip(ink + lightness * (paper - ink) + hue, 0.0, 1.0)
     red, green, blue = map(float, rgb)
     return red, green, blue, colour[3]
-
-
-def _mixed_faces(rgb: Floats, light: Theme, theme: Theme) -> Floats | None:
-    """Return the theme's mixture of shade and fill colour that corresponds to a light colour; None if the light colour
-    is not such a mixture.
-    """
-    shade, fill = _rgb_of(light.shade), _rgb_of(light.fill)
-    along = fill - shade
-    share = float((rgb - shade) @ along / (along @ along))
-    if not 0.0 <= share <= 1.0 or np.abs(shade + share * along - rgb).max() > _ROUNDED:
-        return None
-    return _rgb_of(theme.shade) + share * (_rgb_of(theme.fill) - _rgb_of(theme.shade))
 
 
 def _rgb_of(colour: str) -> Floats:
@@ -201,12 +182,3 @@ def _rgb_of(colour: str) -> Floats:
 def _named(theme: Theme) -> Sequence[str]:
     own = (theme.paper, theme.ink, theme.quiet, theme.line, theme.fault, theme.fill, theme.shade, theme.band)
     return (*theme.series, *own)
-
-
-def _same_lightness(rgb: Floats, theme: Theme) -> Floats:
-    """Return a colour with the same relative lightness between the theme's paper and ink colours; in the print theme,
-    the colour is grey.
-    """
-    paper, ink, lightness = _rgb_of(theme.paper), _rgb_of(theme.ink), float(_LUMA @ rgb)
-    hue = 0.0 if theme is THEMES["print"] else rgb - lightness
-    return np.asarray(np.clip(ink + lightness * (paper - ink) + hue, 0.0, 1.0))

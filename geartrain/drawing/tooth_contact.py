@@ -37,7 +37,7 @@ from geartrain.drawing.style import (
 )
 from geartrain.errors import GearTrainError, Problem
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes
-from geartrain.teeth.triangular.real_path import DWELL, DriveInterval
+from geartrain.teeth.triangular.real_path import DWELL
 from geartrain.teeth.triangular.tooth_pair import APPROACH, RECESS
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
 
@@ -87,9 +87,7 @@ class ToothPairPose:
     direction: int
 
     def wheel(self, which: int) -> tuple[int, float, float, float]:
-        """Return the tooth count, tip radius and root radius of a wheel, and the angle [rad] of its tooth
-        in contact.
-        """
+        """Return the tooth count, tip radius, root radius of a wheel, and the angle of its tooth in contact [rad]."""
         sizes = self.sizes
         if which == DRIVER:
             return sizes.z1, sizes.R1, sizes.R1 - sizes.signs[0] * sizes.depths[0], self.alpha1
@@ -97,23 +95,18 @@ class ToothPairPose:
 
     @property
     def axis2(self) -> float:
-        """Signed distance of the driven wheel's axis from the driver's axis along the line of centres, in the unit of
-        `sizes`.
-        """
+        """Signed distance of the driven wheel's axis from the driver's axis, in the unit of `sizes`."""
         return self.sizes.signs[1] * self.sizes.D
 
     def place(self, which: int, radius: float | Floats, angle: float | Floats) -> Floats:
-        """Return the points (..., 2) of a wheel at a radius and an angle [rad] from the line of centres. The angle is
-        positive on the entry side.
-        """
+        """Return points (..., 2) of a wheel from radii and angles [rad] from the line of centres to the entry side."""
         along: Floats = radius * np.cos(angle)
         across: Floats = radius * np.sin(angle)
         x = along if which == DRIVER else self.axis2 - self.sizes.side * along
         return np.stack([x, self.direction * across], axis=-1)
 
     def outline(self, which: int, within: float = pi) -> Floats:
-        """Return vertices (n, 2) of the teeth of a wheel that are within an angle [rad] from the line of centres; by
-        default of all teeth.
+        """Return vertices (n, 2) of the teeth of a wheel within an angle [rad] from the line of centres.
 
         If `within` is less than pi, the centre of an external wheel is also a vertex. The body of a ring ends at a
         circle beyond its roots.
@@ -141,9 +134,7 @@ class ToothPairPose:
 
     @property
     def contact(self) -> Point:
-        """Contact point of the tooth pair: the tip of the driven tooth in approach, or the tip of the driver's tooth in
-        recess.
-        """
+        """Contact point: the tip of the driven tooth in approach, or the tip of the driver's tooth in recess."""
         which = DRIVEN if self.phase == APPROACH else DRIVER
         _, tip, _, alpha = self.wheel(which)
         x, y = self.place(which, tip, alpha)
@@ -162,24 +153,17 @@ class ToothPairPose:
 
 
 def tooth_pair_pose(transmission: TriangularTransmission, alpha1: float | None = None) -> ToothPairPose:
-    """Return the pose in which a tooth of the driver is at the angle `alpha1` [rad]. The default is the middle of the
-    first interval of contact.
-    """
-    interval, x = _pose_at(transmission, alpha1)
+    """Return the pose with a driver tooth at `alpha1` [rad], by default the middle of the first interval of contact."""
+    if alpha1 is None:
+        interval = transmission.intervals[0]
+        x = (interval.start + interval.end) / 2
+    else:
+        known = ((each, alpha1) for each in transmission.intervals if each.end <= alpha1 <= each.start)
+        interval, x = next(known, None) or transmission.contact.locate(alpha1)
     tooth_pair, standing = transmission.contact.path.tooth_pair, interval.held
     alpha2 = float(tooth_pair.angle(interval.phase, x)) if standing is None else standing
     tau = transmission.contact.speed(interval, x)
     return ToothPairPose(transmission.sizes, interval.phase, standing is None, x, alpha2, tau, transmission.direction)
-
-
-def _pose_at(transmission: TriangularTransmission, alpha1: float | None) -> tuple[DriveInterval, float]:
-    if alpha1 is None:
-        first = transmission.intervals[0]
-        return first, (first.start + first.end) / 2
-    for interval in transmission.intervals:
-        if interval.end <= alpha1 <= interval.start:
-            return interval, alpha1
-    return transmission.contact.locate(alpha1)
 
 
 _FEW = 40  # maximum sum of tooth counts of wheels that are drawn whole
@@ -191,8 +175,9 @@ _NAMES = {DRIVER: "driver", DRIVEN: "driven"}
 def teeth_figure(
     transmission: TriangularTransmission, alpha1: float | None = None, whole: bool | None = None
 ) -> Figure:
-    """Return a figure of two triangular teeth in contact, to scale, with their contact point and the line
-    of centres.
+    """Return a figure of two triangular teeth in contact, to scale, with their contact point and line of centres.
+
+    whole   True to draw whole wheels, False to draw the teeth near the contact; by default according to tooth counts
     """
     require_contact(transmission)
     here = tooth_pair_pose(transmission, alpha1)
@@ -234,9 +219,7 @@ class ToothViewport:
         return (self.top - self.bottom) / (self.right - self.left)
 
     def within(self, here: ToothPairPose, which: int) -> float:
-        """Return the half-angle [rad] of the sector around the line of centres that contains the visible part of a
-        wheel.
-        """
+        """Return the half-angle [rad] of the sector about the line of centres with the visible part of a wheel."""
         if self.whole:
             return pi
         z = here.wheel(which)[0]
@@ -257,9 +240,7 @@ def _whole(here: ToothPairPose) -> ToothViewport:
 
 
 def _near(here: ToothPairPose) -> ToothViewport:
-    """Return a viewport around the contact point, the instant centre and the pitch point, with a margin of one or two
-    pitches.
-    """
+    """Return a viewport around the contact point, the instant centre and the pitch point, with a margin."""
     sizes = here.sizes
     pitch = 2 * pi * sizes.D / sizes.pitch_sum
     points = [(sizes.D * sizes.z1 / sizes.pitch_sum, 0.0)]

@@ -58,8 +58,7 @@ _PERIOD_LABELS = ("transmission error\n(deg, driven)", "speed ratio\nover its me
 
 
 def mesh_figure(mesh: GearMesh, alpha1: float | None = None) -> Figure:
-    """Return a figure of flanks, path of contact and losses of a pair; if the pair has no path of contact, of its
-    transmission function and efficiency.
+    """Return a figure of flanks, path of contact and losses of a pair, or of its transmission function.
 
     alpha1   angle of the driving tooth from the line of centres [rad], at which triangular teeth are drawn in contact
     """
@@ -134,8 +133,15 @@ def triangular_figure(transmission: TriangularTransmission, friction: PairFricti
         _panel(axes, transmission, row, friction)
     _matching(panels, transmission)
     _jumps(panels[1], transmission)
-    _instant_centre(panels[1], transmission.sizes.signs)
-    _arms_key(panels[-1])
+    # the distance of the instant centre from the driver's axis, divided by the centre distance
+    signs = transmission.sizes.signs
+    beside = panels[1].secondary_yaxis("right", functions=(partial(_centre_at, signs), partial(_ratio_at, signs)))
+    beside.set_ylabel("instant centre\n$O_1C / D$", fontsize=TEXT)
+    beside.tick_params(labelsize=SMALL)
+    beside.set_yticks(_centres(signs, *panels[1].get_ylim()))  # on this scale ticks crowd where tau is near 0
+    for text, (_, style) in zip(("$b_1$, driver", "$b_2$, driven"), _CURVES, strict=True):
+        panels[-1].plot([], [], color=BLACK, linewidth=1.2, linestyle=style, label=text)
+    legend_above(panels[-1], 2)
     _label_time(panels[-1])
     name_axes(panels[0], title=_title(transmission, friction))
     legend_below(figure, 4, list(_legend(transmission)))
@@ -184,12 +190,7 @@ def _values(
     x: Floats,
     held: float | None = None,
 ) -> tuple[tuple[Floats, ...], ...]:
-    """Return the curves of each panel at driver angles alpha_1 = x [rad].
-
-    The curves are the driven angle alpha_2 [deg], the speed ratio tau, the efficiency, and the relative moment arms of
-    driver and driven wheel. Efficiency and moment arms are NaN during a dwell, and the efficiency is NaN where friction
-    locks.
-    """
+    """Return the curves of each panel (as in `_LABELS`) at driver angles alpha_1 = x [rad], NaN where undefined."""
     if held is not None:
         none = np.full_like(x, np.nan)
         return (np.full_like(x, degrees(held)),), (np.zeros_like(x),), (none,), (none, none)
@@ -205,9 +206,7 @@ def _values(
 
 
 def _limits(ideal: Floats, real: Floats) -> tuple[float, float]:
-    """Return axis limits that contain the real path and the nearby part of the ideal path; 0 and 1 if no value is
-    finite.
-    """
+    """Return axis limits around the real path and the nearby part of the ideal path; 0 and 1 if none is finite."""
     ideal, real = ideal[np.isfinite(ideal)], real[np.isfinite(real)]
     if not len(real):
         return 0.0, 1.0
@@ -236,9 +235,7 @@ def _matching(panels: list[Axes], transmission: TriangularTransmission) -> None:
 
 
 def _jumps(axes: Axes, transmission: TriangularTransmission) -> None:
-    """Draw each impact, at which a tooth pair separates and the next pair starts to drive, with the speed ratios before
-    and after the impact.
-    """
+    """Draw each impact, at which the next tooth pair starts to drive, with the speed ratios before and after it."""
     turns = zip(transmission.intervals, (*transmission.intervals[1:], transmission.intervals[0]), strict=True)
     hits = [(last, new) for last, new in turns if new.held is None]
     for (last, new), jump in zip(hits, transmission.jumps, strict=True):
@@ -251,21 +248,13 @@ def _jumps(axes: Axes, transmission: TriangularTransmission) -> None:
         note(axes, text, (degrees(jump.alpha1), jump.after), (-4, 5), va="bottom", color=BLACK, gid="jump")
 
 
-def _arms_key(axes: Axes) -> None:
-    """Draw a legend above the panel that explains the line styles of both wheels."""
-    for name, (_, style) in zip(("$b_1$, driver", "$b_2$, driven"), _CURVES, strict=True):
-        axes.plot([], [], color=BLACK, linewidth=1.2, linestyle=style, label=name)
-    legend_above(axes, 2)
-
-
 def _centre_at(signs: tuple[int, int], tau: Any) -> Any:
-    """Return the distance of the instant centre from the driver's axis, divided by the centre distance, at the speed
-    ratio tau.
+    """Return the position of the instant centre on the line of centres, from 0 at O_1 to 1 at O_2, at a speed ratio.
 
-    The denominator has a lower bound, which applies to speed ratios far from the real path. A sign in `signs` is -1 for
-    a ring gear.
+    signs   1 for an external wheel, -1 for a ring
     """
     first, second = signs
+    # the lower bound of the denominator applies to speed ratios far from the real path
     return tau / np.maximum(first + second * tau, 0.1)
 
 
@@ -276,9 +265,7 @@ def _ratio_at(signs: tuple[int, int], centre: Any) -> Any:
 
 
 def _centres(signs: tuple[int, int], low: float, high: float) -> list[float]:
-    """Return tick positions for the instant centre between two speed ratios: round values that are not too close
-    together.
-    """
+    """Return round tick positions for the instant centre between two speed ratios, not too close together."""
     minimum, most = sorted(float(_centre_at(signs, tau)) for tau in (low, high))
     ticks: list[float] = []
     for bins in range(_CENTRES, 0, -1):
@@ -288,17 +275,6 @@ def _centres(signs: tuple[int, int], low: float, high: float) -> list[float]:
         if all(abs(b - a) > (high - low) / (2 * _CENTRES) for a, b in pairwise(ratios)):
             break
     return ticks
-
-
-def _instant_centre(axes: Axes, signs: tuple[int, int]) -> None:
-    """Draw a second axis that shows the distance of the instant centre from the driver's axis, divided by the centre
-    distance.
-    """
-    beside = axes.secondary_yaxis("right", functions=(partial(_centre_at, signs), partial(_ratio_at, signs)))
-    beside.set_ylabel("instant centre\n$O_1C / D$", fontsize=TEXT)
-    beside.tick_params(labelsize=SMALL)
-    # on this nonlinear scale ticks crowd where tau is near 0
-    beside.set_yticks(_centres(signs, *axes.get_ylim()))
 
 
 def _label_time(axes: Axes) -> None:
@@ -355,9 +331,7 @@ _SINGULAR = 0.1  # pitches from the pitch point within which singular values do 
 
 
 def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
-    """Return a figure that compares the flanks, paths of contact, stress, heat, flash temperature, sliding and loss of
-    several tooth forms for one pair.
-    """
+    """Return a figure of the flanks, paths of contact, stress, heat, sliding and loss of several forms for one pair."""
     if not paths:
         what, why = "no tooth form can be drawn", "no form has a path of contact for this pair"
         raise QuestionError(Problem(what, why, "change the arcs of approach and recess, or the tooth counts"))
@@ -384,9 +358,16 @@ def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
         _label_flank_panel(axes, text)
     for axes, (words, cost) in zip(panels.flat[3:], _quantities(pitch, unit), strict=True):
         _along(axes, words, cost, paths, styles)
-    beyond = "; some curves extend beyond their panels" if any(map(_leaves_panel, panels.flat[3:])) else ""
+    beyond = ""
+    for axes in panels.flat[3:]:
+        low, high = axes.get_ylim()
+        drawn = [np.asarray(line.get_ydata(), dtype=float) for line in axes.lines if line.get_gid()]
+        if any(((y < low) | (y > high)).any() for y in drawn):
+            beyond = "; some curves extend beyond their panels"
+    gears = f"{pitch.z1} drives {pitch.z2}"
+    gears += f", axes at {degrees(pitch.R1 + pitch.R2):.6g}°" if pitch.bevel else ", a ring" if pitch.R2 < 0 else ""
     only = f"{next(iter(paths)).replace('_', ' ')} teeth" if len(paths) == 1 else "tooth forms side by side"
-    headed(figure, f"{only}, {_pitch_title(pitch)}{beyond}")
+    headed(figure, f"{only}, {gears}{beyond}")
     if len(paths) == 1:
         return figure
     handles = [
@@ -395,19 +376,6 @@ def shapes_figure(paths: Mapping[str, PathOfContact]) -> Figure:
     ]
     legend_below(figure, 3, handles, handlelength=4)
     return figure
-
-
-def _leaves_panel(axes: Axes) -> bool:
-    """Return True if the curve of a tooth form extends beyond the limits of its panel."""
-    low, high = axes.get_ylim()
-    drawn = [np.asarray(line.get_ydata(), dtype=float) for line in axes.lines if line.get_gid()]
-    return any(bool(((y < low) | (y > high)).any()) for y in drawn)
-
-
-def _pitch_title(pitch: PitchSurfaces) -> str:
-    if pitch.bevel:
-        return f"{pitch.z1} drives {pitch.z2}, axes at {degrees(pitch.R1 + pitch.R2):.6g}°"
-    return f"{pitch.z1} drives {pitch.z2}{', a ring' if pitch.R2 < 0 else ''}"
 
 
 def _places(path: PathOfContact) -> Floats:

@@ -36,10 +36,15 @@ from geartrain.numerics.lazy_names import public_names
 
 if TYPE_CHECKING:
     from geartrain.scene.construction import make_scene as make_scene
+    from geartrain.scene.dial_scale import engrave as engrave
     from geartrain.scene.layout.train_layout import AxisPlace as AxisPlace
     from geartrain.scene.layout.train_layout import Layout as Layout
     from geartrain.scene.layout.train_layout import WheelPlace as WheelPlace
     from geartrain.scene.layout.train_layout import lay_out as lay_out
+    from geartrain.scene.palette import THEMES as THEMES
+    from geartrain.scene.palette import series_colour as series_colour
+    from geartrain.scene.palette import series_dash as series_dash
+    from geartrain.scene.pose import scene_pose as scene_pose
     from geartrain.scene.solids.built_scene import build_scene as build_scene
     from geartrain.scene.solids.manufacturing_sizes import ManufacturingSizes as ManufacturingSizes
     from geartrain.scene.solids.solid_assembly import SolidModel as SolidModel
@@ -50,7 +55,10 @@ __getattr__, __all__ = public_names(
     __name__,
     {
         "construction": "make_scene",
+        "dial_scale": "engrave",
         "layout.train_layout": "AxisPlace Layout WheelPlace lay_out",
+        "palette": "THEMES series_colour series_dash",
+        "pose": "scene_pose",
         "solids.built_scene": "build_scene",
         "solids.manufacturing_sizes": "ManufacturingSizes",
         "solids.solid_assembly": "SolidModel",

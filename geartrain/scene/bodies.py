@@ -42,9 +42,7 @@ class BentWheel:
     axis: str
     """Label of the axis of the wave generator."""
     offset: Vector
-    """Vector from the wave generator's axis to the declared axis of the wheel [mm]. It gives the amplitude and the
-    direction of the wave.
-    """
+    """Vector from the wave generator's axis to the declared axis of the wheel [mm], along the first lobe."""
     lobes: int
     """Number of lobes of the wave: the tooth count of the ring minus the tooth count of the flexible wheel."""
 
@@ -70,9 +68,7 @@ def bent_wheels(train: GearTrain, layout: Layout) -> Iterator[BentWheel]:
 def bend(
     stage: SceneContext, bodies: Sequence[SceneBody], wheels: Sequence[SceneWheel]
 ) -> tuple[tuple[SceneBody, ...], tuple[SceneWheel, ...], tuple[SceneWave, ...]]:
-    """Return the bodies, the wheels and the strain waves. Flexible wheels are moved to the axes of their wave
-    generators.
-    """
+    """Return the bodies, wheels and strain waves, with flexible wheels moved to the axes of their wave generators."""
     bent, moved, waves = list(bodies), list(wheels), []
     for each in bent_wheels(stage.train, stage.layout):
         at, by = stage.wheel[each.wheel], stage.body[each.link]
@@ -103,16 +99,12 @@ _LAND = 0.08  # minimum half width of a tip, divided by half a pitch
 
 
 def spur(z: int, height: float = ADDENDUM) -> ToothProfile:
-    """Return the profile of a nominal tooth of an external wheel with z teeth, at most `height` [modules] above the
-    pitch circle.
-    """
+    """Return a nominal tooth of an external wheel with z teeth, at most `height` [modules] above the pitch circle."""
     return ToothProfile(FORM, _tooth(z, min(ADDENDUM, height)))
 
 
 def ring(z: int, height: float = ADDENDUM) -> ToothProfile:
-    """Return the profile of a nominal tooth, `height` [modules] high, of an internal gear with z teeth. The tooth has
-    the shape of the tooth space of an external wheel.
-    """
+    """Return a nominal tooth of an internal gear with z teeth, at most `height` [modules] inside the pitch circle."""
     most = 1 + 2 * DEDENDUM / z
     # a tooth space of the ring is a tooth of an external wheel, higher and slightly wider
     tip = max(1 - 2 * min(ADDENDUM, height) / z, _MINIMUM_ROOT)
@@ -122,16 +114,6 @@ def ring(z: int, height: float = ADDENDUM) -> ToothProfile:
     return ToothProfile(
         FORM, _mirrored([(r, min(max(angle, _LAND * half), _ROOM * half)) for r, angle in reversed(flank)], z)
     )
-
-
-def tooth_height(z: int, mate: int, within: bool) -> float:
-    """Return the maximum height [modules] of a tooth that does not touch the roots of a mate with few teeth.
-
-    within   True if one of the two wheels is a ring; then the tips must also clear each other outside of the mesh
-    """
-    if within:
-        return _PASSING * abs(z - mate)
-    return mate / 2 * (1 - _root(mate)) - (DEDENDUM - ADDENDUM) / 2
 
 
 def _root(z: float) -> float:
@@ -153,9 +135,7 @@ def bevel(z: int, cone: float) -> ToothProfile:
 
 
 def crown(z: int, mate: int, section: Sequence[tuple[float, float]]) -> ToothProfile:
-    """Return the tooth profile of a crown wheel with z teeth. Its tooth spaces are slightly wider than the tooth
-    `section` (radius, angle [rad]) of its mate.
-    """
+    """Return a tooth of a crown wheel with z teeth, whose spaces fit the `section` (radius, angle) of its mate."""
     import numpy as np
 
     r, angle = np.array([point for point in section if point[1] >= 0]).T
@@ -168,9 +148,7 @@ def crown(z: int, mate: int, section: Sequence[tuple[float, float]]) -> ToothPro
 
 
 def worm(starts: int, height: float) -> ToothProfile:
-    """Return the axial section of a worm's thread as a tooth profile around the worm's axis; `height` is the addendum
-    divided by the pitch radius.
-    """
+    """Return the axial section of a worm's thread as a tooth profile; `height` is the addendum over the radius."""
     half = pi / starts
     low, high = max(1 - DEDENDUM * height, _MINIMUM_ROOT), 1 + height
     flanks = [(low, -0.75 * half), (high, -0.25 * half), (high, 0.25 * half), (low, 0.75 * half)]
@@ -197,9 +175,7 @@ def _spread(low: float, high: float) -> list[float]:
 
 
 def _half(z: float, r: float) -> float:
-    """Return half the angular thickness [rad], at the radius `r` [pitch radii], of an involute tooth that a rack
-    undercuts. The wheel has `z` teeth.
-    """
+    """Return half the angle [rad] of an undercut involute tooth of a wheel with `z` teeth at `r` pitch radii."""
     base = cos(_PRESSURE)
     inner = 0.0 if r <= base else sqrt((r / base) ** 2 - 1) - acos(base / r)
     involute = (pi / 2 * (1 - 2 * _BACKLASH)) / z + tan(_PRESSURE) - _PRESSURE - inner
@@ -208,14 +184,11 @@ def _half(z: float, r: float) -> float:
 
 
 def _swept(z: float, r: float) -> float:
-    """Return half the angle [rad], at the radius `r` [pitch radii], of the tooth space that the tips of a rack cut out.
-
-    The rack's tip corner is at the distance `b` from the middle of the rack's tooth and at the height `c` above the
-    wheel's axis. After a rotation of the wheel by u - b, the corner is displaced by u and is at the angle atan(u / c) -
-    (u - b) from the middle of the space.
-    """
+    """Return half the angle [rad] of the tooth space that the tips of a rack cut out at `r` pitch radii."""
+    # the rack's tip corner is b from the middle of the rack's tooth, and c above the wheel's axis
     c = 1 - 2 * ADDENDUM / z
     b = pi / 2 / z - (1 - c) * tan(_PRESSURE)
+    # a rotation of the wheel by u - b displaces the corner by u, to the angle atan(u / c) - (u - b)
     u = sqrt(max(r * r - c * c, 0.0))
     return atan2(u, c) - u + b if c > 0 and r < 1 else 0.0
 
@@ -239,6 +212,7 @@ def _body(stage: SceneContext, link: str) -> SceneBody:
     tree, train = stage.train.kinematics.tree, stage.train
     label = tree.axis(link) or ""
     place = stage.layout.axes.get(label)
+    role = "carrier" if link in tree.top.values() else "arbor"
     # coaxial links are carried by the link that carries their axis, whatever joints were declared
     bearer = tree.top.get(link)
     speed, travels = stage.speed(link), link in tree.lines
@@ -253,7 +227,7 @@ def _body(stage: SceneContext, link: str) -> SceneBody:
         shown=stage.shown(speed, link),
         decimal=stage.rounded(speed, link),
         start=stage.start(link),
-        role=_role(stage, link),
+        role="frame" if link == train.declaration.frame else role,
         bookkeeping=link in train.kinematics.joint_sums,
         note=train.declaration.links[link].note or "",
         travels=travels,
@@ -261,16 +235,8 @@ def _body(stage: SceneContext, link: str) -> SceneBody:
     )
 
 
-def _role(stage: SceneContext, link: str) -> str:
-    if link == stage.train.declaration.frame:
-        return "frame"
-    return "carrier" if link in stage.train.kinematics.tree.top.values() else "arbor"
-
-
 def find_profiles(stage: SceneContext) -> tuple[dict[str, ToothProfile], tuple[Problem, ...]]:
-    """Return the tooth profile of every wheel, by name, and notices with reasons. A wheel that cannot be cut as
-    declared has a nominal profile.
-    """
+    """Return each wheel's profile, nominal if its teeth cannot be cut as declared, and a notice of each reason."""
     toothed = find_train_teeth(stage.train.mechanics, stage.layout.wheels)
     cut = {
         wheel: ToothProfile(each.form, each.section(), each.kind == "pins")
@@ -284,9 +250,7 @@ def find_profiles(stage: SceneContext) -> tuple[dict[str, ToothProfile], tuple[P
 
 
 def _notices(stage: SceneContext, toothed: TrainTeeth) -> Iterator[Problem]:
-    """Yield a notice for each reason why planar wheels are not drawn as cut, and for each flexible wheel without a wave
-    generator.
-    """
+    """Yield notices on planar wheels that are not drawn as cut, and on flexible wheels without a wave generator."""
     by_reason: dict[tuple[str, str, str, bool], list[str]] = {}
     for wheel, problems in toothed.problems.items():
         if wheel in toothed.flat:
@@ -314,8 +278,13 @@ def _approximation(stage: SceneContext, toothed: TrainTeeth, name: str) -> Tooth
         return crown(z, shaped.z, shaped.section())
     if place.cone:
         return bevel(z, place.cone)
-    mates = [stage.train.declaration.wheels[mate][1] for mate in _mates(stage, name)]
-    heights = [tooth_height(z, mate.count or 1, wheel.internal or mate.internal) for mate in mates]
+    heights = []  # at which a tooth does not touch the roots of a mate with few teeth
+    for mate in (stage.train.declaration.wheels[mate][1] for mate in _mates(stage, name)):
+        count = mate.count or 1
+        if wheel.internal or mate.internal:  # the tips must also clear each other outside of the mesh
+            heights.append(_PASSING * abs(z - count))
+        else:
+            heights.append(count / 2 * (1 - _root(count)) - (DEDENDUM - ADDENDUM) / 2)
     return (ring if wheel.internal else spur)(z, *([min(heights)] if heights else []))
 
 
@@ -367,6 +336,11 @@ def _wheel(
     inner, outer = min(radii), max(radii)
     same = flip(stage, place)
     uncertainty = wheel.uncertainty
+    helix = wheel.helix if wheel.is_helical else 0.0
+    if wheel.kind == "worm":
+        lead = pi * place.module * (wheel.count or 1)
+        # relative to the axis: the complement of the lead angle, which tables of worms give
+        helix = (-1 if wheel.hand == "left" else 1) * atan2(2 * pi * place.radius, lead)
     return SceneWheel(
         id=place.wheel,
         body=stage.body[link],
@@ -391,25 +365,12 @@ def _wheel(
         doubt=_uncertainty(wheel),
         circuits=tuple(circuits),
         loss=loss,
-        helix=_helix(wheel, place),
+        helix=helix,
     )
 
 
-def _helix(wheel: Declared, place: WheelPlace) -> float:
-    """Return the helix angle [rad] of a wheel's teeth, or of a worm's thread, relative to the axis. It is positive for
-    a right-hand helix.
-    """
-    if wheel.kind != "worm":
-        return wheel.helix if wheel.is_helical else 0.0
-    lead = pi * place.module * (wheel.count or 1)
-    # relative to the axis: the complement of the lead angle, which tables of worms give
-    return (-1 if wheel.hand == "left" else 1) * atan2(2 * pi * place.radius, lead)
-
-
 def flip(stage: SceneContext, place: WheelPlace) -> int:
-    """Return -1 if the declared axis of a wheel is opposite to the reference direction of the axes parallel to it;
-    return 1 if not.
-    """
+    """Return -1 if the declared axis of a wheel is opposite to the reference direction of its axis, 1 if not."""
     return 1 if stage.along(place.axis) == stage.reference(place.axis) else -1
 
 
@@ -430,9 +391,7 @@ def _uncertainty(wheel: Declared) -> str:
 
 
 def _losses(stage: SceneContext) -> dict[str, float]:
-    """Return the fraction of the input power that is lost at each wheel, which is half the loss of its gear pairs;
-    empty if the losses are unknown.
-    """
+    """Return the fraction of the input power lost at each wheel: half the loss of its pairs; empty if unknown."""
     declared = stage.train.declaration
     if not stage.answer.verdict or not declared.is_loaded(stage.answer.state):
         return {}

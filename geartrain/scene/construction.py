@@ -1,12 +1,8 @@
 """Construction of the scene of a train: positions, outlines and motion of all its elements.
 
-The rotation of each wheel on its body brings teeth into contact as their transmission function requires in the zero
-pose. The transmission function of a pair gives the angle of the driven wheel for each angle of the driver, so that a
-traversal from wheel to wheel determines all angles. If a wheel has several mates, only one of its pairs is exact. In
-each of its other pairs, the driven wheel is rotated until the driver does not interfere with it at any position.
-
-Speeds are available as exact functions of tooth counts, for pages on which the tooth counts can be changed. Equal
-planets share one tooth count.
+The transmission function of a pair gives the angle of the driven wheel for each angle of the driver, so that a
+traversal from wheel to wheel determines all angles at which teeth mesh. If a wheel has several mates, only one of its
+pairs is exact; in the other pairs, the driven wheel is rotated until the driver does not interfere with it.
 """
 
 from __future__ import annotations
@@ -62,12 +58,10 @@ _NONE = 1e-9  # mm, or relative to a unit vector: smaller differences are roundi
 
 
 def mesh_directions(stage: SceneContext, circuit: Circuit) -> tuple[tuple[Vector, Vector], int] | None:
-    """Return the two directions of contact of a gear pair and its sense (1 or -1); None for screw pairs and coaxial
-    wheels.
+    """Return the unit vectors from the axes of two wheels to their contact, and the sense of the pair.
 
-    The directions are the unit vectors from the centres of the wheels to the point of contact, perpendicular to their
-    axes. The sense is 1 if positive rotations of both wheels move the teeth in contact in the same direction, and -1 if
-    they move them in opposite directions.
+    The sense is 1 if positive rotations of both wheels move the teeth in contact in the same direction, and -1 if they
+    move them in opposite directions. The result is None for screw pairs and coaxial wheels.
     """
     one, other = (stage.train.declaration.wheels[name][1] for name in circuit.wheels)
     first, second = (stage.layout.wheels[name] for name in circuit.wheels)
@@ -87,21 +81,9 @@ _NEAR = 1e-6  # pitches: smaller phase differences are rounding errors
 _ROUNDS = 4
 
 
-def phase_wheels(stage: SceneContext, moved: MovementStart) -> tuple[dict[str, float], tuple[Problem, ...]]:
-    """Return the angle of the first tooth of every wheel, chosen so that its teeth mesh with its mates, and notices.
-
-    Each angle [rad] is about the direction of the wheel's body, from the reference direction of the wheel. A wheel
-    without mates keeps its angle from the layout.
-    """
-    found = _Mounting(stage, moved)
-    # pairs with a transmission function, then pairs with a declared phase, because their angles are not free
-    for circuit in sorted(found.pairs, key=lambda each: (each.id not in moved.driving, each.id not in found.phases)):
-        found.spread(circuit)
-    turns = {wheel: found.turns.get(wheel, as_placed(stage, wheel)) for wheel in stage.layout.wheels}
-    return turns, tuple(found.notices())
-
-
 class _Mounting:
+    """Finds `turns`, the angles [rad] by which wheels turn from the reference position so that their teeth mesh."""
+
     def __init__(self, stage: SceneContext, moved: MovementStart) -> None:
         self.stage, self.moved = stage, moved
         self.turns: dict[str, float] = {}
@@ -120,11 +102,14 @@ class _Mounting:
                 self.pairs.append(circuit)
                 for wheel in circuit.wheels:
                     self.mates.setdefault(wheel, []).append(circuit)
+        # pairs with a transmission function, then pairs with a declared phase, because their angles are not free
+        for circuit in sorted(self.pairs, key=lambda each: (each.id not in moved.driving, each.id not in self.phases)):
+            self._spread(circuit)
+        for wheel in stage.layout.wheels:
+            self.turns.setdefault(wheel, as_placed(stage, wheel))
 
-    def spread(self, first: Circuit) -> None:
-        """Rotate into mesh, by breadth-first search, all wheels that meshes connect with a given pair. Wheels that
-        already have an angle are not changed.
-        """
+    def _spread(self, first: Circuit) -> None:
+        """Rotate all wheels that meshes connect with the pair `first` into mesh, by breadth-first search."""
         if any(wheel in self.turns for wheel in first.wheels):
             return
         at, setting = self._driver(first), self.moved.driving.get(first.id)
@@ -146,9 +131,7 @@ class _Mounting:
                     queue.append(mate)
 
     def _mesh(self, circuit: Circuit, own: int) -> None:
-        """Rotate the mate of a wheel into mesh with this wheel, which already has an angle; `own` is its index in the
-        pair.
-        """
+        """Rotate one wheel of a pair into mesh with the wheel of index `own` (0 or 1), whose angle is known."""
         position = driving = self._position(circuit, own)
         if own == self._driver(circuit):
             self._set(circuit, 1 - own, position + self._ahead(circuit, position))
@@ -161,9 +144,7 @@ class _Mounting:
             self.off.append(circuit.id)
 
     def _shift(self, circuit: Circuit, position: float) -> float:
-        """Return the distance by which the driver's tooth is ahead of the phase that the transmission function requires
-        [pitches, -1/2 to 1/2].
-        """
+        """Return the lead of the driver's tooth over its phase in the transmission function [pitches, -1/2 to 1/2]."""
         setting = self.moved.driving.get(circuit.id)
         if setting is None:
             return 0.0
@@ -172,11 +153,10 @@ class _Mounting:
         return shift if abs(shift) > _NEAR else 0.0
 
     def _ahead(self, circuit: Circuit, position: float | None = None) -> float:
-        """Return the distance by which the driven wheel's tooth is ahead of the driver's tooth, in the sense of
-        rotation [pitches].
+        """Return the lead of the driven wheel's tooth over the driver's tooth, in the sense of rotation [pitches].
 
-        position   position of the driver's tooth [pitches]; if it is off the phase of the transmission function, the
-                   driven tooth is advanced until the driver does not interfere with it at any position
+        If the driver's tooth, at `position` [pitches], is off the phase of the transmission function, the driven tooth
+        is advanced until the driver does not interfere with it at any position.
         """
         mesh = self.meshes.get(circuit.id)
         if mesh is None:
@@ -204,9 +184,7 @@ class _Mounting:
         return 0 if mesh is None else circuit.wheels.index(mesh.driver)
 
     def _position(self, circuit: Circuit, at: int) -> float:
-        """Return the initial position of the first tooth of a wheel that already has an angle, measured forwards from
-        the contact point [pitches].
-        """
+        """Return how far the first tooth of the wheel with index `at` has passed the contact of a pair [pitches]."""
         wheel = circuit.wheels[at]
         return self._way(circuit, at) * (self.turns[wheel] - self._zero(circuit, at)) / self._pitch(wheel)
 
@@ -224,9 +202,7 @@ class _Mounting:
         return azimuth(self.meetings[circuit.id][0][at], axis, place.reference) - rest
 
     def _way(self, circuit: Circuit, at: int) -> int:
-        """Return 1 if a wheel turns in the positive sense about the direction of its body, and -1 if it turns in the
-        negative sense.
-        """
+        """Return 1 if a wheel turns in the positive sense about the direction of its body, -1 if it does not."""
         driver, setting = self._driver(circuit), self.moved.driving.get(circuit.id)
         links = (circuit.i, circuit.j)[driver], circuit.carrier
         own, base = (self.stage.sense(link) * (self.stage.speed(link) or 0) for link in links)
@@ -260,8 +236,9 @@ def find_count_formulas(
     wheels: Sequence[SceneWheel],
     pointers: Sequence[Pointer],
 ) -> SceneFormulas | None:
-    """Return the speeds as functions of tooth counts. The result is None if no link is driven, if no wheel has a tooth
-    count, or if the formulas would be too large.
+    """Return the speeds as functions of tooth counts; equal planets share one count.
+
+    The result is None if no link is driven, no tooth count is known, or the formulas would be too large.
     """
     declared, unfolded = train.declaration, train.unfolded
     case = declared.case(state)
@@ -272,12 +249,20 @@ def find_count_formulas(
     frame = declared.frame
     requested = [(bodies[each.body].id, bodies[each.base].id) for each in pointers]
     links = [None if body.parent is None else (body.id, frame) for body in bodies]
-    own = originals(declared)
-    counted = {wheel.id: _original(wheel.id, own, bodies[wheel.body].id) for wheel in wheels}
+    own, counted = originals(declared), {}
+    for wheel in wheels:  # a copied wheel and its link have the same suffix
+        link = bodies[wheel.body].id
+        suffix = link.removeprefix(own[link])
+        counted[wheel.id] = wheel.id.removesuffix(suffix) if suffix else wheel.id
+    # unfolded, as each planet is a body of the scene
+    every = (*requested, *filter(None, links))
+    outputs = FrozenDict({_name(each): Output(of=each[0], relative_to=each[1]) for each in every})
+    states = dict(unfolded.declaration.states)
+    if state in states:
+        states[state] = states[state].changed(outputs=FrozenDict({}))
+    changed = unfolded.declaration.changed(outputs=outputs, states=FrozenDict(states))
     try:
-        # unfolded, as each planet is a body of the scene, although equal planets share one count
-        train_requested = _with_outputs(unfolded.declaration, state, [*requested, *filter(None, links)])
-        found = find_formulas(train_requested, state, {name: free[of] for name, of in counted.items() if of in free})
+        found = find_formulas(changed, state, {name: free[of] for name, of in counted.items() if of in free})
     except GearTrainError:
         return None
     place = {name: at for at, name in enumerate(free)}
@@ -297,23 +282,6 @@ def find_count_formulas(
 
 def _name(requested: tuple[str, str]) -> str:
     return " seen from ".join(requested)
-
-
-def _with_outputs(train: Train, state: str | None, requested: Sequence[tuple[str, str]]) -> Train:
-    """Return the train with its outputs replaced by the speeds of links, each relative to another link. `requested`
-    contains pairs of names (link, reference link).
-    """
-    outputs = FrozenDict({_name(each): Output(of=each[0], relative_to=each[1]) for each in requested})
-    states = {
-        name: each.changed(outputs=FrozenDict({})) if name == state else each for name, each in train.states.items()
-    }
-    return train.changed(outputs=outputs, states=FrozenDict(states))
-
-
-def _original(wheel: str, own: dict[str, str], link: str) -> str:
-    """Return the declared wheel from which a wheel was copied; both the copy and its link have the same suffix."""
-    end = link.removeprefix(own[link])
-    return wheel.removesuffix(end) if end else wheel
 
 
 def _parent(train: Train) -> str:
@@ -419,9 +387,9 @@ def make_scene(
         stage = replace(stage, set_angles=angles_at_start(stage, epoch, pointers, faces))
     moved = find_movement(stage)
     teeth, undrawn = find_profiles(stage)
-    turns, out_of_phase = phase_wheels(stage, moved)
-    wheels, profiles = find_wheels(stage, teeth, turns)
-    notices = (*stage.layout.notices, *moved.notices, *undrawn, *out_of_phase)
+    mounting = _Mounting(stage, moved)
+    wheels, profiles = find_wheels(stage, teeth, mounting.turns)
+    notices = (*stage.layout.notices, *moved.notices, *undrawn, *mounting.notices())
     bodies, wheels, waves = bend(stage, find_bodies(stage), wheels)
     shapes, rods = find_shapes(stage)
     pairs, couplings = find_pairs(stage, faults), find_couplings(stage, moved)
@@ -451,7 +419,10 @@ def make_scene(
         dials=with_titles(with_balls(faces, pointers), pointers),
         pointers=pointers,
         movement=moved.movement,
-        sources=_sources(train),
+        sources={
+            key: {"cite": source.cite, "url": source.url or "", "note": source.note or ""}
+            for key, source in declared.sources.items()
+        },
         notices=tuple(_plain(notice) for notice in notices),
         back=moved.back,
         unit_days=exact(declared.unit_days),
@@ -462,13 +433,6 @@ def make_scene(
         asks=bool(stage.case.outputs),
         run=None if run is None else find_run(stage, run, moves, moved.movement, wheels, pairs, couplings),
     )
-
-
-def _sources(train: GearTrain) -> dict[str, dict[str, str]]:
-    return {
-        key: {"cite": source.cite, "url": source.url or "", "note": source.note or ""}
-        for key, source in train.declaration.sources.items()
-    }
 
 
 def _plain(notice: Problem) -> dict[str, str]:

@@ -29,17 +29,13 @@ _MOST_LINKS = 100  # maximum number of links used as outputs
 
 @dataclass(frozen=True)
 class SceneContext:
-    """Train in one state with its layout and the indices of its bodies and wheels. It is the input for all parts of a
-    scene.
-    """
+    """Train in one state, with its layout and the indices of its bodies and wheels."""
 
     train: GearTrain
     answer: Answer
     layout: Layout
     set_angles: Mapping[str, float] = field(default_factory=dict)
-    """Angles of links at 0 turns of the driving link that follow from the epoch [rad]. They replace the declared
-    starting angles.
-    """
+    """Starting angles of links [rad] that follow from the epoch and replace declared starting angles, by link."""
 
     @cached_property
     def case(self) -> StateCase:
@@ -82,36 +78,28 @@ class SceneContext:
         return None if found is None else Fraction(found)
 
     def ratio(self, link: str) -> Fraction | None:
-        """Return the exact speed of a link divided by the speed of the driving link; None if the speed is not
-        determined, or if no link is driven.
-        """
+        """Return the exact speed of a link divided by that of the driving link; None if either speed is unknown."""
         found = self.speed(link)
         if found is None or self.driving_link is None:
             return None
         return found / self.case.inputs[self.driving_link]
 
     def shown(self, speed: Fraction | None, link: str) -> str | None:
-        """Return a speed of a link as text, exact if the inputs are exact, and rounded if not. The unit is included if
-        the link slides. The result is None if the speed is None.
-        """
+        """Return the speed of a link as text, exact if the inputs are exact, with a unit if it slides."""
         if speed is None:
             return None
         text = pi_text(speed) if touches_pi(speed) else self.case.shown(speed)
         return text + self._unit(link)
 
     def rounded(self, speed: Fraction | None, link: str) -> str:
-        """Return a speed of a link as a decimal number in text form. The unit is included if the link slides. The text
-        is empty if the speed is None.
-        """
+        """Return the speed of a link as a decimal in text form, with a unit if it slides; empty for None."""
         return "" if speed is None else decimal(speed) + self._unit(link)
 
     def _unit(self, link: str) -> str:
         return " mm" if link in self.train.kinematics.tree.lines else ""
 
     def sense(self, link: str) -> int:
-        """Return the sense of a link's axis: -1 if it is opposite to the reference direction of the axes parallel to
-        it, 1 if not.
-        """
+        """Return -1 if a link's axis is opposite to the reference direction of the axes parallel to it, 1 if not."""
         return self.train.kinematics.signs.get(link, 1)
 
     def start(self, link: str) -> float:
@@ -125,9 +113,7 @@ class SceneContext:
         return _Z if place is None else unit_or_z(place.direction)
 
     def line(self, axis: str) -> Vector:
-        """Return the unit direction in which links slide on an axis. It is the declared direction, or the axis of a
-        screw, or vertical for the weight of a drum, which falls as the train turns. In all other cases it is x.
-        """
+        """Return the unit direction in which links slide on an axis: declared, along a screw, down a drum, or x."""
         declared = self.train.declaration.axes.get(axis)
         if declared is not None and "direction" in declared.model_fields_set:
             return self.reference(axis)
@@ -147,9 +133,7 @@ class SceneContext:
         return (0.0, 1.0 if (self.speed(drum.slides) or 0) < 0 else -1.0, 0.0)
 
     def reference(self, axis: str | None) -> Vector:
-        """Return the unit direction of an axis. It is reversed if it is opposite to z or to the first declared axis
-        that is parallel to it.
-        """
+        """Return the unit direction of an axis, reversed if it is opposite to z or to the first axis parallel to it."""
         own = self.along(axis)
         # the frame (z) first, so that signs are relative to it where possible
         for label in (None, *self.train.declaration.axes):

@@ -1,9 +1,7 @@
-"""Shapes of couplings other than pins: belts on pulleys, boxes, non-circular wheels, cams, Geneva drives, stars, racks,
-screws, drums and universal joints.
+"""Shapes of couplings other than pins, such as belts on pulleys, non-circular wheels, cams, Geneva drives and racks.
 
-Each shape is a flat or turned part of one body in the zero pose, in which all angles are 0. The outlines of
-non-circular wheels and of cams follow from the transmission function of the coupling. Undeclared sizes are chosen for
-the picture.
+The outlines of non-circular wheels and of cams follow from the transmission function of the coupling. Undeclared sizes
+are chosen for the picture.
 """
 
 from __future__ import annotations
@@ -41,10 +39,9 @@ class _CouplingPlace:
     axis: Vector
     """Unit vector along both axes, in their reference direction."""
     driver_at: Vector
-    """Point on the driver's axis at the height of the shapes [mm]; `driven_at` is the corresponding point on the driven
-    link's axis.
-    """
+    """Point on the driver's axis at the height of the shapes [mm]."""
     driven_at: Vector
+    """Point on the driven link's axis at the height of the shapes [mm]."""
 
     @property
     def apart(self) -> float:
@@ -64,9 +61,7 @@ class _CouplingPlace:
     def flat(
         self, link: str, kind: str, at: Vector, towards: Vector, *outlines: Sequence[Point], height: float = _THICK
     ) -> ScenePart:
-        """Return a flat part of a link. Its outlines are relative to the point `at`, and its x axis has the direction
-        `towards`.
-        """
+        """Return a flat part of a link, with outlines relative to the point `at` and the x axis along `towards`."""
         lines = [[value for point in line for value in point] for line in outlines]
         name, body = f"{self.circuit.id} {kind}", self.stage.body[link]
         return ScenePart(body, name, kind, at, self.axis, across(towards, self.axis), (), lines, height)
@@ -74,9 +69,7 @@ class _CouplingPlace:
     def turned(
         self, link: str, kind: str, at: Vector, radius: float, low: float, high: float, way: Vector | None = None
     ) -> ScenePart:
-        """Return a cylindrical part of a link, from `low` to `high` [mm] relative to the point `at`, along the axis or
-        along `way` if it is given.
-        """
+        """Return a cylinder of a link from `low` to `high` [mm] relative to `at`, along `way` or the axis."""
         direction = self.axis if way is None else way
         name, body = f"{self.circuit.id} {kind}", self.stage.body[link]
         return ScenePart(body, name, kind, at, direction, beside_axis(direction), ((low, high, radius, 0.0),))
@@ -87,9 +80,7 @@ class _CouplingPlace:
         return SceneHanger("rod", body[link], at, self.axis, way, length, 0.0, radius, to=body[to])
 
     def guides(self, at: Vector, way: Vector, aside: float, reach: float) -> Iterator[ScenePart]:
-        """Yield two guide bars on the carrier, parallel to a slide, at the distance `aside` [mm] on both sides of its
-        line.
-        """
+        """Yield two guide bars on the carrier, parallel to a slide, at the distance `aside` [mm] from its line."""
         up, high = cross(self.axis, way), 0.15 * aside
         for side in (1, -1):
             bar = _bar((-reach, 0.0), (reach, 0.0), 2 * high)
@@ -103,9 +94,7 @@ def beside_axis(axis: Vector) -> Vector:
 
 
 def find_shapes(stage: SceneContext) -> tuple[tuple[ScenePart, ...], tuple[SceneHanger, ...]]:
-    """Return the shapes of all couplings other than pins in slots or holes, in the order of declaration, and their rods
-    and ropes.
-    """
+    """Return the shapes of all couplings other than pins, in the order of declaration, and their rods and ropes."""
     circuits = {circuit.id: circuit for circuit in stage.train.circuits}
     found: list[ScenePart] = []
     rods: list[SceneHanger] = []
@@ -122,9 +111,7 @@ def find_shapes(stage: SceneContext) -> tuple[tuple[ScenePart, ...], tuple[Scene
 
 
 def _placed(stage: SceneContext, coupling: Coupling, circuit: Circuit, level: int) -> _CouplingPlace:
-    """Return a coupling with one point on each of its axes. Both points are at one height, above all wheels of the
-    scene.
-    """
+    """Return a coupling with one point on each of its axes, both at one height above all wheels of the scene."""
     tree = stage.train.kinematics.tree
     labels = tree.axis_seen_from(circuit.carrier, circuit.j), tree.axis_seen_from(circuit.carrier, circuit.i)
     axis = stage.reference(labels[0])
@@ -143,9 +130,7 @@ def _placed(stage: SceneContext, coupling: Coupling, circuit: Circuit, level: in
 
 
 def circle(radius: float, centre: Point = (0.0, 0.0), start: float = 0.0, sweep: float = 2 * pi) -> list[Point]:
-    """Return points on a circle, or on an arc that begins at the angle `start` and spans `sweep` [rad], including both
-    ends.
-    """
+    """Return points on a circle, or on an arc that begins at the angle `start` and spans `sweep` [rad]."""
     whole = abs(abs(sweep) - 2 * pi) < _NONE
     count = max(ceil(abs(sweep) / _ARC), 2)
     angles = [start + sweep * at / count for at in range(count + (not whole))]
@@ -203,9 +188,7 @@ def _box(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
 
 
 def _belt(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
-    """Yield the pulleys of a belt, and the straight parts and arcs of the belt, which are fixed to the carrier. The
-    belt is omitted if one of its pulleys idles.
-    """
+    """Yield the pulleys of a belt, and the belt itself, fixed to the carrier, unless one of its pulleys idles."""
     first = places[0]
     ends = (first.circuit.j, *(place.circuit.i for place in places))
     points = (first.driver_at, *(place.driven_at for place in places))
@@ -228,9 +211,7 @@ def _belt(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
 
 
 def _is_idle(stage: SceneContext, link: str) -> bool:
-    """Return True if a link turns with only one coupling, and every clutch that could lock the link is open in the
-    state.
-    """
+    """Return True if a link turns with only one coupling, and every clutch that could lock it is open in the state."""
     declared, case = stage.train.declaration, stage.case
     clutches = {name: each for name, each in declared.clutches.items() if link in (*(each.locks or ()), each.fixes)}
     locked = any(name in case.engaged or each.one_way for name, each in clutches.items())
@@ -257,12 +238,10 @@ def _pulley_radii(stage: SceneContext, declared: Any, ends: Sequence[str], flat:
 def belt_outlines(
     centres: Sequence[Point], radii: Sequence[float], senses: Sequence[int], width: float
 ) -> Iterator[list[Point]]:
-    """Yield the outlines of the parts of a closed belt: for each pulley, its arc and the straight part to the next
-    pulley.
+    """Yield the outlines of a closed belt: for each pulley, its arc and the straight part to the next pulley.
 
     The belt passes the pulleys in the given order. `senses` is 1 for pulleys that turn in the sense of the first
-    pulley, and -1 for pulleys that the outer face of the belt touches. Straight parts are common tangents of two
-    circles.
+    pulley, and -1 for pulleys that the outer face of the belt touches.
     """
     count = len(centres)
     # centres in order of a positive turn about the first pulley, otherwise the belt would run round them backwards
@@ -364,7 +343,7 @@ def _geneva(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
     driven, driver = place.circuit.i, place.circuit.j
     back = scaled(place.towards, -1.0)
     if internal:
-        outline = [point for at in range(n) for point in _slot(2 * pi * at / n, C + r, C * cos(pi / n) * 0.98, pin)]
+        outline = [point for at in range(n) for point in _slot(2 * pi * at / n, C * cos(pi / n) * 0.98, C + r, pin)]
         yield place.flat(driven, "cross", place.driven_at, back, circle(C + r + 4 * pin), outline)
     else:
         yield place.flat(driven, "cross", place.driven_at, back, _cross(n, C, r, pin))
@@ -380,17 +359,18 @@ def _geneva(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
         yield place.turned(driver, "pin", where, pin, 0.0, 1.6 * _THICK)
 
 
-def _slot(angle: float, far: float, near: float, half: float) -> list[Point]:
-    """Return the points, in order, of the outline of a radial slot of half width `half`, from its closed end at radius
-    `far` to its opening at radius `near`.
-    """
+def _slot(angle: float, near: float, far: float, half: float) -> list[Point]:
+    """Return the corners of a radial slot of half width `half`, open at the radius `near` and closed at `far` [mm]."""
     corners = ((near, -half), (far, -half), (far, half), (near, half))
     return [(x * cos(angle) - y * sin(angle), x * sin(angle) + y * cos(angle)) for x, y in corners]
 
 
 def _cross(n: int, C: float, r: float, pin: float) -> list[Point]:
-    """Return the outline of a Geneva cross with `n` slots of half width `pin`, one of them at angle 0, and with locking
-    arcs between the slots. `C` is the axis distance and `r` the radius of the driving pin's path [mm].
+    """Return the outline of a Geneva cross with `n` slots, one of them at angle 0, and locking arcs between them.
+
+    C     axis distance [mm]
+    r     radius of the path of the driving pin [mm]
+    pin   half width of a slot [mm]
     """
     rim, bottom, lock = C * cos(pi / n), C - r - 1.5 * pin, r - 2.0 * pin
     found: list[Point] = []
@@ -413,9 +393,7 @@ def _cross(n: int, C: float, r: float, pin: float) -> list[Point]:
 
 
 def _star(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
-    """Yield a star wheel with its teeth, and the driver with the fingers that move the star; teeth that engage are
-    drawn pointed.
-    """
+    """Yield a star wheel with pointed teeth, and the driver with the fingers that move the star."""
     place = places[0]
     z, C = place.declared.teeth, place.apart
     reach = 0.62 * C
@@ -487,9 +465,7 @@ def _screw(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
 
 
 def _drum(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart | SceneHanger]:
-    """Yield a drum, the falls of rope that leave it, and the weight of the sliding link. If there are several falls,
-    the weight has a pulley.
-    """
+    """Yield a drum, its falls of rope, and the weight of the sliding link, with a pulley if there are several falls."""
     place = places[0]
     declared, way = place.declared, _along_slide(place)
     radius = millimetres_of(declared.diameter, 20.0) / 2
@@ -510,9 +486,7 @@ def _drum(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart | SceneHanger]
 
 
 def _slider(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart | SceneHanger]:
-    """Yield the crank of a slider-crank with its pin, the connecting rod, and the block of the sliding link between its
-    guides.
-    """
+    """Yield the crank of a slider-crank with its pin, the connecting rod, and the sliding block between its guides."""
     place = places[0]
     declared, way = place.declared, _along_slide(place)
     radius, rod = (millimetres_of(length, 10.0) for length in (declared.radius, declared.rod))
@@ -531,9 +505,7 @@ def _slider(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart | SceneHange
 
 
 def _universal(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
-    """Yield two shafts with forks at the point where their axes intersect. The pins of the two forks are at right
-    angles.
-    """
+    """Yield two shafts with forks at the point where their axes intersect, with pins at right angles."""
     place = places[0]
     stage, circuit = place.stage, place.circuit
     tree = stage.train.kinematics.tree

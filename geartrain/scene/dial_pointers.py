@@ -1,14 +1,10 @@
-"""Dials with the positions and directions of their scales, and pointers with their readings and the gear pairs on which
-each reading depends.
+"""Dials, pointers, the gear pairs on which each pointer depends, and dates.
 
 An output depends on the pairs whose errors would change it; this dependence is computed exactly. An error in one pair
 is a right-hand side in the row of that pair. Its effect on an output is the weight of that row in the only combination
 of rows that gives the output, so that one elimination of the transposed system gives the dependence of all outputs. The
 mean speed of a pin follower, which oscillates, does not depend on the speed of its pin, but its position does: the
 pairs that turn the pin are included too.
-
-The module also computes the date for a number of turns of the driving link, and the mean motions that pointers should
-show.
 """
 
 from __future__ import annotations
@@ -29,7 +25,7 @@ from geartrain.numerics.quantity import millimetres
 from geartrain.numerics.vectors import Vector, beside, cross, dot, minus, plus, scaled, size
 from geartrain.scene.context import SceneContext, exact
 from geartrain.scene.dial_scale import DialScale, engrave, scale_of
-from geartrain.scene.layout import AxisPlace, WheelPlace
+from geartrain.scene.layout import WheelPlace
 from geartrain.scene.stroke_letters import HANDS, Stroke, hand_with_ball
 from geartrain.scene.train_scene import DialFace, Pointer, PointerTarget, SceneEpoch, SceneSetting
 from geartrain.train.outputs import RING, looks_away
@@ -39,7 +35,6 @@ if TYPE_CHECKING:
     from geartrain.kinematics.circuits import Circuit
     from geartrain.kinematics.willis_system import WillisSystem
     from geartrain.train import Output
-    from geartrain.train.outputs import Dial
 
 
 # ---------------------------------------------------------------------------------------------------- output dependence
@@ -51,8 +46,7 @@ _BUDGET = 4_000_000  # maximum number of operations of the elimination
 def find_dependence(stage: SceneContext) -> Mapping[str, tuple[str, ...]]:
     """Return the names of the pairs and couplings on which each output depends, in order from the input.
 
-    All parallel meshes, such as those of several planets between two wheels, are included. The result is empty for a
-    train that does not move, or whose system is too dense to be eliminated.
+    The result is empty for a train that does not move, or whose system is too dense to be eliminated.
     """
     if not stage.answer.verdict:
         return {}
@@ -67,21 +61,14 @@ def find_dependence(stage: SceneContext) -> Mapping[str, tuple[str, ...]]:
     except TooDenseError:
         return {}
     swings = dict(zip((circuit.id for circuit in followers), weights[len(stage.outputs) :], strict=True))
-    return {
-        name: _ordered(stage, circuits, _with_swings(used, swings))
-        for name, used in zip(stage.outputs, weights, strict=False)
-    }
-
-
-def _with_swings(used: set[str], swings: Mapping[str, set[str]]) -> set[str]:
-    """Return the names of the pairs on which an output depends, extended by the pairs that turn the pins of its pin
-    followers.
-    """
-    found, left = set(used), set(swings)
-    # repeated, because another follower may turn the link of a pin
-    while met := found & left:
-        left -= met
-        found.update(*(swings[name] for name in met))
+    found = {}
+    for name, used in zip(stage.outputs, weights, strict=False):
+        every, left = set(used), set(swings)
+        # with the pairs that turn the pins of followers; repeated, because another follower may turn the link of a pin
+        while met := every & left:
+            left -= met
+            every.update(*(swings[follower] for follower in met))
+        found[name] = _ordered(stage, circuits, every)
     return found
 
 
@@ -93,9 +80,7 @@ def _seen(stage: SceneContext, of: str, base: str) -> dict[str, int]:
 
 
 def _weights(system: WillisSystem, outputs: Sequence[Mapping[str, int]]) -> list[set[str]]:
-    """Return, for each output, the labels of the equations on which the output depends; redundant equations are
-    omitted.
-    """
+    """Return, for each output, the labels of the equations on which it depends; redundant equations are omitted."""
     columns: dict[str, LinearForm] = {link: {} for link in system.links}
     for at, row in enumerate(system.equations):
         for link, coefficient in row.terms:
@@ -115,9 +100,7 @@ def _weights(system: WillisSystem, outputs: Sequence[Mapping[str, int]]) -> list
 
 
 def _ordered(stage: SceneContext, circuits: Mapping[str, Circuit], used: Iterable[str]) -> tuple[str, ...]:
-    """Return the pairs on which an output depends, and all pairs of the loops that contain them, in breadth-first order
-    from the inputs.
-    """
+    """Return the pairs in `used` and all pairs of their loops, in breadth-first order from the inputs."""
     left = dict.fromkeys(name for name in circuits if name in set(used))
     for loop in stage.train.mobility.loops:
         if any(pair in left for pair in loop.pairs):
@@ -172,6 +155,10 @@ def find_dials(stage: SceneContext) -> Mapping[Key, DialFace]:
             continue
         normal = facing(stage, name)
         zero, scale = beside(stage.reference(key[2])), scale_of(dial)
+        axis, placed = stage.layout.axes.get(key[2]), False
+        if dial.centre is not None and axis is not None:
+            x, y = (float(millimetres(each)) for each in dial.centre)
+            placed = hypot(dot(axis.point, cross(zero, normal)) - x, dot(axis.point, zero) - y) < _SAME
         faces[key] = DialFace(
             id=key[0],
             body=stage.body[key[1]],
@@ -179,7 +166,7 @@ def find_dials(stage: SceneContext) -> Mapping[Key, DialFace]:
             centre=_beyond_wheels(stage, key[2], normal, _GAP * width),
             normal=normal,
             zero=zero,
-            placed=_is_placed(dial, stage.layout.axes.get(key[2]), cross(zero, normal), zero),
+            placed=placed,
             # an upper bound, which `_fitted` reduces
             radius=0.4 * min(width, _side_width(stage, normal)),
             scale=scale,
@@ -191,22 +178,17 @@ def find_dials(stage: SceneContext) -> Mapping[Key, DialFace]:
     for key, face in scales.items():
         if (given := declared.dials[key[0]].diameter) is not None:
             scales[key] = replace(face, radius=float(millimetres(given)) / 2)
-    return {key: scales[key] if key in scales else _ball(stage, key, face) for key, face in faces.items()}
-
-
-def _is_placed(dial: Dial, axis: AxisPlace | None, right: Vector, up: Vector) -> bool:
-    """Return True if the axis of a dial's pointers is at the declared centre of the dial."""
-    if dial.centre is None or axis is None:
-        return False
-    x, y = (float(millimetres(each)) for each in dial.centre)
-    return hypot(dot(axis.point, right) - x, dot(axis.point, up) - y) < _SAME
+    for key, face in faces.items():
+        if key not in scales:  # a ball next to the axis of its pointer, unless another pointer carries it
+            foot = stage.layout.axes[key[2]].point if key[2] in stage.layout.axes else (0.0, 0.0, 0.0)
+            at, radius = plus(foot, face.normal, _OUT * face.radius), _BALL * face.radius
+            faces[key] = replace(face, centre=at, radius=radius)
+    return faces | scales
 
 
 @lru_cache(maxsize=64)
 def _engraving(scale: DialScale) -> tuple[tuple[str, float, tuple[tuple[int, ...], ...]], ...]:
-    """Return the engraved lines of a scale. The points of a line are given as integer steps from point to point, in
-    units of 1/4,000 of the dial's radius.
-    """
+    """Return the engraved lines of a scale, each as integer steps between points, in 1/4,000 of the dial's radius."""
     return tuple((each.kind, round(each.width, 4), tuple(map(_differences, each.lines))) for each in engrave(scale))
 
 
@@ -220,35 +202,22 @@ def _differences(line: Stroke) -> tuple[int, ...]:
     return tuple(found)
 
 
-def _ball(stage: SceneContext, key: Key, face: DialFace) -> DialFace:
-    """Return the dial as a ball next to the axis of its pointer; the ball stays there unless another pointer carries
-    it.
-    """
-    place = stage.layout.axes.get(key[2])
-    foot = (0.0, 0.0, 0.0) if place is None else place.point
-    return replace(face, centre=plus(foot, face.normal, _OUT * face.radius), radius=_BALL * face.radius)
-
-
 def with_balls(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tuple[DialFace, ...]:
-    """Return the dials after moving each ball into the pointer of the link that carries the ball, if such a pointer
-    exists.
-    """
-    return tuple(_in_pointer(face, dials, pointers) if face.look == "ball" else face for face in dials)
-
-
-def _in_pointer(face: DialFace, dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> DialFace:
-    for each in pointers:
-        if each.body == face.body and each.dial is not None and dials[each.dial].look == "scale":
-            under = dials[each.dial]
-            foot = plus(under.centre, under.normal, each.level)
-            return replace(face, centre=plus(foot, face.normal, _OUT * under.radius), radius=_BALL * under.radius)
-    return face
+    """Return the dials after moving each ball into the pointer of the link that carries the ball, if one exists."""
+    found = list(dials)
+    for at, face in enumerate(dials):
+        own = (each for each in pointers if each.body == face.body and each.dial is not None)
+        hand = next((each for each in own if dials[each.dial or 0].look == "scale"), None)
+        if face.look == "ball" and hand is not None:
+            under = dials[hand.dial or 0]
+            foot = plus(under.centre, under.normal, hand.level)
+            centre, radius = plus(foot, face.normal, _OUT * under.radius), _BALL * under.radius
+            found[at] = replace(face, centre=centre, radius=radius)
+    return tuple(found)
 
 
 def with_titles(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tuple[DialFace, ...]:
-    """Return the dials with titles. If dials about different axes have the same name, their titles include their
-    outputs.
-    """
+    """Return the dials with titles, which include the outputs if dials about different axes have the same name."""
     often = Counter(face.id for face in dials)
     read = [", ".join(each.output for each in pointers if each.dial == at) for at in range(len(dials))]
     return tuple(
@@ -295,8 +264,9 @@ def _side_width(stage: SceneContext, normal: Vector) -> float:
     # a cosine of 0.5 (60 degrees) separates dials on the front and back from dials on the sides
     if abs(dot(normal, stage.near)) > 0.5:
         return inf
-    ways = [way for way in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)) if abs(dot(way, normal)) < 0.5]
-    return max(min((_extent(stage, way) for way in ways), default=inf), _MINIMUM * train_width(stage))
+    ways: list[Vector] = [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)]
+    wide = (_extent(stage, way) for way in ways if abs(dot(way, normal)) < 0.5)
+    return max(min(wide, default=inf), _MINIMUM * train_width(stage))
 
 
 def _extent(stage: SceneContext, way: Vector) -> float:
@@ -327,9 +297,7 @@ def _faces(stage: SceneContext, wheel: WheelPlace, way: Vector) -> tuple[float, 
 
 
 def _fitted(faces: dict[Key, DialFace], gap: float) -> dict[Key, DialFace]:
-    """Return the dials in the same order, with radii reduced to avoid overlaps. Dials about the same axis are
-    nested.
-    """
+    """Return the dials in the same order, nested if they are about one axis, with radii reduced to avoid overlaps."""
     about: dict[tuple[Vector, Vector], list[Key]] = {}
     for key, face in faces.items():
         about.setdefault((_rounded(face.centre), _rounded(face.normal)), []).append(key)
@@ -355,9 +323,7 @@ def _rounded(u: Vector) -> Vector:
 
 
 def find_pointers(stage: SceneContext, dials: Mapping[Key, DialFace]) -> tuple[Pointer, ...]:
-    """Return a pointer for every output of the state, in the order of declaration. The hands on one dial are stacked in
-    the same order.
-    """
+    """Return a pointer for every output of the state; hands on one dial are stacked in the order of declaration."""
     paths, keys, taken = find_dependence(stage), tuple(dials), Counter[str]()
     found, spheres = [], 0
     for name in stage.outputs:
@@ -379,8 +345,7 @@ def find_pointers(stage: SceneContext, dials: Mapping[Key, DialFace]) -> tuple[P
 
 
 def _orbit(stage: SceneContext, name: str, face: DialFace) -> tuple[float, float]:
-    """Return the distance of the bead's outermost point from the dial centre, and the radius of the bead, both divided
-    by the radius of the scale.
+    """Return the outermost distance of a bead from the dial centre, and its radius, both in radii of the scale.
 
     The beads of a dial move on equidistant rings within the scale; the ring of the first output is innermost.
     """
@@ -436,9 +401,7 @@ def _as_read(sense: int, speed: Fraction | None) -> str:
 
 
 def find_epoch(stage: SceneContext, pointers: Sequence[Pointer], dials: Sequence[DialFace]) -> SceneEpoch | None:
-    """Return the declared date, converted to turns of the driving link, with the angles of the pointers at that date;
-    None if the date, the time unit or the driven link is missing.
-    """
+    """Return the declared date with its turns of the driving link and pointer angles; None if it is not available."""
     declared = stage.train.declaration
     epoch, unit = declared.epoch, declared.unit_days
     if epoch is None or unit is None or stage.driving_link is None:
@@ -484,23 +447,17 @@ def angles_at_start(
         turned = read_fraction(pointer.speed or "0") * Fraction(epoch.turns)
         own = (setting.sense * angle - float(turned)) % (1 if pointer.dial is None else dials[pointer.dial].scale.turns)
         found[of] = 2 * pi * own + stage.sense(of) * stage.sense(base) * found.get(base, stage.start(base))
-    return found | dict(_slots_at_pins(stage, found))
-
-
-def _slots_at_pins(stage: SceneContext, angles: Mapping[str, float]) -> Iterator[tuple[str, float]]:
-    """Yield the name and the angle at 0 turns [rad] of each slot for which no angle is set although an angle of its pin
-    is set.
-    """
+    slots = {}  # a slot without an angle follows its pin
     for coupling in stage.train.declaration.pin_couplings:
         pin, slot = coupling.pin, coupling.slot
-        if coupling.kind == "pin_and_slot" and pin in angles and slot not in angles:
-            yield slot, stage.sense(slot) * stage.sense(pin) * (angles[pin] - stage.start(pin)) + stage.start(slot)
+        if coupling.kind == "pin_and_slot" and pin in found and slot not in found:
+            swing = found[pin] - stage.start(pin)
+            slots[slot] = stage.sense(slot) * stage.sense(pin) * swing + stage.start(slot)
+    return found | slots
 
 
 def find_targets(stage: SceneContext, output: Output, speed: Fraction | None) -> tuple[PointerTarget, ...]:
-    """Return the target speeds of an output relative to the driving link. A target without a sense of rotation has the
-    sense of `speed`.
-    """
+    """Return an output's target speeds divided by the driving link's speed; unsigned ones have the sign of `speed`."""
     if stage.driving_link is None or speed is None:
         return ()
     driving_speed = stage.case.inputs[stage.driving_link]

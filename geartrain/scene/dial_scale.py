@@ -1,9 +1,7 @@
-"""Scale of a dial: divisions (cells) along a circle or a spiral, names of the cells, readings of a pointer, and
-engraving.
+"""Scale of a dial: divisions (cells) along a circle or a spiral, their names, readings of a pointer, and engraving.
 
-Turns are counted from the zero mark along the scale, in the direction of counting of that scale. Rims, borders of
-cells, names, numerals and glyphs are engraved as lines, with lengths relative to the radius of the dial. The zero mark
-is at the top, x points to the right and y upwards.
+Turns are counted from the zero mark, which is at the top, along the scale. Lengths are relative to the radius of the
+dial; x points to the right and y upwards.
 """
 
 from __future__ import annotations
@@ -31,9 +29,7 @@ _ROMAN |= {4: "IV", 1: "I"}
 
 
 def clock_point(radius: float, turn: float | Fraction) -> Point:
-    """Return the point on a circle about the origin, for a given radius and an angle [turns] measured clockwise from
-    the top.
-    """
+    """Return the point on a circle about the origin at an angle [turns] measured clockwise from the top."""
     angle = 2 * pi * float(turn)
     return radius * sin(angle), radius * cos(angle)
 
@@ -101,9 +97,7 @@ class DialScale:
     """
 
     def radius(self, turned: float) -> float:
-        """Return the radius of the scale after a number of turns from its inner end, divided by the radius of the dial.
-        For a circle, it is `outer`.
-        """
+        """Return the radius of the scale after `turned` turns from its inner end, divided by the radius of the dial."""
         return self.inner + (self.outer - self.inner) * turned / self.turns
 
     def turn_of(self, cells: Fraction | int) -> Fraction:
@@ -111,9 +105,7 @@ class DialScale:
         return Fraction(cells) * self.turns / self.divisions
 
     def read(self, turned: Fraction) -> ScaleReading:
-        """Return the reading of a pointer after a number of turns. On a division line, the pointer reads the cell that
-        follows the line.
-        """
+        """Return the reading of a pointer after a number of turns; on a line, it reads the cell that follows."""
         along = turned % self.turns
         done = along / self.turns * self.divisions
         for name, first, span in self.names:
@@ -122,17 +114,13 @@ class DialScale:
         return ScaleReading(floor(along) + 1, floor(done) + 1, "", 0)
 
     def number(self, cell: int) -> int:
-        """Return the number by which a cell is read: the cell's own number, or the number of the last numbered division
-        line before the cell.
-        """
+        """Return the number by which a cell is read: its own, or that of the last numbered line before the cell."""
         if not self.counted:
             return cell
         return (cell - 2) % self.counted + 1 if self.radial else (cell - 1) % self.counted
 
     def reading_text(self, turned: Fraction) -> str:
-        """Return the reading as text, such as `Leo, degree 14`, with the glyph of the cell; empty if the circle has no
-        divisions.
-        """
+        """Return the reading as text, such as `Leo, degree 14`, with the glyph of the cell; empty without divisions."""
         read, parts = self.read(turned), []
         if self.turns > 1:
             parts.append(f"turn {read.turn}")
@@ -183,9 +171,7 @@ def plain_circle() -> DialScale:
 
 
 def _numerals(graduation: Graduation, turns: int) -> list[tuple[str, int]]:
-    """Return the declared numerals, each with the number of divisions before its line. A circle without names and
-    numerals gets up to twelve numerals, from 0.
-    """
+    """Return the declared numerals, or up to twelve default numerals, each with the number of divisions before it."""
     count, declared = graduation.divisions, graduation.numerals
     if declared is None:
         if turns > 1 or graduation.names or count == 1:
@@ -233,7 +219,26 @@ class Engraving:
 
 
 def engrave(scale: DialScale) -> list[Engraving]:
-    """Return all engraved lines of a scale, including the lines of the scale that surrounds it."""
+    """Return all engraved lines of the scale of a dial, including the lines of a scale that surrounds it.
+
+    Parameters
+    ----------
+    scale : DialScale
+        Scale of a dial, such as `Scene.dials[0].scale`.
+
+    Returns
+    -------
+    list of Engraving
+        Rims, borders of cells and letters, each with its line width and its polylines, in units of the dial's radius.
+
+    Examples
+    --------
+    >>> import geartrain
+    >>> from geartrain.scene import make_scene
+    >>> dials = make_scene(geartrain.load("longcase-clock")).dials
+    >>> sorted({part.kind for part in engrave(dials[0].scale)})
+    ['bold', 'fine', 'letters', 'rim']
+    """
     found = [*(_spiral(scale) if scale.turns > 1 else _circle(scale))]
     if scale.around is not None:
         found += engrave(scale.around)
@@ -267,9 +272,7 @@ def _line(scale: DialScale, height: float, turns: float, off: float = 0.0) -> St
 
 
 def _circle(scale: DialScale) -> Iterator[Engraving]:
-    """Yield the engraving of a circular scale: the rim, the cell borders that extend inwards from the rim, and the text
-    inside the borders.
-    """
+    """Yield the engraving of a circular scale: the rim, the borders of cells inside it, and the text inside these."""
     at = {line for _, line in scale.numerals}
     starts = {first for _, first, _ in scale.names}
     every = -(-scale.divisions // _MARKS)
@@ -288,9 +291,7 @@ def _circle(scale: DialScale) -> Iterator[Engraving]:
 
 
 def _names(scale: DialScale) -> Iterator[Engraving]:
-    """Yield the names, each centred on its group of divisions. If space is limited, yield only every nth name (n = 2 to
-    6), or none.
-    """
+    """Yield the names, each centred on its divisions; where space is limited, only every nth (n up to 6) or none."""
     radius = scale.outer - _BAND
     named = [(_engraved(scale, name), first, span) for name, first, span in scale.names if name]
     # fewer names leave more space for each
@@ -315,9 +316,7 @@ def _fitting(text: str, radius: float, turn: Fraction) -> float:
 def _written(
     scale: DialScale, text: str, radius: float, turn: Fraction, height: float, turned: bool = True
 ) -> Iterator[Stroke]:
-    """Yield the strokes of a text along a circle. If `turned` is True, text below the centre is inverted to be
-    readable.
-    """
+    """Yield the strokes of a text along a circle; with `turned`, a text below the centre is inverted to be readable."""
     angle = 2 * pi * float(scale.way * turn)
     return curved_text(text, height, radius, angle, turned and cos(angle) < -0.01)
 
@@ -340,9 +339,7 @@ def _engraved_numerals(scale: DialScale) -> Iterator[Engraving]:
 
 
 def _glyphs(scale: DialScale, radius: float) -> Iterator[Engraving]:
-    """Yield the glyphs or the names of the cells in one size that fits in all cells. Names that would be too small are
-    omitted.
-    """
+    """Yield the glyphs or names of the cells in one size that fits in all cells; names are omitted if too small."""
     texts = scale.glyphs or tuple((cell, _engraved(scale, name)) for cell, name in enumerate(scale.cells, 1))
     height = min([_TALL, *(_fitting(text, radius, scale.turn_of(1)) for _, text in texts)])
     at = ((text, scale.turn_of(Fraction(2 * cell - 1, 2))) for cell, text in texts)
@@ -354,9 +351,7 @@ def _glyphs(scale: DialScale, radius: float) -> Iterator[Engraving]:
 
 
 def _spiral(scale: DialScale) -> Iterator[Engraving]:
-    """Yield the groove of a spiral scale and the cells on its inner side. The first whole cell of each turn shows its
-    number.
-    """
+    """Yield the groove of a spiral scale and its cells; the first whole cell of each turn shows its number."""
     pitch = (scale.outer - scale.inner) / scale.turns
     every = -(-scale.divisions // (scale.turns * _MARKS))
     starts = {first for _, first, _ in scale.names}
@@ -387,19 +382,21 @@ def _spiral(scale: DialScale) -> Iterator[Engraving]:
 
 
 def _cell_names(scale: DialScale, pitch: float) -> Iterator[Engraving]:
-    """Yield the name of every cell of a spiral on up to three lines. The first cell of a group also shows the group
-    name above its own name.
-    """
+    """Yield the name of every cell of a spiral, on up to three lines, and that of each group in its first cell."""
     starts = {first: name for name, first, _ in scale.names}
     glyphs = dict(scale.glyphs)
     for cell, name in enumerate(scale.cells):
         turn = scale.turn_of(Fraction(2 * cell + 1, 2))
         middle = scale.radius(float(turn)) - pitch / 2
         above = [text for text in (_engraved(scale, starts.get(Fraction(cell), "")), glyphs.get(cell + 1)) if text]
-        ways = [[*above, *_split(_engraved(scale, name), rows)] for rows in (1, 2, 3)]
-        heights = [_stacked(scale, lines, middle, pitch) for lines in ways]
-        height = max(heights)
-        lines = ways[heights.index(height)]
+        ways, word = [], _engraved(scale, name)
+        for rows in (1, 2, 3):  # parts of nearly equal length
+            ends = [round(row * len(word) / rows) for row in range(rows + 1)]
+            lines = [*above, *(word[first:last] for first, last in pairwise(ends) if last > first)]
+            deep = _FULL * pitch / (1 + _LEADING * (len(lines) - 1))
+            fitting = (_fitting(text, middle - pitch / 2, scale.turn_of(1)) for text in lines)
+            ways.append((min(_TALL, deep, *fitting), lines))
+        height, lines = max(ways, key=lambda way: way[0])
         # the first line is the outermost where letters are upright, else the innermost
         if cos(2 * pi * float(scale.way * turn)) < -0.01:
             lines = lines[::-1]
@@ -411,15 +408,3 @@ def _cell_names(scale: DialScale, pitch: float) -> Iterator[Engraving]:
 def _engraved(scale: DialScale, name: str) -> str:
     """Return the text that is engraved on the dial for a name."""
     return dict(scale.inscriptions).get(name, name)
-
-
-def _split(text: str, rows: int) -> list[str]:
-    """Return a word split into `rows` parts of nearly equal length."""
-    ends = [round(row * len(text) / rows) for row in range(rows + 1)]
-    return [text[first:last] for first, last in pairwise(ends) if last > first]
-
-
-def _stacked(scale: DialScale, lines: Sequence[str], radius: float, pitch: float) -> float:
-    """Return the maximum letter height at which `lines` fit in a cell of a spiral scale, divided by the dial radius."""
-    deep = _FULL * pitch / (1 + _LEADING * (len(lines) - 1))
-    return min(_TALL, deep, *(_fitting(text, radius - pitch / 2, scale.turn_of(1)) for text in lines))

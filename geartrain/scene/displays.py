@@ -18,7 +18,6 @@ from geartrain.scene.elements import ScenePart
 
 if TYPE_CHECKING:
     from geartrain.scene.context import SceneContext
-    from geartrain.scene.layout import WheelPlace
 
 _ABOVE = ("above", "top")
 _HEIGHT = 0.75  # height of a figure divided by the width of the train
@@ -37,9 +36,7 @@ _TYRE = 0.1  # thickness of a road wheel divided by its radius
 
 
 def drive_kind(stage: SceneContext) -> Literal["hand", "motor", "spring", "weight"]:
-    """Return the kind of the declared drive of a train. Without a declared drive, return `motor` if the input speed is
-    in real time, and `hand` if not.
-    """
+    """Return the kind of the declared drive; by default `motor` if the input speed is in real time, `hand` if not."""
     drive = stage.case.drive
     declared = stage.train.declaration
     if drive is None:
@@ -48,9 +45,7 @@ def drive_kind(stage: SceneContext) -> Literal["hand", "motor", "spring", "weigh
 
 
 def fusee_radii(stage: SceneContext) -> tuple[float, ...]:
-    """Return the radii of the fusee of the drive [mm] at equally spaced angles from its start to its end; empty if
-    there is no fusee.
-    """
+    """Return the radii of the fusee [mm] at equally spaced angles from its start to its end; empty without a fusee."""
     spring = stage.case.drive.spring if stage.case.drive is not None else None
     chained = None if spring is None else spring.chained
     if chained is None:
@@ -60,9 +55,7 @@ def fusee_radii(stage: SceneContext) -> tuple[float, ...]:
 
 
 def upwards(stage: SceneContext) -> Vector:
-    """Return the unit vector that points up, in picture coordinates: y, or the direction towards the observer in a view
-    from above.
-    """
+    """Return the unit vector that points up: y, or the direction towards the observer in a view from above."""
     return stage.near if stage.train.declaration.view.from_ in _ABOVE else (0.0, 1.0, 0.0)
 
 
@@ -82,9 +75,7 @@ def _part(stage: SceneContext, link: str, name: str, at: Vector, way: Vector, **
 
 
 def _figure(stage: SceneContext, name: str, link: str) -> Iterator[ScenePart]:
-    """Yield the parts of a standing figure: the robed body, the outstretched arm, which points like a hand of a dial,
-    and the rod below the figure.
-    """
+    """Yield the parts of a standing figure: the robed body, the arm that points like a hand, and the rod below."""
     up, point = facing(stage, name), _origin(stage, link)
     feet = _reach(stage, point, up)[0] + _STAND
     high = _HEIGHT * train_width(stage)
@@ -105,7 +96,9 @@ def _road_wheel(stage: SceneContext, name: str, link: str) -> Iterator[ScenePart
     (far, below), back = _reach(stage, point, out), _reach(stage, point, scaled(out, -1.0))[0]
     radius = _CLEAR * below
     away = far + _STAND + _TYRE * radius
-    if _has_mate(stage, link):  # the track is the diameter, about the middle of the train
+    outputs = [output.links(other, "")[0] for other, output in stage.outputs.items() if output.hand == "wheel"]
+    if sum(_axis(stage, other) == _axis(stage, link) for other in outputs) > 1:
+        # a second road wheel: the track is the diameter, about the middle of the train
         radius = max(radius, ((far + back) / 2 + _STAND) / (1 - _TYRE))
         away = (far - back) / 2 + radius
     at = plus(point, out, away)
@@ -140,23 +133,11 @@ def _origin(stage: SceneContext, link: str) -> Vector:
     return (0.0, 0.0, 0.0) if place is None else place.point
 
 
-def _has_mate(stage: SceneContext, link: str) -> bool:
-    """Return True if there is another road wheel on the axis of the link."""
-    outputs = [output.links(name, "")[0] for name, output in stage.outputs.items() if output.hand == "wheel"]
-    return sum(_axis(stage, other) == _axis(stage, link) for other in outputs) > 1
-
-
 def _reach(stage: SceneContext, point: Vector, way: Vector) -> tuple[float, float]:
-    """Return the extent of all wheels along a direction from a point, and their maximum distance from the line through
-    the point in this direction [mm].
-    """
-    places = stage.layout.wheels.values()
-    along = max((_extent(stage, place, point, way) for place in places), default=0.0)
-    aside = max((size(across(minus(place.centre, point), way)) + place.radius for place in places), default=10.0)
-    return along, aside
-
-
-def _extent(stage: SceneContext, place: WheelPlace, point: Vector, way: Vector) -> float:
-    """Return the maximum coordinate of a wheel along a direction, measured from a point [mm]."""
-    slope = size(across(stage.along(place.axis), way))
-    return dot(minus(place.centre, point), way) + place.radius * slope + place.thickness / 2
+    """Return the extent of all wheels from a point along the direction `way`, and across the line along it [mm]."""
+    along, aside = [], []
+    for place in stage.layout.wheels.values():
+        slope = size(across(stage.along(place.axis), way))
+        along.append(dot(minus(place.centre, point), way) + place.radius * slope + place.thickness / 2)
+        aside.append(size(across(minus(place.centre, point), way)) + place.radius)
+    return max(along, default=0.0), max(aside, default=10.0)

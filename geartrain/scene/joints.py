@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from math import pi, sin
 from typing import TYPE_CHECKING, Any
 
@@ -19,9 +19,7 @@ if TYPE_CHECKING:
 
 
 def find_pairs(stage: SceneContext, faults: Mapping[str, str]) -> tuple[ScenePair, ...]:
-    """Return all gear pairs in the order of declaration; `faults` maps the names of faulty pairs to descriptions of the
-    faults.
-    """
+    """Return all gear pairs in the order of declaration; `faults` describes the fault of each faulty pair, by name."""
     forms = {mesh.name: mesh.form for mesh in stage.meshes}
     return tuple(
         ScenePair(
@@ -55,9 +53,7 @@ def _term(factor: int, what: str) -> str:
 
 
 def find_verdict(stage: SceneContext) -> tuple[dict[str, Any], dict[str, str]]:
-    """Return the verdict with its faulty loops as plain data, and a description of the fault of each faulty pair, by
-    name of the pair.
-    """
+    """Return the verdict with its faulty loops as plain data, and the fault of each faulty pair as text, by name."""
     verdict = stage.answer.verdict
     faults: dict[str, str] = {}
     loops = {loop.pairs: _loop_data(loop) for loop in verdict.loops}
@@ -65,7 +61,13 @@ def find_verdict(stage: SceneContext) -> tuple[dict[str, Any], dict[str, str]]:
     if verdict.kind != "determined" or stage.train.mobility.locked:
         for jam in stage.train.kinematics.gridlock.jams:
             loops.setdefault(jam.loop.pairs, {**_loop_data(jam.loop), "text": str(jam)})
-    for loop in (*loops.values(), *_unusable_pairs(stage)):
+    unusable = []  # pairs whose tooth forms cannot run together, in the format of a faulty loop
+    for mesh in stage.meshes:
+        if (fault := mesh.fault) is not None:
+            links = [stage.train.declaration.wheels[wheel][0] for wheel in mesh.gear.pair]
+            said = "; ".join(filter(None, (fault.what, fault.why, fault.fix)))
+            unusable.append({"pairs": [mesh.name], "links": links, "text": said})
+    for loop in (*loops.values(), *unusable):
         loops.setdefault(tuple(loop["pairs"]), loop)
         for pair in loop["pairs"]:
             faults.setdefault(pair, loop["text"])
@@ -81,17 +83,6 @@ def find_verdict(stage: SceneContext) -> tuple[dict[str, Any], dict[str, str]]:
 
 def _loop_data(loop: Loop) -> dict[str, Any]:
     return {"pairs": list(loop.pairs), "links": list(loop.links), "text": f"{loop} does not close"}
-
-
-def _unusable_pairs(stage: SceneContext) -> Iterator[dict[str, Any]]:
-    """Yield each pair whose tooth forms cannot run together, in the format of a faulty loop (`_loop_data`), with the
-    reason and a remedy.
-    """
-    for mesh in stage.meshes:
-        if (fault := mesh.fault) is not None:
-            links = [stage.train.declaration.wheels[wheel][0] for wheel in mesh.gear.pair]
-            said = "; ".join(filter(None, (fault.what, fault.why, fault.fix)))
-            yield {"pairs": [mesh.name], "links": links, "text": said}
 
 
 def find_elements(stage: SceneContext, state: str | None) -> tuple[SceneShiftElement, ...]:
@@ -137,6 +128,10 @@ def _coupling(stage: SceneContext, moved: MovementStart, circuit: Circuit, decla
     pin, hole = pin_and_hole(declared, radius, offset)
     height = _height(stage, declared, axis)
     pin_axis, slot_axis = (plus(point, axis, height - dot(point, axis)) for point in (pin_axis, slot_axis))
+    slot_turn, setting = 0.0, moved.driving.get(circuit.id)
+    if setting is not None:  # the slot is at an angle from its pin that follows from the starting angles
+        followed = float(circuit.ratio) * setting.S + setting.error
+        slot_turn = setting.forward * followed - (moved.rest[circuit.i] - moved.rest[circuit.carrier])
     return SceneCoupling(
         id=circuit.id,
         kind=declared.kind,
@@ -149,7 +144,7 @@ def _coupling(stage: SceneContext, moved: MovementStart, circuit: Circuit, decla
         offset=offset,
         drawn=declared.pin_radius is not None and declared.offset is not None,
         text=in_words(circuit, stage.train.kinematics.signs),
-        slot_turn=_slot_angle(stage, moved, circuit),
+        slot_turn=slot_turn,
         pins_at=_around(declared, pin_axis, towards, radius, axis),
         holes_at=_around(declared, slot_axis, towards, radius, axis),
         pin_diameter=pin,
@@ -158,9 +153,7 @@ def _coupling(stage: SceneContext, moved: MovementStart, circuit: Circuit, decla
 
 
 def _clear_of_carried(stage: SceneContext, declared: Declared, middle: Vector, axis: Vector, towards: Vector) -> Vector:
-    """Return the unit vector from the axis of the pin's link to the first pin. Pins in holes are placed clear of the
-    axes that their link carries.
-    """
+    """Return the unit vector from the axis of the pin's link to its first pin; pins in holes avoid carried axes."""
     if isinstance(declared, PinsInHoles):
         tree = stage.train.kinematics.tree
         same = (each for each in stage.train.declaration.pin_couplings if isinstance(each, PinsInHoles))
@@ -175,9 +168,7 @@ def _clear_of_carried(stage: SceneContext, declared: Declared, middle: Vector, a
 
 
 def _around(declared: Declared, middle: Vector, towards: Vector, radius: float, axis: Vector) -> tuple[Vector, ...]:
-    """Return equally spaced points on a circle, the first of them in the direction `towards`; empty for a pin in a
-    slot.
-    """
+    """Return equally spaced points on a circle, the first in the direction `towards`; empty for a pin in a slot."""
     number = declared.pins if isinstance(declared, PinsInHoles) else 0
     return tuple(plus(middle, turned(towards, axis, 2 * pi * at / number), radius) for at in range(number))
 
@@ -195,21 +186,8 @@ def pin_and_hole(declared: Declared, radius: float, offset: float) -> tuple[floa
     return pin, pin + 2 * offset
 
 
-def _slot_angle(stage: SceneContext, moved: MovementStart, circuit: Circuit) -> float:
-    """Return the angle in the zero pose between a slot and the line from the slot's axis to its pin [rad], which
-    follows from the starting angles.
-    """
-    setting = moved.driving.get(circuit.id)
-    if setting is None:
-        return 0.0
-    followed = float(circuit.ratio) * setting.S + setting.error
-    return setting.forward * followed - (moved.rest[circuit.i] - moved.rest[circuit.carrier])
-
-
 def coupling_sizes(declared: Declared, apart: float) -> tuple[float, float]:
-    """Return the pin radius and the offset [mm]: as declared, or scaled to an axis distance of `apart` [mm], or in
-    default proportions.
-    """
+    """Return the pin radius and the offset [mm], as declared or in default proportions to the axis distance `apart`."""
     if declared.pin_radius is not None and declared.offset is not None:
         radius, offset = declared.pin_radius.si * 1000, declared.offset.si * 1000
         if declared.pin_radius.unit is None:
@@ -229,11 +207,7 @@ def _point(stage: SceneContext, label: str | None) -> Vector:
 
 
 def _height(stage: SceneContext, declared: Declared, axis: Vector) -> float:
-    """Return the height along the axis midway between the nearest wheels of two coupled links [mm].
-
-    If only one of the links has wheels, return the height of its first wheel. If neither has wheels, return the height
-    of the pin's axis.
-    """
+    """Return the height along the axis [mm] midway between the nearest wheels of two coupled links, or of one wheel."""
     levels = [
         [dot(stage.layout.wheels[wheel].centre, axis) for wheel in stage.train.declaration.links[link].wheels]
         for link in (declared.pin, declared.slot)

@@ -1,9 +1,4 @@
-"""Motion of a scene: exact speeds, and transmission errors of teeth and pins as tables and steps that are stored in a
-page.
-
-Angles differ from their exact mean values because of transmission errors. The module computes tables of the
-transmission errors of gear pairs and pins, and the steps that combine them.
-"""
+"""Motion of a scene: exact speeds, tables of the transmission errors of teeth and pins, and steps that combine them."""
 
 from __future__ import annotations
 
@@ -20,7 +15,6 @@ from geartrain.scene.context import SceneContext, packed_key
 
 if TYPE_CHECKING:
     from geartrain.dynamics import Motion
-    from geartrain.dynamics.motion.error_composition import CompositionStep as Composed
     from geartrain.dynamics.motion.error_composition import ErrorComposition
     from geartrain.numerics.arrays import Floats
     from geartrain.teeth.transmission import TransmissionFunction as ToothTransmission
@@ -81,9 +75,7 @@ class ErrorSource(Shown):
 
 @dataclass(frozen=True, slots=True)
 class ErrorStep(Shown):
-    """Step in the combination of errors, in which the errors of some sources are computed from the errors of earlier
-    sources.
-    """
+    """Step in the combination of errors: the errors of some sources are computed from those of earlier sources."""
 
     sources: Sequence[int]
     """Indices of the sources whose errors are computed in this step."""
@@ -132,21 +124,12 @@ TOLERANCE = 1e-9  # maximum error of a table in driven pitches; the page display
 _DEGREES = (3, 5, 7, 9, 11, 14)  # degrees of polynomials, of which the smallest table is used
 
 
-def step_of(step: Composed) -> ErrorStep:
-    """Return a step of an error composition as an `ErrorStep`, which has lists instead of arrays."""
-    own = step.own.tolist() if step.coupled else []
-    return ErrorStep(step.sources, step.known, step.from_known.tolist(), own)
-
-
 def tables_and_sources(
     composition: ErrorComposition, way: int = 1
 ) -> tuple[tuple[ErrorTable, ...], tuple[ErrorSource, ...]]:
-    """Return the error tables, and the error sources that refer to the tables. Pairs with equal transmission functions
-    share a table.
+    """Return the error tables, and the error sources that refer to them; pairs with equal functions share a table.
 
-    way   1, or -1 if the driving link turns backwards: a composition counts angles in the sense of the driving link,
-    and
-          a scene counts them about declared axes
+    way   1, or -1 if the driving link turns backwards about its declared axis
     """
     transmissions: dict[tuple[float, bytes, bytes], ErrorTable] = {}
     sources = []
@@ -172,9 +155,7 @@ def tables_and_sources(
 
 
 def tabulated(pair: str, transmission: ToothTransmission) -> ErrorTable:
-    """Return the transmission error as piecewise polynomials, in the smallest table that is accurate to `TOLERANCE`
-    [driven pitches].
-    """
+    """Return the transmission error as the smallest table of polynomials that is accurate to `TOLERANCE` [pitches]."""
     import numpy as np
 
     from geartrain.teeth.transmission_table import fit, folded_kinks
@@ -211,8 +192,9 @@ class InitialPosition:
     """Initial position of a gear pair or coupling with a transmission error."""
 
     driver: str
-    """Name of the driving link. `forward` is 1, or -1 if the link turns against the direction of its body."""
+    """Name of the driving link."""
     forward: int
+    """1 if the driving link turns about the direction of its body, -1 if it turns against it."""
     S: float
     """Forward angle of the driver [rad]."""
     error: float
@@ -220,16 +202,11 @@ class InitialPosition:
     transmission: ToothTransmission
 
     def error_past(self, shift: float) -> float:
-        """Return the minimum angular error of the driven link [rad] at which its teeth do not interfere with a driver
-        that is out of phase.
-
-        The driver's teeth are `shift` [rad] ahead of their phase. With the transmission error e, the driven link has
-        the error e(S) + c, and the driver requires e(S + shift), so c is the maximum of the difference e(S + shift) -
-        e(S).
-        """
+        """Return the minimum error [rad] with which the driven link clears a driver that leads by `shift` [rad]."""
         import numpy as np
 
         S = self.transmission.period * np.arange(_TRIED_ERRORS) / _TRIED_ERRORS
+        # the driven link has the error e(S) + c, and the driver requires e(S + shift): c is the largest difference
         return self.error + float((self.transmission.error(S + shift) - self.transmission.error(S)).max())
 
 
@@ -248,9 +225,7 @@ class MovementStart:
 
 
 def find_movement(stage: SceneContext) -> MovementStart:
-    """Return the movement in a state. Its kind is `still` if no speed is determined, and `mean` if errors cannot be
-    computed.
-    """
+    """Return the movement in a state; its kind is `still` without a determined speed, `mean` without known errors."""
     if not stage.answer.verdict or stage.driving_link is None:
         why = stage.answer.verdict.text if not stage.answer.verdict else "nothing drives it"
         return MovementStart(Movement("still", why, period=None), _starting_angles(stage))
@@ -316,9 +291,7 @@ def _backward(stage: SceneContext, motion: Motion, ahead: Movement) -> tuple[Mov
 
 
 def _movement(stage: SceneContext, composition: ErrorComposition, way: int) -> Movement:
-    """Return the movement that follows from a composition of errors. Its kind is `exact` if ratios are constant, even
-    if backlash causes offsets.
-    """
+    """Return the movement that follows from a composition of errors; its kind is `exact` if all ratios are constant."""
     transmissions, sources = tables_and_sources(composition, way)
     links = tuple(stage.train.declaration.links)
     return Movement(
@@ -326,7 +299,10 @@ def _movement(stage: SceneContext, composition: ErrorComposition, way: int) -> M
         period=_text(_period(stage, [source.cycles for source in composition.sources])),
         transmissions=transmissions,
         sources=sources,
-        steps=tuple(step_of(step) for step in composition.steps),
+        steps=tuple(
+            ErrorStep(step.sources, step.known, step.from_known.tolist(), step.own.tolist() if step.coupled else [])
+            for step in composition.steps
+        ),
         offsets={link: way * each for link, each in zip(links, composition.offsets, strict=False) if each},
     )
 
@@ -342,9 +318,7 @@ def _settings(composition: ErrorComposition, way: int) -> Iterator[tuple[str, In
 
 
 def _period(stage: SceneContext, cycles: Iterable[Fraction]) -> Fraction | None:
-    """Return the number of turns of the driving link after which all angles and errors repeat; None if no link
-    moves.
-    """
+    """Return the turns of the driving link after which all angles and errors repeat; None if no link moves."""
     ratios = [ratio for link in stage.train.declaration.links if (ratio := stage.ratio(link))]
     rates = [abs(rate) for rate in (*ratios, *cycles) if rate]
     if not rates:

@@ -129,17 +129,51 @@ THEMES: dict[ThemeName, Theme] = {
         ),
     ),
 }  # fmt: skip
+"""Themes of drawings and pages, by name."""
 
 
 def series_colour(at: int, theme: ThemeName = "light") -> str:
-    """Return the colour of the series with index `at`, counted from 0. Colours repeat after ten series."""
+    """Return the colour of a series of a plot; colours repeat after ten series.
+
+    Parameters
+    ----------
+    at : int
+        Index of the series, counted from 0.
+    theme : {"light", "dark", "print"}
+        Theme of the plot.
+
+    Returns
+    -------
+    str
+        Colour as hexadecimal text.
+
+    Examples
+    --------
+    >>> series_colour(0) == series_colour(10) == THEMES["light"].series[0]
+    True
+    """
     series = THEMES[theme].series
     return series[at % len(series)]
 
 
 def series_dash(at: int) -> Dash:
-    """Return the dash pattern [line widths] of the series with index `at`, counted from 0.
+    """Return the dash pattern of a series of a plot.
 
     There are 70 distinct combinations of colour and dash pattern, and 10 in the print theme.
+
+    Parameters
+    ----------
+    at : int
+        Index of the series, counted from 0.
+
+    Returns
+    -------
+    str or tuple
+        Dash pattern for matplotlib, in line widths.
+
+    Examples
+    --------
+    >>> series_dash(0)
+    '-'
     """
     return _DASHES[(at + at // len(THEMES["light"].series)) % len(_DASHES)]

@@ -12,8 +12,7 @@ import numpy as np
 
 from geartrain.errors import Problem, RangeError
 from geartrain.numerics.exact import read_fraction
-from geartrain.scene.elements import SceneBody
-from geartrain.scene.movement import ErrorSource, ErrorStep, ErrorTable
+from geartrain.scene.movement import ErrorStep, ErrorTable
 from geartrain.scene.train_scene import Scene
 
 if TYPE_CHECKING:
@@ -25,54 +24,66 @@ _ROUNDS, _CONVERGED = 500, 1e-14  # maximum number of fixed-point iterations, an
 
 @dataclass(frozen=True, slots=True)
 class ScenePose:
-    """Pose of a scene: angles A of the bodies about their directions [rad], modulo one turn, and rigid motions of the
-    bodies.
-
-    The angle of a body that slides is 2 pi times its travel in mm.
-    """
+    """Pose of a scene: angles and rigid motions of the bodies. A point p of the zero pose moves to turned p + moved."""
 
     angles: Floats
+    """Angles of the bodies about their directions [rad], modulo one turn; 2 pi times the travel in mm for slides."""
     turned: Floats
-    """Rotation matrices of the bodies. Shape (bodies, 3, 3).
-
-    With the displacements `moved` of the bodies, shape (bodies, 3) in mm, a point p of the zero pose moves to
-    turned p + moved.
-    """
+    """Rotation matrices of the bodies. Shape (bodies, 3, 3)."""
     moved: Floats
+    """Displacements of the bodies [mm]. Shape (bodies, 3)."""
 
     def point(self, body: int, point: object) -> Floats:
-        """Return the positions in this pose [mm] of points of a body, shape (..., 3), which are given at their
-        positions in the zero pose [mm].
-        """
+        """Return points of a body in this pose [mm], shape (..., 3), from their positions in the zero pose [mm]."""
         return np.asarray(np.asarray(point, dtype=float) @ self.turned[body].T + self.moved[body])
 
     def way(self, body: int, way: object) -> Floats:
-        """Return the directions in this pose of vectors of a body, shape (..., 3), which are given by their directions
-        in the zero pose.
-        """
+        """Return vectors of a body in this pose, shape (..., 3), from their directions in the zero pose."""
         return np.asarray(np.asarray(way, dtype=float) @ self.turned[body].T)
 
 
 def turns_of(speed: str | None, turns: Fraction) -> Fraction:
-    """Return the exact number of turns of a body after `turns` of the driving link, given its speed relative to the
-    driving link; 0 if the speed is None.
-    """
+    """Return the exact turns of a body after `turns` of the driving link, from its relative speed; 0 for None."""
     return read_fraction(speed) * turns if speed is not None else Fraction(0)
 
 
 def scene_pose(scene: Scene, turns: Fraction = Fraction(0)) -> ScenePose:
-    """Return the pose of a scene after `turns` turns of the driving link.
+    """Return the positions of all bodies of a scene, with exact mean angles and the errors of teeth and pins.
 
-    Mean angles are exact, and errors of teeth and pins are computed from the scene's tables.
+    Parameters
+    ----------
+    scene : Scene
+        Scene of a train, from `make_scene` or `build_scene`.
+    turns : Fraction
+        Revolutions of the driving link from the start.
 
-    Raise `RangeError` if the iteration for pairs that depend on each other does not converge.
+    Returns
+    -------
+    ScenePose
+        Angles of the bodies [rad], and their rotation matrices and displacements [mm] from the zero pose.
+
+    Raises
+    ------
+    RangeError
+        If the iteration for pairs that depend on each other does not converge.
+
+    Examples
+    --------
+    The sun drives the carrier with the ratio 2/7.
+
+    >>> import geartrain
+    >>> from geartrain.scene import make_scene
+    >>> pose = scene_pose(make_scene(geartrain.load("planetary-24-18-60")), Fraction(7, 4))
+    >>> [round(float(angle), 4) for angle in pose.angles][-1]
+    3.1416
     """
     error = body_errors(scene, turns)
     angles = np.array(
         [
             # reduced to one turn as a fraction: the float of many turns would lose digits of the angle
-            body.sense * (body.start + 2 * pi * float(_kept(body, turns_of(body.speed, turns))) + error[at])
+            body.sense * (body.start + 2 * pi * float(each if body.travels else each % 1) + error[at])
             for at, body in enumerate(scene.bodies)
+            for each in (turns_of(body.speed, turns),)
         ]
     )
     turned, moved = np.zeros((len(scene.bodies), 3, 3)), np.zeros((len(scene.bodies), 3))
@@ -94,11 +105,6 @@ def scene_pose(scene: Scene, turns: Fraction = Fraction(0)) -> ScenePose:
     return ScenePose(angles, turned, moved)
 
 
-def _kept(body: SceneBody, turns: Fraction) -> Fraction:
-    """Return the turns of a body modulo one turn. For a link that slides, the travel is returned unchanged."""
-    return turns if body.travels else turns % 1
-
-
 def _rotation(axis: tuple[float, float, float], angle: float) -> Floats:
     """Return the matrix of a right-handed rotation by an angle [rad] about a unit vector (Rodrigues' formula)."""
     x, y, z = axis
@@ -110,9 +116,7 @@ def _rotation(axis: tuple[float, float, float], angle: float) -> Floats:
 
 
 def body_errors(scene: Scene, turns: Fraction) -> Floats:
-    """Return the angular error of each body relative to its mean motion [rad], shape (bodies,); 0 if ratios are
-    constant.
-    """
+    """Return the angular error of each body relative to its mean motion [rad], shape (bodies,)."""
     movement = scene.movement
     delta = np.zeros(len(movement.sources))
     for step in movement.steps:
@@ -127,9 +131,7 @@ def body_errors(scene: Scene, turns: Fraction) -> Floats:
 
 
 def _evaluate_step(scene: Scene, step: ErrorStep, turns: Fraction, delta: Floats) -> None:
-    """Compute the errors of a step and store them in `delta`: directly if all drivers are known, by iteration if they
-    are not.
-    """
+    """Compute the errors of a step and store them in `delta`, by iteration if they move the drivers of the step."""
     sources, known = list(step.sources), list(step.known)
     base = np.array(step.from_known).reshape(len(sources), len(known)) @ delta[known]
     # fixed-point iteration, which converges if transmission errors vary slowly with the angle
@@ -137,20 +139,16 @@ def _evaluate_step(scene: Scene, step: ErrorStep, turns: Fraction, delta: Floats
         before = delta[sources]
         shift = base + np.array(step.own) @ before if step.own else base
         for at, each in zip(sources, shift, strict=True):
-            delta[at] = _delta(scene, scene.movement.sources[at], turns, float(each))
+            source = scene.movement.sources[at]
+            table = scene.movement.transmissions[source.transmission]
+            # reduced to one period as a fraction, for the same reason as in `scene_pose`
+            mean = table.period * float(read_fraction(source.cycles) * turns % 1)
+            delta[at] = source.sense * _value(table, source.start + mean + float(each))
         if not step.own or np.abs(delta[sources] - before).max() < _CONVERGED:
             return
     why = "the fixed-point iteration for pairs that depend on each other diverges or is too slow"
     fix = "compute the motion with `GearTrain.motion`, or choose another number of turns"
     raise RangeError(Problem(f"the pose of '{scene.name}' does not converge", why, fix))
-
-
-def _delta(scene: Scene, source: ErrorSource, turns: Fraction, shift: float) -> float:
-    """Return the error of a pair [rad] when the errors of other pairs move its driver by `shift` [rad]."""
-    transmission = scene.movement.transmissions[source.transmission]
-    # reduced to one period as a fraction, for the same reason as in `scene_pose`
-    mean = transmission.period * float(read_fraction(source.cycles) * turns % 1)
-    return source.sense * _value(transmission, source.start + mean + shift)
 
 
 def _value(transmission: ErrorTable, S: float) -> float:

@@ -162,8 +162,7 @@ class ShownSamples:
         return float(self.time[-1]) / (len(self.time) - 1)
 
     def link(self, turned: Floats, tolerance: float) -> LinkCourse:
-        """Return the mean speed of a link and its simplified deviations, computed from the angles `turned` at all
-        samples [rad].
+        """Return the mean speed and the deviations of a link, from its angles `turned` at all samples [rad].
 
         tolerance   maximum error of the simplified angles [rad]
         """
@@ -175,9 +174,7 @@ class ShownSamples:
         return LinkCourse(rate, np.array(kept), line[kept])
 
     def states(self, contact: str) -> tuple[Ints, str]:
-        """Return the indices of the samples at which the state of a contact changes, and the new states as letters;
-        empty for a contact without flanks.
-        """
+        """Return the samples at which a contact's state changes, and its states as letters; empty without flanks."""
         if contact not in self.run.gaps.labels[0]:
             return np.zeros(0, dtype=np.int64), ""
         front, back = (self.of(gaps[contact]) for gaps in (self.run.gaps, self.run.coast_gaps))
@@ -188,9 +185,7 @@ class ShownSamples:
         return changes, "".join("dca"[each] for each in code[changes])
 
     def impacts(self, contact: str) -> tuple[Floats, Floats]:
-        """Return the times [s] and closing speeds [rad/s] of the impacts of a contact. Impacts within one sample are
-        merged.
-        """
+        """Return the times [s] and closing speeds [rad/s] of the impacts of a contact, merged within each sample."""
         own = np.array([name == contact for name in self.run.impacts.contact], dtype=bool)
         times, speeds = self.run.impacts.time[own] - self.start, self.run.impacts.speed[own]
         if not len(times):
@@ -235,6 +230,13 @@ def find_run(
     )
     links = stage.train.declaration.links
     duration = float(samples.time[-1])
+    notes = list(run.notes)
+    if movement.kind == "mean":
+        notes.append(f"initial angles are those of the mean motion, without transmission errors; {movement.why}")
+    kept = len(run.impacts.time)
+    if run.impacts.total > kept:
+        last = run.impacts.time[-1] - run.skip
+        notes.append(f"impacts after {last:.4g} s are not shown: the first {kept} of {run.impacts.total} are kept")
     return SceneRun(
         driven=run.driven,
         link=run.link,
@@ -251,63 +253,37 @@ def find_run(
         ),
         contacts=contacts,
         deviations=run.deviations,
-        notes=(*run.notes, *_omissions(run, movement)),
+        notes=tuple(notes),
     )
 
 
 def _tolerance(stage: SceneContext, link: str) -> float:
-    """Return the tolerance of stored angles of a link [rad]. It is smaller for the driving link, from which all ideal
-    angles follow.
-    """
+    """Return the tolerance of stored angles [rad], smaller for the driving link, from which ideal angles follow."""
     if link != stage.driving_link:
         return TOLERANCE
     ratios = (stage.ratio(each) for each in stage.train.declaration.links)
     return TOLERANCE / max(1.0, *(abs(float(ratio)) for ratio in ratios if ratio))
 
 
-def _omissions(run: TimeRun, movement: Movement) -> Iterator[str]:
-    if movement.kind == "mean":
-        yield f"initial angles are those of the mean motion, without transmission errors; {movement.why}"
-    kept = len(run.impacts.time)
-    if run.impacts.total > kept:
-        last = run.impacts.time[-1] - run.skip
-        yield f"impacts after {last:.4g} s are not shown: the first {kept} of {run.impacts.total} are kept"
-
-
 def _places(
     stage: SceneContext, wheels: Sequence[SceneWheel], pairs: Sequence[ScenePair], couplings: Sequence[SceneCoupling]
 ) -> Iterator[tuple[str, tuple[str, int, Vector]]]:
-    """Yield the name of each contact with its kind, the body that carries its contact point, and the position of this
-    point in the zero pose [mm].
-    """
+    """Yield each contact by name, with its kind, and the body and position [mm] of its contact point."""
     if (escapement := stage.train.declaration.escapement) is not None:
-        link = escapement.link
+        link, rim = escapement.link, (0.0, 0.0, 0.0)
         own = [wheel for wheel in wheels if wheel.body == stage.body[link]]
-        yield link, ("escapement", stage.body[pallet_link(escapement, stage.train.kinematics.tree)], _rim(own))
+        if own:  # pallets touch the largest wheel; an escape wheel has no mate among gears
+            wheel = max([each for each in own if not each.circuits] or own, key=lambda each: each.radius)
+            rim = plus(wheel.centre, wheel.reference, wheel.radius)
+        yield link, ("escapement", stage.body[pallet_link(escapement, stage.train.kinematics.tree)], rim)
     for pair in pairs:
         yield pair.id, ("pair", pair.carrier, pitch_point(*(wheels[each] for each in pair.wheels)))
     for coupling in couplings:
         yield coupling.id, ("pin", coupling.pin, coupling.pin_at)
 
 
-def _rim(wheels: Sequence[SceneWheel]) -> Vector:
-    """Return the point at which pallets touch the largest wheel of a link [mm]; wheels without mates are preferred.
-    Return the origin if the link has no wheels.
-    """
-    if not wheels:
-        return (0.0, 0.0, 0.0)
-    # an escape wheel has no mate among gears
-    free = [wheel for wheel in wheels if not wheel.circuits] or wheels
-    wheel = max(free, key=lambda each: each.radius)
-    return plus(wheel.centre, wheel.reference, wheel.radius)
-
-
 def pitch_point(one: SceneWheel, other: SceneWheel) -> Vector:
-    """Return the pitch point of two wheels in the zero pose [mm], which is on the pitch circle of `one`, in the
-    direction of the axis of `other`.
-
-    If one of the wheels is a ring, the point is on the pitch circle of the ring.
-    """
+    """Return the pitch point of two wheels in the zero pose [mm], on the pitch circle of the ring or of `one`."""
     if other.kind == "ring":
         one, other = other, one
     way = across(minus(other.centre, one.centre), one.direction)

@@ -143,24 +143,17 @@ _SMALL, _SIMPLE = 0.025, 6  # relative height of letters whose strokes of over s
 
 @cache
 def letter_strokes(letter: str) -> tuple[tuple[Stroke, ...], float]:
-    """Return the strokes of a capital letter of height 1 whose baseline is y = 0, and its width. An unknown character
-    is drawn as a box.
-    """
-    drawn = _LETTERS.get(_SAME.get(letter, letter), _UNKNOWN)
-    strokes = tuple(_stroke(each) for each in drawn.split())
-    return strokes, max(x for stroke in strokes for x, _ in stroke)
-
-
-def _stroke(drawn: str) -> Stroke:
-    figures = drawn.lstrip("~")
-    corners = [(int(x) / _HIGH, int(y) / _HIGH) for x, y in zip(figures[::2], figures[1::2], strict=True)]
-    return tuple(_rounded(corners)) if drawn.startswith("~") else tuple(corners)
+    """Return the strokes of a letter of height 1 with its baseline at y = 0, or of a box if unknown, and its width."""
+    strokes: list[Stroke] = []
+    for drawn in _LETTERS.get(_SAME.get(letter, letter), _UNKNOWN).split():
+        figures = drawn.lstrip("~")
+        corners = [(int(x) / _HIGH, int(y) / _HIGH) for x, y in zip(figures[::2], figures[1::2], strict=True)]
+        strokes.append(tuple(_rounded(corners)) if drawn.startswith("~") else tuple(corners))
+    return tuple(strokes), max(x for stroke in strokes for x, _ in stroke)
 
 
 def _rounded(corners: list[Point]) -> Iterator[Point]:
-    """Yield the points of a stroke after cutting its corners at a quarter of their sides (Chaikin's algorithm); open
-    ends are kept.
-    """
+    """Yield the points of a stroke after cutting its corners at a quarter of their sides (Chaikin's algorithm)."""
     closed = corners[0] == corners[-1]
     found = [] if closed else corners[:1]
     for (x, y), (u, v) in pairwise(corners):
@@ -175,9 +168,7 @@ def capitals(text: str) -> str:
 
 
 def _advances(text: str) -> list[tuple[str, float]]:
-    """Return the letters of a text. Each has its advance, which is its width plus the gap after it, divided by the
-    letter height.
-    """
+    """Return the letters of a text, each with its advance (its width plus the gap after it) in letter heights."""
     gap = _APART / _HIGH
     return [(each, (_SPACE / _HIGH if each.isspace() else letter_strokes(each)[1]) + gap) for each in capitals(text)]
 
@@ -188,8 +179,7 @@ def text_length(text: str) -> float:
 
 
 def curved_text(text: str, height: float, radius: float, angle: float, inwards: bool = False) -> Iterator[Stroke]:
-    """Yield the strokes of a text along a circular arc. The text is centred at an angle measured clockwise from the top
-    [rad].
+    """Yield the strokes of a text along a circular arc, centred at an angle measured clockwise from the top [rad].
 
     inwards   True if the feet of letters point outwards, so that text below the centre is readable
     """

@@ -1,8 +1,6 @@
-"""Interactive page of a train: one HTML file with an animated, three-dimensional view.
+"""Interactive page of a train: one HTML file with an animated, three-dimensional view of scenes.
 
-The input is one or more scenes of `geartrain.scene`. The output is a self-contained page with the data of the scenes
-and the program that displays the scenes; the program computes angles exactly at any number of revolutions. Buttons of
-the page save pictures and films.
+The page contains the data of the scenes and the program that displays them, at any number of revolutions.
 """
 
 from __future__ import annotations

@@ -67,9 +67,7 @@ class LiveServer:
         return f"http://{_LOCAL}:{self._sockets[0].getsockname()[1]}/"
 
     def refresh(self) -> None:
-        """Rebuild the pages and increment the version; if the train has errors, keep the old pages and store the
-        message.
-        """
+        """Rebuild the pages and increment the version; if the train has errors, keep the pages and store the error."""
         try:
             self.pages, self.error = self.make(), ""
         except GearTrainError as error:
@@ -78,9 +76,7 @@ class LiveServer:
         self.version += 1
 
     def run(self, report: Callable[[str], object]) -> None:
-        """Serve the pages until Ctrl+C is pressed. `report` is called after each change with the error message, or ""
-        if there is no error.
-        """
+        """Serve the pages until Ctrl+C is pressed; after each change, call `report` with the error message, or ""."""
         with suppress(KeyboardInterrupt):
             asyncio.run(self._serve(report))
 
@@ -163,9 +159,7 @@ class LiveServer:
         return application
 
     def _policy(self, shell: str) -> str:
-        """Return the content security policy of the outer page. It permits the page's own script, frames from this
-        server, and its web socket.
-        """
+        """Return the content security policy of the outer page: its own script, frames and socket of this server."""
         script = shell.partition("<script>")[2].partition("</script>")[0]
         port = self._sockets[0].getsockname()[1]
         reached = f"frame-src 'self'; connect-src ws://{_LOCAL}:{port} ws://localhost:{port}; frame-ancestors 'none'"

@@ -71,6 +71,7 @@ def page(
     # the default layout needs no entry
     options = {"compare": compare, "teeth": teeth} | ({} if shown == "page" else {"shown": shown})
     data = {"scenes": [scene.to_dict() for scene in scenes], "options": options}
+    text = json.dumps(data, ensure_ascii=False, allow_nan=False, separators=(",", ":"))  # NaN is not valid JSON
     program = _built("viewer.js")
     policy = f"{own_script_only(program)}; img-src data: blob:; connect-src 'none'"  # no connections
     return Template(_part("page.html")).substitute(
@@ -78,7 +79,7 @@ def page(
         title=escape(title or " and ".join(dict.fromkeys(scene.name for scene in scenes))),
         style=_built("viewer.css"),
         verdicts="\n".join(_words(scene) for scene in scenes),
-        data=_compressed(data),
+        data=b64encode(zlib.compress(text.encode(), 9)).decode(),  # about a third of the length
         program=program,
     )
 
@@ -111,15 +112,6 @@ def frame_of(address: str, title: str, height: int = 480) -> str:
     """Return an HTML `iframe` element that shows the page of a train inside another page."""
     style = f"width:100%;height:{height}px;border:0"
     return f'<iframe src="{escape(quote(address))}" title="{escape(title)}" style="{style}" loading="lazy"></iframe>'
-
-
-def _compressed(data: object) -> str:
-    """Return data as JSON text that is compressed with zlib and encoded in base64, which takes about a third of the
-    length.
-    """
-    # NaN is not valid JSON
-    text = json.dumps(data, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
-    return b64encode(zlib.compress(text.encode(), 9)).decode()
 
 
 def _words(scene: Scene) -> str:

@@ -20,7 +20,7 @@ from matplotlib.text import Text
 from matplotlib.transforms import Bbox
 
 from geartrain.drawing.theme_colours import themed
-from geartrain.scene.palette import THEMES
+from geartrain.scene import THEMES
 
 _LINE, _AREA = 70.0, 15.0  # grey levels of 255: minimum difference of lines and of areas that are distinguishable
 _WIDTH = 1.6  # ratio of two distinguishable line widths

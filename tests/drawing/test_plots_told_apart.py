@@ -20,13 +20,12 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
+import geartrain
 from geartrain.drawing import sweep_figure
-from geartrain.drawing.transmission_curves import shapes_figure, triangular_figure
-from geartrain.teeth import Cycloidal, Involute
+from geartrain.drawing.transmission_curves import triangular_figure
 from geartrain.teeth.triangular.pair_geometry import TriangularSizes, equal_depth
 from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
-from geartrain.workshop import PointerErrorCourse, ToothSizes, find_tooth_sizes, find_train_sizes
-from geartrain.workshop.monte_carlo.monte_carlo_plots import course_figure
+from geartrain.workshop import ToothSizes, find_tooth_sizes, find_train_sizes
 
 GRID = np.linspace(0.0, 1.0, 5)
 
@@ -104,24 +103,6 @@ def test_marks_of_best_sizes_are_in_view_and_their_key_is_below_all_designs() ->
         assert axes.get_ylim()[0] <= y <= axes.get_ylim()[1]
 
 
-def test_each_pointer_is_drawn_over_its_own_turn() -> None:
-    errors = np.random.default_rng(1).normal(size=(20, 30))
-    turns = {"moon": np.linspace(0, 0.1, 30), "sun": np.linspace(0, 4, 30)}
-    figure = course_figure([PointerErrorCourse(name, each, errors) for name, each in turns.items()])
-    assert [axes.get_xlim()[1] for axes in figure.axes] == [0.1, 4.0]
-    assert not alike(figure)
-    assert not alike(figure, "light")
-
-
-def test_the_key_of_bands_is_as_dark_as_they_are_seen() -> None:
-    errors = np.random.default_rng(1).normal(size=(20, 2))
-    figure = course_figure([PointerErrorCourse("moon", np.array([0.0, 1.0]), errors)])
-    through = 1.0
-    for band, key in zip(figure.axes[0].collections, figure.legends[0].get_patches(), strict=True):
-        through *= 1 - band.get_alpha()
-        assert key.get_alpha() == pytest.approx(1 - through)
-
-
 def test_words_over_the_ends_of_a_band_stand_within_its_turns() -> None:
     train = load("norton-compound")
     (axes,) = train.torques().plot().axes
@@ -133,9 +114,15 @@ def test_words_over_the_ends_of_a_band_stand_within_its_turns() -> None:
             assert not band.get_path().intersects_bbox(box, filled=False), text.get_text()
 
 
+def shapes(z1: int, z2: int, form: str) -> Figure:
+    """Return the picture of a pair with a conjugate tooth form."""
+    wheels = f"{{frame: {{}}, a: {{wheels: {{p: {z1}}}}}, b: {{wheels: {{q: {z2}}}}}}}"
+    text = f"links: {wheels}\nrevolutes: {{A: [frame, a], B: [frame, b]}}\ngears: [p ~ q]\ninputs: {{a: 1}}\n"
+    return geartrain.load(f"{text}tooth_form: {{{form}}}\n").meshes[0].plot()  # type: ignore[no-any-return]
+
+
 def test_a_radial_flank_is_a_straight_line_not_its_rounding() -> None:
-    form = Cycloidal.declared({"thickness": ["1.5708", "1.05"], "addendum": ["1.4", "0"]})
-    figure = shapes_figure({"cycloidal": form.path(60, 8)})
+    figure = shapes(60, 8, "form: cycloidal, thickness: [1.5708, 1.05], addendum: [1.4, 0]")
     low, high = figure.axes[1].get_xlim()
     (flank,) = [line for line in figure.axes[1].lines if line.get_gid() == "cycloidal"]
     assert np.ptp(flank.get_xdata()) < 1e-12 < 0.05 < high - low
@@ -143,7 +130,7 @@ def test_a_radial_flank_is_a_straight_line_not_its_rounding() -> None:
 
 def test_a_spike_leaves_its_panel_where_the_rest_would_be_flat() -> None:
     """At the undercut of a pinion of 8 teeth the flank reverses, and the heat per area is unbounded."""
-    figure = shapes_figure({"involute": Involute.declared({}).path(8, 36)})
+    figure = shapes(8, 36, "form: involute")
     (heat,) = [line for line in figure.axes[4].lines if line.get_gid() == "involute"]
     values = np.asarray(heat.get_ydata(), dtype=float)
     assert np.nanmax(values) > 100 * np.nanmedian(values)

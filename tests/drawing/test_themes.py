@@ -28,17 +28,12 @@ _COLOUR = re.compile(rb"#[0-9a-f]{6}")
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_a_dark_picture_holds_none_of_the_colours_of_the_light_one(kind: str) -> None:
+def test_a_dark_picture_has_no_colour_of_the_light_one_and_a_picture_for_print_is_grey(kind: str) -> None:
     figure = picture(load("planetary"), kind, load("planetary").states[0])  # type: ignore[arg-type]
     dark = {found.decode() for found in _COLOUR.findall(render(figure, ".svg", theme="dark"))}
     light = palette("light")
     assert not dark & {light.paper, light.ink, light.quiet, light.line, light.fault, *light.series, "#000000"}
     assert palette("dark").paper in dark
-
-
-@pytest.mark.parametrize("kind", KINDS)
-def test_a_picture_for_print_is_grey(kind: str) -> None:
-    figure = picture(load("planetary"), kind, load("planetary").states[0])  # type: ignore[arg-type]
     for found in _COLOUR.findall(render(figure, ".svg", theme="print")):
         red, green, blue = (int(found[at : at + 2], 16) for at in (1, 3, 5))
         assert max(red, green, blue) - min(red, green, blue) <= 2, found

@@ -17,6 +17,7 @@ pytest.importorskip("matplotlib")
 
 from matplotlib.collections import QuadMesh
 from matplotlib.figure import Figure
+from seen_figure import alike
 
 from geartrain import load
 from geartrain.errors import QuestionError
@@ -65,6 +66,21 @@ def test_the_bands_that_are_drawn_are_those_of_the_trials_that_turn(findings: Mo
         ends = np.quantile(ERRORS, low, axis=0).min(), np.quantile(ERRORS, high, axis=0).max()
         assert (np.min(y), np.max(y)) == pytest.approx(ends)
     assert [axes.get_ylabel().split("\n")[0] for axes in figure.axes] == ["moon", "sun"]
+
+
+def test_each_pointer_is_drawn_over_its_own_turn_and_the_key_is_as_dark_as_its_bands(
+    findings: MonteCarloResult,
+) -> None:
+    turns = {"moon": np.linspace(0, 0.1, 30), "sun": np.linspace(0, 4, 30)}
+    courses = [PointerErrorCourse(name, each, RNG.normal(size=(20, 30))) for name, each in turns.items()]
+    figure = replace(findings, courses=courses).plot("course")
+    assert [axes.get_xlim()[1] for axes in figure.axes] == [0.1, 4.0]
+    assert not alike(figure)
+    assert not alike(figure, "light")
+    through = 1.0
+    for band, key in zip(figure.axes[0].collections, figure.legends[0].get_patches(), strict=True):
+        through *= 1 - band.get_alpha()
+        assert key.get_alpha() == pytest.approx(1 - through)
 
 
 def sure(value: float) -> IntervalEstimate:

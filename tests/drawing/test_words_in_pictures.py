@@ -29,15 +29,7 @@ from geartrain.drawing import picture, render
 
 MINIMUM = 8.0  # points
 WIDEST = 34.0  # inches: 3,400 pixels as the command draws them
-FEW = [
-    "planetary",
-    "bevel-differential",
-    "longcase-clock",
-    "rv-reducer",
-    "strain-wave",
-    "worm",
-    "zf-8hp70",
-]
+FEW = ["planetary", "bevel-differential", "longcase-clock", "rv-reducer", "strain-wave", "worm", "zf-8hp70"]
 ALL = sorted(path.stem for path in train_files())
 
 
@@ -94,11 +86,23 @@ def struck(words: Text, marks: Iterable[Bbox]) -> list[Bbox]:
     return [mark for mark in marks if box.x0 < mark.x1 and mark.x0 < box.x1 and box.y0 < mark.y1 and mark.y0 < box.y1]
 
 
-def test_words_keep_off_the_marks_of_teeth() -> None:
-    (axes,) = picture(load("longcase-clock"), "stick", None, Fraction(0)).axes
-    marks = [line.get_window_extent() for line in axes.lines if line.get_gid() == "teeth"]
-    assert len(marks) == 2 * 5 + 1  # the escape wheel meets no other
-    assert not [words.get_text() for words in axes.texts if struck(words, marks)]
+@pytest.mark.parametrize(
+    ("name", "kind", "part", "count"),
+    [
+        ("longcase-clock", "stick", "teeth", 2 * 5 + 1),  # the escape wheel meets no other
+        # of the moving links, `b`, mars, jupiter and saturn turn in the frame, and carriers carry 6 others
+        ("carman-thorndike-evans-2012", "stick", "bearing", 2 * (4 + 6)),
+        ("rv-reducer", "plan", "pin ", 0),
+        ("cycloidal-reducer", "plan", "pin ", 0),
+        ("freeth-2008", "plan", "pin ", 0),
+    ],
+)
+def test_words_keep_off_teeth_bearings_and_pins(name: str, kind: str, part: str, count: int) -> None:
+    (axes,) = picture(load(name), kind, None, Fraction(0)).axes  # type: ignore[arg-type]
+    marks = [each.get_window_extent() for each in axes.get_children() if str(each.get_gid()).startswith(part)]
+    assert len(marks) == count or (marks and not count)
+    words = [each for each in axes.texts if kind == "stick" or str(each.get_gid()).startswith("name ")]
+    assert not [each.get_text() for each in words if struck(each, marks)]
 
 
 @pytest.mark.parametrize("name", ["four-gear-loop", "longcase-clock", "rv-reducer", "zf-8hp70"])
@@ -195,23 +199,6 @@ def test_words_along_a_wheel_leave_its_line_whole(name: str) -> None:
             if words.get_rotation() == 90 and box.y0 < line.y1 and line.y0 < box.y1
         ]
         assert min(beside, default=dots) > 0.5 * dots, words.get_text()
-
-
-def test_names_of_links_keep_off_bearings() -> None:
-    """Of the moving links, `b`, mars, jupiter and saturn turn in the frame, and carriers carry the others."""
-    (axes,) = picture(load("carman-thorndike-evans-2012"), "stick", None, Fraction(0)).axes
-    bearings = [line.get_window_extent() for line in axes.lines if line.get_gid() == "bearing"]
-    assert len(bearings) == 2 * (4 + sum((line.get_gid() or "").startswith("crank ") for line in axes.lines))
-    assert not [words.get_text() for words in axes.texts if struck(words, bearings)]
-
-
-@pytest.mark.parametrize("name", ["rv-reducer", "cycloidal-reducer", "freeth-2008"])
-def test_names_of_wheels_keep_off_pins(name: str) -> None:
-    (axes,) = picture(load(name), "plan", None, Fraction(0)).axes
-    pins = [part.get_window_extent() for part in axes.get_children() if str(part.get_gid()).startswith("pin ")]
-    assert pins
-    names = [words for words in axes.texts if str(words.get_gid()).startswith("name ")]
-    assert not [words.get_text() for words in names if struck(words, pins)]
 
 
 def test_panels_of_a_speed_diagram_fill_the_page() -> None:

@@ -328,10 +328,8 @@ def test_supports_of_rings_are_as_wide_as_their_rims(name: str) -> None:
 
 def test_plates_of_a_clock_are_rectangles_and_other_plates_are_not() -> None:
     def fill(name: str) -> float:
-        edge = np.array(of_kind(shipped.built(name), "frame")[0].outlines[0]).reshape(-1, 2)
-        x, y = edge.T
-        area = abs(float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)))) / 2
-        return area / float(np.prod(np.ptp(edge, axis=0)))
+        edge = of_kind(shipped.built(name), "frame")[0].outlines[0]
+        return area(edge) / float(np.prod(np.ptp(np.reshape(edge, (-1, 2)), axis=0)))
 
     assert fill("longcase-clock") > 0.98
     assert fill("four-gear-loop") < 0.9

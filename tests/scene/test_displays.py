@@ -32,11 +32,8 @@ def test_the_track_of_two_road_wheels_is_their_diameter_and_they_roll_below_all_
 @pytest.mark.parametrize(
     ("name", "kind"),
     [
-        ("planetary", "hand"),
-        ("longcase-clock", "weight"),
-        ("lathe-back-gear", "motor"),
-        ("mesh-sidebands", "motor"),
-        (SPRING % "", "spring"),
+        *(("planetary", "hand"), ("longcase-clock", "weight"), ("lathe-back-gear", "motor")),
+        *(("mesh-sidebands", "motor"), (SPRING % "", "spring")),
     ],
 )
 def test_a_train_is_driven_by_what_it_declares(name: str, kind: str) -> None:

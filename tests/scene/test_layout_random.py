@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from test_layout import touching
 
 from geartrain import GearTrain
 from geartrain.scene import lay_out
@@ -132,14 +133,10 @@ def test_bevel_and_crown_pairs_roll_at_any_shaft_angle(
     speeds = train.solve().speeds
     a, b = layout.wheels["i"], layout.wheels["j"]
     u, v = (np.array(layout.axes[label].direction) for label in "AB")
-    e, f = (np.cross(np.cross(n, m), n) / np.linalg.norm(np.cross(n, m)) for n, m in ((u, v), (v, u)))
-    ends = [
-        (np.array(a.centre) + s * a.radius * e, np.array(b.centre) + t * b.radius * f) for s in (1, -1) for t in (1, -1)
-    ]
-    p, q = min(ends, key=lambda each: float(np.linalg.norm(each[0] - each[1])))
-    assert np.linalg.norm(p - q) < 1e-9 * (a.radius + b.radius)
-    rolled = float(speeds["a"]) * np.cross(u, p - np.array(a.centre))
-    assert rolled == pytest.approx(float(speeds["b"]) * np.cross(v, q - np.array(b.centre)), abs=1e-9 * a.radius)
+    point, miss, _ = touching(layout, a, b)
+    assert miss < 1e-9 * (a.radius + b.radius)
+    rolled = float(speeds["a"]) * np.cross(u, point - np.array(a.centre))
+    assert rolled == pytest.approx(float(speeds["b"]) * np.cross(v, point - np.array(b.centre)), abs=1e-9 * a.radius)
     assert a.cone + b.cone == pytest.approx(math.acos(max(-1.0, min(1.0, float(side * other * (u @ v))))), abs=1e-9)
 
 

@@ -11,7 +11,7 @@ from types import ModuleType
 import numpy as np
 import pytest
 
-from geartrain.scene.palette import THEMES, series_colour, series_dash
+from geartrain.scene import THEMES, series_colour, series_dash
 
 ROOT = Path(__file__).resolve().parents[2]
 Vector = np.ndarray[tuple[int, ...], np.dtype[np.float64]]

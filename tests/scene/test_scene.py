@@ -22,23 +22,13 @@ from sampling import few_or_many
 from strategies import driven_trains, requested_trains, rerooted
 
 from geartrain import GearTrain, load
-from geartrain.scene import Scene, make_scene
-from geartrain.scene.dial_scale import engrave
-from geartrain.scene.pose import scene_pose
+from geartrain.scene import Scene, engrave, make_scene, scene_pose
 
 SAMPLE = few_or_many(20, 40)  # `--slow` draws new trains, and twice as many
 SHIPPED = [
-    ("freeth-2021", None),
-    ("freeth-2021-teeth", None),
-    ("gm-4t60", "R"),
-    ("bevel-differential", "turn"),
-    ("south-pointing-chariot", None),
-    ("ferguson-paradox", None),
-    ("lantern-mill", None),
-    ("worm", None),
-    ("prius-power-split", "electric"),
-    ("longcase-clock-cycloidal", None),
-    ("vitruvius-hodometer", None),
+    *(("gm-4t60", "R"), ("bevel-differential", "turn"), ("prius-power-split", "electric"), ("freeth-2021", None)),
+    *(("freeth-2021-teeth", None), ("south-pointing-chariot", None), ("ferguson-paradox", None), ("worm", None)),
+    *(("lantern-mill", None), ("longcase-clock-cycloidal", None), ("vitruvius-hodometer", None)),
 ]
 
 

@@ -18,43 +18,42 @@ from hypothesis import strategies as st
 
 import geartrain
 from geartrain import GearTrain
-from geartrain.scene import lay_out, make_scene
-from geartrain.scene.dial_scale import engrave
+from geartrain.scene import engrave, lay_out, make_scene
 from geartrain.scene.stroke_letters import curved_text, letter_strokes
-from geartrain.train.outputs import Dial
 
-BASE = GearTrain.declare(
-    {
-        "links": {"frame": {}, "a": {}},
-        "revolutes": {"A": ["frame", "a"]},
-        "inputs": {"a": 1},
-        "dials": {"d": {}},
-        "outputs": {"a": {"dial": "d"}},
-    }
-)
+BASE = {
+    "links": {"frame": {}, "a": {}},
+    "revolutes": {"A": ["frame", "a"]},
+    "inputs": {"a": 1},
+    "outputs": {"a": {"dial": "d"}},
+}
 
 
-def shown(dial: Dial) -> Any:
-    """Return the scale of a dial in the scene of a train."""
-    (found,) = make_scene(GearTrain(BASE.declaration.model_copy(update={"dials": {"d": dial}}))).dials
+def shown(train: GearTrain) -> Any:
+    """Return the scale of the only dial in the scene of a train."""
+    (found,) = make_scene(train).dials
     return found.scale
 
 
 def scale_of(**dial: Any) -> Any:
-    return shown(Dial(**dial))
+    return shown(GearTrain.declare({**BASE, "dials": {"d": dial}}))
 
 
 METONIC = scale_of(turns=5, divisions=235, cell="month")
 SAROS = scale_of(turns=4, divisions=223, cell="month")
 ZODIAC = scale_of(names="zodiac")
+HOURS = scale_of(divisions=12, numerals="roman", cell="hour")
+MINUTES = scale_of(divisions=60, numerals="arabic", cell="minute")
+DOUBLE = scale_of(divisions=24, numerals={"style": "roman", "to": 12}, cell="hour")
 
 
 def scales() -> Iterator[tuple[str, Any]]:
     """Yield the scales of all shipped trains, with the train names."""
+    plain = GearTrain.declare({**BASE, "dials": {"d": {}}}).declaration
     for name in shipped.trains():
         for key, dial in shipped.train(name).declaration.dials.items():
             if dial.look == "scale":
-                yield f"{name} {key}", shown(dial)
+                yield f"{name} {key}", shown(GearTrain(plain.model_copy(update={"dials": {"d": dial}})))
 
 
 @given(st.integers(1, 7), st.integers(1, 400), st.data())
@@ -94,30 +93,19 @@ def test_the_sun_passes_the_first_sign_in_a_twelfth_of_a_year() -> None:
 
 
 def test_numerals_end_at_the_zero_mark() -> None:
-    hours = scale_of(divisions=12, numerals="roman")
-    assert " ".join(text for text, _ in hours.numerals) == "I II III IV V VI VII VIII IX X XI XII"
-    assert {line: text for text, line in hours.numerals}[0] == "XII"
-    double = scale_of(divisions=24, numerals={"style": "roman", "to": 12})
-    assert [text for text, _ in double.numerals] == [text for text, _ in hours.numerals] * 2
-    minutes = scale_of(divisions=60, numerals="arabic")
-    assert [int(text) for text, _ in minutes.numerals] == list(range(5, 61, 5))
-    assert all(int(text) % 60 == line for text, line in minutes.numerals)
+    assert " ".join(text for text, _ in HOURS.numerals) == "I II III IV V VI VII VIII IX X XI XII"
+    assert {line: text for text, line in HOURS.numerals}[0] == "XII"
+    assert [text for text, _ in DOUBLE.numerals] == [text for text, _ in HOURS.numerals] * 2
+    assert [int(text) for text, _ in MINUTES.numerals] == list(range(5, 61, 5))
+    assert all(int(text) % 60 == line for text, line in MINUTES.numerals)
 
 
 def test_clocks_tell_the_line_that_is_past() -> None:
-    hours = scale_of(divisions=12, numerals="roman", cell="hour")
-    minutes = scale_of(divisions=60, numerals="arabic", cell="minute")
-    double = scale_of(divisions=24, numerals={"style": "roman", "to": 12}, cell="hour")
-    quarter_past_twelve, half_past_four = Fraction(49, 4), Fraction(9, 2)
-    assert [hours.reading_text(each / 12) for each in (quarter_past_twelve, half_past_four)] == ["hour 12", "hour 4"]
-    assert [minutes.reading_text(each) for each in (quarter_past_twelve, half_past_four, Fraction(0))] == [
-        "minute 15",
-        "minute 30",
-        "minute 0",
-    ]
-    assert [double.reading_text(Fraction(each, 24)) for each in (0, 11, 12, 13, 23)] == [
-        f"hour {hour}" for hour in (12, 11, 12, 1, 11)
-    ]
+    times = Fraction(49, 4), Fraction(9, 2), Fraction(0)  # quarter past twelve, half past four, twelve
+    assert [HOURS.reading_text(each / 12) for each in times] == ["hour 12", "hour 4", "hour 12"]
+    assert [MINUTES.reading_text(each) for each in times] == ["minute 15", "minute 30", "minute 0"]
+    found = [DOUBLE.reading_text(Fraction(each, 24)) for each in (0, 11, 12, 13, 23)]
+    assert found == [f"hour {hour}" for hour in (12, 11, 12, 1, 11)]
 
 
 def borders(parts: list[Any], radius: float) -> list[float]:
@@ -307,20 +295,10 @@ def test_a_dial_without_a_place_is_computed() -> None:
 
 
 LEAP = (1, 3, 6, 8, 11, 14, 17)  # assumed in the declaration
-MONTHS = [
-    "Phoinikaios",
-    "Kraneios",
-    "Lanotropios",
-    "Machaneus",
-    "Dodekateus",
-    "Eukleios",
-    "Artemisios",
-    "Psydreus",
-    "Gameilios",
-    "Agrianios",
-    "Panamos",
-    "Apellaios",
-]
+MONTHS = (
+    *("Phoinikaios", "Kraneios", "Lanotropios", "Machaneus", "Dodekateus", "Eukleios"),
+    *("Artemisios", "Psydreus", "Gameilios", "Agrianios", "Panamos", "Apellaios"),
+)
 
 
 def scale_of_shipped(dial: str) -> Any:

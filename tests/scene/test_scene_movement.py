@@ -1,4 +1,4 @@
-"""Motion in a scene: data of a page, poses of slides and sliders, belts and elliptical wheels."""
+"""Motion in a scene: data of a page, poses of slides and sliders, belts, elliptical wheels, and phases of teeth."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from itertools import chain
-from math import cos, dist, floor, pi, sin, sqrt
+from math import atan2, cos, dist, floor, pi, sin, sqrt
 from pathlib import Path
 from typing import Any
 
@@ -18,13 +18,12 @@ import numpy as np
 import pytest
 import shipped
 from commands import call
+from sampling import all_but
 
 import geartrain
 from geartrain import GearTrain
-from geartrain.drawing.projection import part_points
-from geartrain.scene import Scene, make_scene
-from geartrain.scene.coupling_shapes import belt_outlines
-from geartrain.scene.pose import body_errors, scene_pose
+from geartrain.scene import Scene, make_scene, scene_pose
+from geartrain.scene.pose import body_errors
 
 TURNS = np.array([0.0, 1 / 3, 17.25, 1234.5678, 98765.4321, 1e6])
 AGREE = 1e-9  # rad
@@ -165,12 +164,8 @@ def test_everything_stands_as_before_after_the_period() -> None:
 def test_a_loop_of_real_teeth_moves_in_the_mean_and_says_why() -> None:
     loop = """
 links: {frame: {}, a: {wheels: {wa: 20}}, b: {wheels: {wb: 30}}, c: {wheels: {wc: 40}}, d: {wheels: {wd: 50}}}
-revolutes:
-  - {pair: [frame, a], axis: A}
-  - {pair: [frame, b], axis: B}
-  - {pair: [frame, c], axis: C}
-  - {pair: [frame, d], axis: D}
-gears: [{pair: [wa, wb]}, {pair: [wb, wc]}, {pair: [wc, wd]}, {pair: [wd, wa]}]
+revolutes: {A: [frame, a], B: [frame, b], C: [frame, c], D: [frame, d]}
+gears: [wa ~ wb, wb ~ wc, wc ~ wd, wd ~ wa]
 tooth_form: {form: triangular, half_angle: 30 deg, clearance_factor: 1.01}
 inputs: {a: 1}
 """
@@ -273,11 +268,20 @@ def test_a_slide_is_translated_in_the_animation_of_a_file(tmp_path: Path) -> Non
     assert keys[-1] - keys[0] == pytest.approx([0, 0, -10], abs=1e-4)
 
 
-@pytest.mark.parametrize(("sense", "length"), [(1, 597.13104546), (-1, 616.04460768)])
-def test_the_parts_of_a_belt_have_the_length_of_an_open_or_a_crossed_belt(sense: int, length: float) -> None:
-    arcs_and_bars = list(belt_outlines([(0, 0), (200, 0)], [25, 37.5], [1, sense], 2.0))
+@pytest.mark.parametrize(("crossed", "length"), [("", 597.13104546), ("b", 616.04460768)])
+def test_the_parts_of_a_belt_have_the_length_of_an_open_or_a_crossed_belt(crossed: str, length: float) -> None:
+    scene = make_scene(
+        geartrain.load(f"""
+links: {{frame: {{}}, a: {{}}, b: {{}}}}
+axes: {{A: {{position: [0, 0, 0]}}, B: {{position: [200 mm, 0, 0]}}}}
+revolutes: {{A: [frame, a], B: [frame, b]}}
+couplings: [{{kind: belt, around: {{a: 50 mm, b: 75 mm}}, reversed: [{crossed}]}}]
+inputs: {{a: 1}}
+""")
+    )
     total = 0.0
-    for outline in arcs_and_bars:
+    for part in (part for part in scene.shapes if part.kind == "belt"):
+        outline = np.reshape(part.outlines[0], (-1, 2))
         half = len(outline) // 2
         if len(outline) == 4:
             start, end = (np.mean(outline[at : at + 2], axis=0) for at in (0, 2))
@@ -298,9 +302,66 @@ def test_elliptical_wheels_touch_on_the_line_of_centres(turns: Fraction) -> None
     between = centres[1] - centres[0]
     reach = 0.0
     for part, centre, way in zip(coupling, centres, (between, -between), strict=True):
-        points = pose.point(part.body, part_points(part))[:, :2] - centre
+        flat = np.reshape(part.outlines[0], (-1, 2))
+        plane = np.array([part.across, np.cross(part.direction, part.across)])
+        points = pose.point(part.body, np.array(part.place) + flat @ plane)[:, :2] - centre
         angle = np.arctan2(points[:, 1], points[:, 0]) - np.arctan2(way[1], way[0])
         order = np.argsort((angle + np.pi) % (2 * np.pi))
         angle = ((angle + np.pi) % (2 * np.pi) - np.pi)[order]
         reach += float(np.interp(0, angle, np.hypot(*points[order].T), period=2 * np.pi))
     assert reach == pytest.approx(float(np.hypot(*between)), rel=2e-4)
+
+
+# two pairs in series; a third whose first wheel is driven; a pin; a pair driven by the pin
+CHAIN = """
+links:
+  frame: {{}}
+  a: {{wheels: {{p: 20}}}}
+  b: {{wheels: {{q: 31, s: 15}}}}
+  c: {{wheels: {{r: 40, u: 18}}}}
+  d: {{wheels: {{v: 25}}}}
+  e: {{wheels: {{x: 22}}}}
+  f: {{wheels: {{y: 30}}}}
+revolutes: {{A: [frame, a], B: [frame, b], C: [frame, c], D: [frame, d], E: [frame, e], F: [frame, f]}}
+gears:
+  - {{pair: [p, q], phase: {0}}}
+  - {{pair: [s, r], phase: {1}}}
+  - {{pair: [v, u], phase: {2}}}
+  - {{pair: [x, y], phase: {3}}}
+couplings: [{{id: pin, kind: pin_and_slot, pin: d, slot: e, pin_radius: 9 mm, offset: 3 mm}}]
+tooth_form: {{{form}}}
+inputs: {{a: {speed}}}
+outputs: {{b: , c: , d: , e: , f: }}
+"""
+FORMS = {
+    "triangular": "form: triangular, half_angle: 30 deg, window: 0.5",
+    "involute": "form: involute, backlash: 0.1",
+    "circular arcs": "form: circular_arc",
+}
+
+
+def past_the_line(scene: Scene, angles: list[float], pair: Any) -> float:
+    """Return how far a tooth of the first wheel is past the line of centres in its sense [pitches]."""
+    wheel, mate = (scene.wheels[at] for at in pair.wheels)
+    body = scene.bodies[wheel.body]
+    x, y = (mate.centre[at] - wheel.centre[at] for at in (0, 1))
+    reference = atan2(wheel.reference[1], wheel.reference[0])
+    ahead = wheel.direction[2]
+    tooth = reference + ahead * (wheel.turn + angles[wheel.body])
+    way = [-1 if text.startswith("-") else 1 for text in (body.speed or "", scene.step)]
+    forward = ahead * body.sense * way[0] * way[1]
+    return forward * (tooth - atan2(y, x)) / (2 * pi / wheel.teeth) % 1
+
+
+@pytest.mark.parametrize("speed", ["1", "-2/3"])
+@pytest.mark.parametrize("form", all_but({"circular arcs"}, FORMS))
+@pytest.mark.parametrize("phases", [(0, 0, 0, 0), (0.3, 0.8, 0.1, 0.45)])
+def test_a_tooth_of_every_first_wheel_is_drawn_at_its_phase(phases: tuple[float, ...], form: str, speed: str) -> None:
+    scene = make_scene(geartrain.load(CHAIN.format(*phases, form=FORMS[form], speed=speed)))
+    angles = Reader(scene).angles(0.0)
+    assert len(scene.pairs) == 4
+    for pair, phase in zip(scene.pairs, phases, strict=True):
+        off = past_the_line(scene, angles, pair) - phase
+        assert (off + 0.5) % 1 - 0.5 == pytest.approx(0, abs=1e-8), pair.id
+    # pointers are at the positions for ideal teeth
+    assert max(abs(each) for each in Reader(scene).errors(Fraction(0))) < 1e-8

@@ -40,12 +40,3 @@ def test_windows_leave_rim_hub_and_arms(root: float, module: float, bore: float,
 @pytest.mark.parametrize(("root", "arms"), [(30, 0), (30, 2), (5, 4), (6, 4), (30, 90)])
 def test_wheels_without_room_stay_whole(root: float, arms: int) -> None:
     assert spoke_windows(root, 1, 2, arms) == ()
-
-
-def test_a_tool_makes_corners_rounder(monkeypatch: pytest.MonkeyPatch) -> None:
-    fine = Polygon(spoke_windows(30, 1, 3, 5)[0].flattened(1e-5))
-    monkeypatch.setattr("geartrain.scene.solids.wheel_blanks._CORNER", 2.0)
-    coarse = Polygon(spoke_windows(30, 1, 3, 5)[0].flattened(1e-5))
-    assert coarse.area < fine.area
-    opened = fine.buffer(-2.0, quad_segs=64).buffer(2.0, quad_segs=64)
-    assert opened.symmetric_difference(coarse).area < 5e-3

@@ -1,5 +1,4 @@
-"""Positions of axes and wheels. They are declared, or chosen so that meshing wheels touch and other wheels do not
-collide.
+"""Positions of axes and wheels, as declared, or such that meshing wheels touch and other wheels do not collide.
 
 `lay_out` in `train_layout` runs the steps below in this order. The right column is the result of each step.
 

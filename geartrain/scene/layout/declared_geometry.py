@@ -138,39 +138,32 @@ class PitchContact:
 
     @property
     def axis_pair(self) -> tuple[str, str]:
-        """Axes of the pair in alphabetical order, so that all pairs between the same two axes have the same value."""
+        """Axes of the pair in alphabetical order, as a key of the pair of axes."""
         return min(self.axes), max(self.axes)
 
 
 @dataclass(frozen=True, slots=True)
 class CouplingTie:
-    """Coupling between two axes: driver, driven link, their axes, and the declared distance between the axes [mm], if
-    any.
-    """
+    """Coupling between two axes."""
 
     links: tuple[str, str]
+    """Driver and driven link."""
     axes: tuple[str, str]
     offset: Fraction | None
+    """Declared distance between the axes [mm]; None if no distance is declared."""
     encloses: bool
     """True if the circle of a pin encloses the axis of its slot, so that the two axes are close together."""
     wish: float | None = None
-    """Preferred distance between the axes [mm], which is used if nothing determines the distance; None if there is no
-    preference.
-    """
+    """Preferred distance between the axes [mm] if nothing determines it; None if there is no preference."""
 
     @property
     def axis_pair(self) -> tuple[str, str]:
-        """Axes of both links in alphabetical order, so that all couplings between the same two axes have the same
-        value.
-        """
+        """Axes of both links in alphabetical order, as a key of the pair of axes."""
         return min(self.axes), max(self.axes)
 
 
 class DialEnds(NamedTuple):
-    """Number of hands, one above the other, at the low end and at the high end of an arbor. A number is 0 if the arbor
-    does not extend to a dial at that end. It is 1 if the arbor does, and 2 if its hand passes over the hand of a
-    smaller dial inside its dial.
-    """
+    """Number of hands at each end of an arbor: 0 without a dial, 2 if its hand passes over that of a smaller dial."""
 
     low: int = 0
     high: int = 0
@@ -189,24 +182,19 @@ class DeclaredGeometry:
     thickness: Mapping[str, float]
     """Declared thickness of a wheel [mm], by name; wheels without a declared thickness are omitted."""
     strays: tuple[tuple[str, str, str], ...]
-    """Wheels that a gear pair requires on a different axis than earlier gear pairs do. Each entry is a wheel, a gear
-    pair and an axis.
-    """
+    """Wheels that a gear pair requires on another axis than earlier pairs do: wheel, gear pair and axis of each."""
     front: int
     """Side from which the train is viewed: 1 for the side of positive z, -1 for the side of negative z."""
     dial_ends: Mapping[str, DialEnds]
     """Ends of each arbor that extend to a dial, by link."""
     driven: str | None
-    """Axis of the first input. It is at the origin if no position is declared for it. None if the train has no input.
-    """
+    """Axis of the first input, which is at the origin by default; None if the train has no input."""
     discs: Mapping[str, float]
     """Radial extent of the discs of lantern pinions beyond the pitch circle [modules], by wheel."""
     belts: tuple[Mapping[str, float], ...] = ()
     """Radii of the pulleys [mm], by axis, of each belt with declared diameters."""
     centres: tuple[tuple[str, str, Vector], ...] = ()
-    """Dials with a declared centre. Each entry is the name of the dial, the axis of its pointers, and its centre at
-    height 0 [mm].
-    """
+    """Dials with a declared centre: name, axis of the pointers, and centre at height 0 [mm] of each."""
 
     def link(self, wheel: str) -> str:
         """Return the link that carries a wheel."""
@@ -238,6 +226,13 @@ def read_geometry(train: GearTrain) -> DeclaredGeometry:
     # a positive rotation about z is clockwise only for a viewer on the side of -z
     front = -1 if declared.view.positive == "clockwise" else 1
     lines = {line.label: line for line in _lines(declared, tree)}
+    carriers = {circuit.id: circuit.carrier for circuit in train.circuits if circuit.kind == "belt"}
+    belts = []
+    for belt in declared.couplings if carriers else ():
+        if belt.kind == "belt" and any(True for _ in belt.lengths):
+            pulleys = (tree.axis_seen_from(carriers[belt.row_names[0]], link) for link in belt.ends)
+            radii = (float(millimetres(size)) / 2 for size in belt.lengths)
+            belts.append(dict(zip(pulleys, radii, strict=True)))
     centres = tuple(dict.fromkeys(_dial_centres(declared, tree, front)))
     for label, centre in {dial: (label, centre) for dial, label, centre in reversed(centres)}.values():
         line = lines[label]
@@ -275,24 +270,19 @@ def read_geometry(train: GearTrain) -> DeclaredGeometry:
         _dial_ends(declared, tree, lines, front),
         next((tree.axis(link) for case in declared.cases for link in case.inputs), None),
         dict(_lantern_discs(declared)),
-        tuple(_belts(train)),
+        tuple(belts),
         centres,
     )
-
-
-def _belts(train: GearTrain) -> Iterator[Mapping[str, float]]:
-    """Yield the radii of the pulleys [mm], by axis, of each belt with declared diameters."""
-    carriers = {circuit.id: circuit.carrier for circuit in train.circuits if circuit.kind == "belt"}
-    for belt in train.declaration.couplings if carriers else ():
-        if belt.kind == "belt" and any(True for _ in belt.lengths):
-            axes = (train.kinematics.tree.axis_seen_from(carriers[belt.row_names[0]], link) for link in belt.ends)
-            yield {axis: float(millimetres(size)) / 2 for axis, size in zip(axes, belt.lengths, strict=True)}
 
 
 def _lines(declared: Train, tree: Tree) -> Iterator[AxisLine]:
     axes = Axes(declared, tree)
     groups: dict[tuple[Fraction, ...], int] = {}
-    for name, link in _first_links(declared, tree).items():
+    first: dict[str, str] = {}  # axis -> the first link that is declared on it
+    for link in declared.links:
+        if (own := tree.axis(link)) is not None:
+            first.setdefault(own, link)
+    for name, link in first.items():
         direction = axes.direction(name)
         # parallel vectors are equal if scaled to a first nonzero coordinate of 1: exact, without a tolerance
         scale = next(part for part in direction if part)
@@ -307,16 +297,6 @@ def _lines(declared: Train, tree: Tree) -> Iterator[AxisLine]:
         yield AxisLine(name, unit((x, y, z)), group, tuple(bearers), pivots, given)
 
 
-def _first_links(declared: Train, tree: Tree) -> dict[str, str]:
-    """Return, for each axis, the first link that is declared on it."""
-    found: dict[str, str] = {}
-    for link in declared.links:
-        name = tree.axis(link)
-        if name is not None:
-            found.setdefault(name, link)
-    return found
-
-
 def _thickness(declared: Train) -> Iterator[tuple[str, float]]:
     for name, (_, wheel) in declared.wheels.items():
         if (found := wheel_thickness(declared, wheel)) is not None:
@@ -324,9 +304,7 @@ def _thickness(declared: Train) -> Iterator[tuple[str, float]]:
 
 
 def _lantern_discs(declared: Train) -> Iterator[tuple[str, float]]:
-    """Yield each lantern pinion with the radial extent of its discs beyond the pitch circle, 1.5 pin diameters
-    [modules].
-    """
+    """Yield each lantern pinion with the extent of its discs beyond the pitch circle, 1.5 pin diameters [modules]."""
     for gear in declared.gears:
         form = declared.form_of(gear)
         if form is not None and form.form == "lantern":
@@ -337,9 +315,7 @@ def _lantern_discs(declared: Train) -> Iterator[tuple[str, float]]:
 
 
 def _stretches(train: GearTrain) -> dict[str, Fraction]:
-    """Return the declared centre distance of each pair divided by the distance at which its pitch circles touch. Pairs
-    for which the quotient is 1 are omitted.
-    """
+    """Return declared centre distances over those at which pitch circles touch, by pair, if this quotient is not 1."""
     try:
         sizes = find_sizes(train.meshes)
     except GearTrainError:
@@ -348,9 +324,7 @@ def _stretches(train: GearTrain) -> dict[str, Fraction]:
 
 
 def _dial_centres(declared: Train, tree: Tree, front: int) -> Iterator[tuple[str, str, Vector]]:
-    """Yield the dials of the frame that have a declared centre: name of the dial, axis of its pointers, and its centre
-    at height 0 [mm].
-    """
+    """Yield each dial in the frame whose centre is declared: its name, the axis of its pointer, and its centre [mm]."""
     for case in declared.cases:
         for name, output in case.outputs.items():
             dial = declared.dials.get(output.dial or "")
@@ -399,24 +373,17 @@ def _contact(
         return PitchContact(circuit.id, circuit.wheels, ends, "ring" if ring else "side", stretch)
     screw = "worm" in kinds or any(wheel.is_helical for wheel in declared)
     kind: ContactKind = "screw" if screw else "crown" if sorted(kinds) == ["contrate", "spur"] else "bevel"
-    sense = _worm_sense(train, circuit, ends) if kind == "screw" else 0
+    sense = 0
+    if screw:
+        # a (w_i - w_k) + b (w_j - w_k) = 0: with equal signs of a and b the relative speeds are opposite; velocities
+        # do not give the sense, because those of worm and wheel are not parallel at the pitch point
+        sense = -1 if circuit.a * circuit.b > 0 else 1
+        for link, axis in zip((circuit.i, circuit.j), ends, strict=True):
+            sense *= train.kinematics.signs.get(link, 1) if train.kinematics.tree.axis(link) == axis else 1
     wheels = circuit.wheels
     if {"worm", "contrate"} & set(kinds) and kinds[0] not in ("worm", "contrate"):
         wheels, ends = wheels[::-1], ends[::-1]
     return PitchContact(circuit.id, wheels, ends, kind, stretch, sense)
-
-
-def _worm_sense(train: GearTrain, circuit: Circuit, ends: tuple[str, str]) -> int:
-    """Return `worm_sense` (1 or -1) of a worm gear pair, derived from the signs of the pair's equation.
-
-    It cannot be derived from circumferential velocities: the velocities of worm and wheel are not parallel at the pitch
-    point.
-    """
-    flip = 1
-    for link, axis in zip((circuit.i, circuit.j), ends, strict=True):
-        flip *= train.kinematics.signs.get(link, 1) if train.kinematics.tree.axis(link) == axis else 1
-    # a (w_i - w_k) + b (w_j - w_k) = 0: with equal signs of a and b the relative speeds are opposite
-    return (-1 if circuit.a * circuit.b > 0 else 1) * flip
 
 
 _APART = 40.0  # distance of the axes of a coupling [mm] if no size is declared
@@ -424,9 +391,7 @@ _BELT = 1.25  # distance of pulleys divided by the largest diameter
 
 
 def _preferred_distance(coupling: Coupling) -> float | None:
-    """Return the preferred distance between the axes of a coupling [mm] if no positions are declared; None if there is
-    no preference.
-    """
+    """Return the preferred distance between the axes of a coupling [mm]; None if there is no preference."""
     around = getattr(coupling, "around", None)
     if isinstance(around, Mapping):
         return _BELT * float(max(millimetres(diameter) for diameter in around.values()))

@@ -69,8 +69,7 @@ def build_wheel_stack(
     swept: SweptDistances,
     known: Mapping[str, float],
 ) -> WheelStack:
-    """Return the stack of a group of parallel axes: all wheels on these axes, and the wheels on crossing axes that mesh
-    with them.
+    """Return the stack of all wheels on a group of parallel axes, and of the crossing wheels that they mesh with.
 
     known   heights [mm] of wheels that are determined by parts that are already placed
     """
@@ -119,9 +118,7 @@ class _BlockBuilder:
     """Builder of the wheel blocks of one group of parallel axes.
 
     crossing   pairs with one wheel on an axis of the group, as seen from this wheel
-    met        crossing axis -> point in the plan from which its height is measured: its declared point, or the point of
-    its
-               first pair
+    met        crossing axis -> point in the plan from which its height is measured: declared, or of its first pair
     number     indices of stacks, in the order of their first use
     """
 
@@ -138,8 +135,11 @@ class _BlockBuilder:
                 first, second = contact.wheels
                 above = self.sizes[first].slot - self.sizes[second].slot
                 self.heights.join(("wheel", first), ("wheel", second), above)
-        for each in self.crossing:
-            self._hold_to_axis(each)
+        for each in self.crossing:  # the height of a wheel is fixed relative to the crossing axis of its mate
+            side = each.side
+            above = each.seat.far * self._rise(self.declared.lines[side.axis])
+            above += self._height_at(self.declared.lines[side.mate_axis], self.places[side.axis])
+            self.heights.join(("wheel", side.wheel), ("axis", side.mate_axis), above)
         self._join_concurrent()
 
     def blocks(self) -> list[WheelBlock]:
@@ -159,9 +159,7 @@ class _BlockBuilder:
         return [*found, *(self._across(each) for each in self.crossing)]
 
     def given(self, known: Mapping[str, float]) -> dict[int, float]:
-        """Return the heights of stacks [mm] that are determined by placed parts, or by declared points of crossing
-        axes, by stack index.
-        """
+        """Return the heights of stacks [mm] that placed parts or declared points of crossing axes fix, by index."""
         found: dict[int, float] = {}
         for wheel, height in known.items():
             stack, offset = self._stack(("wheel", wheel))
@@ -182,27 +180,15 @@ class _BlockBuilder:
         """Return the component of the direction of an axis along the upward direction of the group."""
         return dot(line.direction, self.parallels.up)
 
-    def _hold_to_axis(self, each: CrossingSide) -> None:
-        """Fix the height of a wheel relative to the crossing axis of its mate."""
-        side = each.side
-        above = each.seat.far * self._rise(self.declared.lines[side.axis])
-        above += self._height_at(self.declared.lines[side.mate_axis], self.places[side.axis])
-        self.heights.join(("wheel", side.wheel), ("axis", side.mate_axis), above)
-
     def _height_at(self, across: AxisLine, place: Point) -> float:
-        """Return the height of a crossing axis at a point in the plan, relative to its height at its reference point
-        [mm].
-        """
+        """Return the height of a crossing axis at a point in the plan, relative to that at its reference point [mm]."""
         u, v = self.parallels.flat(across.direction)
         start = place if across.given is None else self.parallels.flat(across.given)
         x, y = self.met.setdefault(across.label, start)
         return ((place[0] - x) * u + (place[1] - y) * v) / (u * u + v * v) * self._rise(across)
 
     def _join_concurrent(self) -> None:
-        """Fix the relative heights of crossing axes that intersect an axis of the group at one point.
-
-        The wheels on the crossing axes mesh with each other and with wheels on that axis.
-        """
+        """Fix the relative heights of crossing axes that intersect an axis of the group at one point."""
         met: dict[str, list[str]] = {}
         for each in self.crossing:
             met.setdefault(each.side.axis, []).append(each.side.mate_axis)
@@ -216,9 +202,7 @@ class _BlockBuilder:
                     self.heights.join(("axis", one), ("axis", other), 0.0)
 
     def _across(self, each: CrossingSide) -> WheelBlock:
-        """Return the block of a mate on a crossing axis. The block is the strip that the mate occupies in the plan, or
-        the whole area that it sweeps if its axis is on a carrier.
-        """
+        """Return the block of a mate on a crossing axis: its strip in the plan, or the area it sweeps on a carrier."""
         side, far, size = each.side, each.mate_seat.far, self.sizes[each.side.mate]
         axis, across = self.declared.lines[side.axis], self.declared.lines[side.mate_axis]
         stack, offset = self._stack(("axis", side.mate_axis))
@@ -279,15 +263,11 @@ def find_axial_slots(meshes: Sequence[tuple[str, str]], overlap: Callable[[str, 
 
 
 def _find_spans(meshes: Sequence[tuple[str, str]], clashes: Mapping[str, Sequence[str]]) -> Mapping[str, AxialSlots]:
-    """Return the slots of one group of wheels, by wheel; empty if no assignment exists, or if the search limit is
-    reached.
-
-    The method is iterative deepening: the first success of a depth-first search has the minimum number of slots. The
-    search has an explicit stack, because a chain of meshes may exceed Python's recursion limit.
-    """
+    """Return the slots of one group of wheels, by wheel (iterative deepening); empty if none are found in time."""
     tries = 0
-    # one slot is not sufficient, because some wheels clash
+    # one slot is not sufficient, because some wheels clash; the first success has the minimum number of slots
     for count in range(2, len(meshes) + 1):
+        # an explicit stack, because a chain of meshes may exceed Python's recursion limit
         stack: list[tuple[int, Mapping[str, AxialSlots]]] = [(0, {})]
         while stack and tries < _TRIES:
             tries += 1
@@ -296,19 +276,19 @@ def _find_spans(meshes: Sequence[tuple[str, str]], clashes: Mapping[str, Sequenc
                 return spans
             for slot in reversed(range(count)):
                 wider = {**spans, **{wheel: _widened(spans.get(wheel), slot) for wheel in meshes[at]}}
-                if all(_is_clear(wheel, wider, clashes) for wheel in meshes[at]):
+                pairs = [
+                    (wider[wheel], wider[other])
+                    for wheel in meshes[at]
+                    for other in clashes.get(wheel, ())
+                    if other in wider
+                ]
+                if all(own.high < other.low or other.high < own.low for own, other in pairs):
                     stack.append((at + 1, wider))
     return {}
 
 
 def _widened(span: AxialSlots | None, slot: int) -> AxialSlots:
     return AxialSlots(slot, slot) if span is None else AxialSlots(min(span.low, slot), max(span.high, slot))
-
-
-def _is_clear(wheel: str, spans: Mapping[str, AxialSlots], clashes: Mapping[str, Sequence[str]]) -> bool:
-    own = spans[wheel]
-    others = (spans[other] for other in clashes.get(wheel, ()) if other in spans)
-    return all(own.high < other.low or other.high < own.low for other in others)
 
 
 # ------------------------------------------------------------------------------------------------------ parallel groups
@@ -324,8 +304,9 @@ class Arrangement:
     geometry: SizedGeometry
     """Declared geometry, in which wheels whose mates are at different heights have been widened."""
     points: Mapping[str, Vector]
-    """Points on the axes by label [mm]. `centres` contains the centres of the wheels by name [mm]."""
+    """Points on the axes by label [mm]."""
     centres: Mapping[str, Vector]
+    """Centres of the wheels by name [mm]."""
     stacks: Sequence[WheelStack]
     """Stack of the wheels of each group of parallel axes."""
     main: int
@@ -335,9 +316,7 @@ class Arrangement:
 
 
 def arrange(geometry: SizedGeometry) -> Arrangement:
-    """Return the positions of all axes and wheels. The largest group is placed first, then repeatedly the largest group
-    that meshes with a placed group.
-    """
+    """Return the positions of all axes and wheels, placed in groups of parallel axes, one after the other."""
     declared = geometry.declared
     order = _order(geometry)
     placing = _Placing(geometry)
@@ -351,6 +330,7 @@ def arrange(geometry: SizedGeometry) -> Arrangement:
 
 
 def _order(geometry: SizedGeometry) -> list[int]:
+    """Return the groups of parallel axes: the largest, then repeatedly the largest that meshes with earlier groups."""
     lines, axis = geometry.declared.lines, geometry.declared.axis
     count = dict.fromkeys((line.group for line in lines.values()), 0)
     axes = Counter(line.group for line in lines.values())
@@ -385,7 +365,10 @@ class _Placing:
         places = plan_axes(plan_problem(self.geometry, parallels, fixed, self.points))
         swept = swept_distances(parallels.lines, places)
         self._broaden(parallels, swept)
-        known = self._known_heights(parallels, determined)
+        known: dict[str, float] = {}  # heights of the wheels whose axes are determined by placed parts
+        for each, point in determined:
+            direction = self.geometry.declared.lines[each.side.axis].direction
+            known.setdefault(each.side.wheel, dot(plus(point, direction, each.seat.far), parallels.up))
         stack = build_wheel_stack(self.geometry, parallels, places, swept, known)
         self.stacks.append(stack)
         feet = {label: parallels.foot(place) for label, place in places.items()}
@@ -395,9 +378,7 @@ class _Placing:
             self.centres[wheel] = plus(feet[self.geometry.declared.axis[wheel]], parallels.up, height)
 
     def _determined_axes(self, parallels: Parallels) -> Iterator[tuple[CrossingSide, Vector]]:
-        """Yield, for each axis of the group that meshes with a placed axis, the gear pair as seen from this axis and a
-        point on the axis [mm].
-        """
+        """Yield each pair of an axis of the group and a placed axis, with a point on the former axis [mm]."""
         for each in self.geometry.crossing:
             side = each.side
             if side.axis in parallels.index and side.mate_axis in self.points and side.mate in self.centres:
@@ -409,9 +390,7 @@ class _Placing:
                 yield each, point
 
     def _fixed(self, parallels: Parallels, determined: Sequence[tuple[CrossingSide, Vector]]) -> dict[str, Point]:
-        """Return the points in the plan of the axes that cannot move [mm]. If all axes can move, return the points that
-        are chosen for some of them.
-        """
+        """Return points in the plan for the axes that cannot move, or for some axes if all can move, by axis [mm]."""
         fixed = {line.label: parallels.flat(line.given) for line in parallels.lines if line.given is not None}
         for each, point in determined:
             fixed.setdefault(each.side.axis, parallels.flat(point))
@@ -426,12 +405,7 @@ class _Placing:
         return dict.fromkeys(self._collinear(parallels) or driven or labels[:1], (0.0, 0.0))
 
     def _collinear(self, parallels: Parallels) -> list[str]:
-        """Return the parallel axes that must coincide because each of them intersects two crossing axes of different
-        directions.
-
-        The axes of all mates of one crossing wheel also coincide, because the pitch cones of these mates have a common
-        apex.
-        """
+        """Return coincident axes: those that intersect the same crossing axes or mesh with one crossing wheel."""
         met: dict[str, set[int]] = {label: set() for label in parallels.index}
         mates: dict[str, list[str]] = {}
         for each in self.geometry.crossing:
@@ -445,9 +419,7 @@ class _Placing:
         return [label for label in some if any(len(met[label] & met[other]) > 1 for other in some if other != label)]
 
     def _broaden(self, parallels: Parallels, swept: SweptDistances) -> None:
-        """Widen each wheel whose mates would collide at one height, so that its mates can be placed one above the
-        other.
-        """
+        """Widen each wheel whose mates would collide at one height, so that they can be one above the other."""
         axis, sizes, index = self.geometry.declared.axis, self.geometry.sizes, parallels.index
 
         def run_into(wheel: str, other: str) -> bool:
@@ -463,13 +435,3 @@ class _Placing:
             wheel: sizes[wheel].across_slots(*slots) for wheel, slots in find_axial_slots(meshes, run_into).items()
         }
         self.geometry = replace(self.geometry, sizes={**sizes, **broad})
-
-    def _known_heights(
-        self, parallels: Parallels, determined: Sequence[tuple[CrossingSide, Vector]]
-    ) -> dict[str, float]:
-        """Return the heights of the wheels whose axes are determined by placed parts [mm], by wheel."""
-        found: dict[str, float] = {}
-        for each, point in determined:
-            direction = self.geometry.declared.lines[each.side.axis].direction
-            found.setdefault(each.side.wheel, dot(plus(point, direction, each.seat.far), parallels.up))
-        return found

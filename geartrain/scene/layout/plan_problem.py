@@ -39,9 +39,7 @@ class PlanProblem:
     rows: Mapping[tuple[str, str], Point] = field(default_factory=dict)
     """Pairs of axes, and the unit vector of the direction of the line on which both axes of a pair must lie."""
     sides: Mapping[str, Point] = field(default_factory=dict)
-    """Direction in the plan from an axis to its crossing mate, by axis. The mate is preferably placed outside the other
-    axes.
-    """
+    """Direction in the plan from an axis to its crossing mate, which is preferably outside the other axes, by axis."""
     places: Mapping[str, int] = field(default_factory=dict)
     """Number of positions around its pivot at which a planet meshes with both sun and ring, by axis of the planet."""
     belts: Sequence[Mapping[str, float]] = ()
@@ -93,9 +91,7 @@ def _chosen_distances(
     pivots: Mapping[str, str],
     radius: Mapping[str, float],
 ) -> dict[tuple[str, str], float]:
-    """Return the distances [mm] that are chosen for pins without declared dimensions, and for carried axes without a
-    required distance from the axis of their carrier, by pair of axes.
-    """
+    """Return the distances [mm] chosen for pins without dimensions and carried axes without distances, by axes."""
     found: dict[tuple[str, str], float] = {}
     joined: DisjointSets[str] = DisjointSets()
     for pair in forced:
@@ -120,9 +116,7 @@ def _chosen_distances(
 def _rows(
     declared: DeclaredGeometry, parallels: Parallels, crossing: Sequence[CrossingSide]
 ) -> Iterator[tuple[tuple[str, str], Point]]:
-    """Yield pairs of axes that both intersect a third axis, except in worm gears, each with the unit vector of the
-    third axis in the plan.
-    """
+    """Yield pairs of parallel axes that intersect the same third axis, and the third axis's unit vector in the plan."""
     met: dict[str, list[str]] = {}
     for each in crossing:
         if each.contact.kind != "screw":
@@ -144,9 +138,7 @@ def _sides(
 
 
 def _assembly_places(declared: DeclaredGeometry, parallels: Parallels) -> Iterator[tuple[str, int]]:
-    """Yield the axes of planets between a sun and a ring. Each is followed by its number of assembly positions, z_sun +
-    z_ring, where z is the tooth count.
-    """
+    """Yield each axis of planets between a sun and a ring with its number of assembly positions, z_sun + z_ring."""
     counts: dict[tuple[str, str], list[tuple[str, int]]] = {}  # axis and wheel of a planet -> kind and teeth of mates
     for contact in declared.contacts:
         for side in contact.sides:

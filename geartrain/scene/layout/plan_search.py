@@ -70,7 +70,12 @@ class PlanClearance:
 
     def cost(self, at: int, placed: Indices, candidates: Floats, points: Floats) -> Floats:
         """Return the cost of each candidate position of an axis, from its overlap with the placed axes."""
-        near = self._within_reach(at, placed[self.still[at, placed]], candidates, points)
+        near = placed[self.still[at, placed]]
+        # only axes whose wheels may overlap those of this axis at one of its candidate positions cause a cost
+        low, high = candidates.min(axis=0), candidates.max(axis=0)
+        away = np.maximum(np.maximum(low - points[near], points[near] - high), 0)
+        reach = np.maximum(self.radius[at] + self.radius[near], self.need[at, near])
+        near = near[np.hypot(away[:, 0], away[:, 1]) < reach]
         apart = candidates[:, None, :] - points[near][None, :, :]
         far = np.hypot(apart[:, :, 0], apart[:, :, 1])
         own, other = self.radius[at], self.radius[near]
@@ -80,21 +85,9 @@ class PlanClearance:
         cost += _COVER * (np.maximum(np.maximum(own, other) - far, 0) * free).sum(axis=1)
         return np.asarray(cost, float)
 
-    def _within_reach(self, at: int, near: Indices, candidates: Floats, points: Floats) -> Indices:
-        """Return the axes whose wheels may overlap the wheels of an axis at one of its candidate positions; other axes
-        cause no cost.
-        """
-        low, high = candidates.min(axis=0), candidates.max(axis=0)
-        spots = points[near]
-        away = np.maximum(np.maximum(low - spots, spots - high), 0)
-        reach = np.maximum(self.radius[at] + self.radius[near], self.need[at, near])
-        return np.asarray(near[np.hypot(away[:, 0], away[:, 1]) < reach])
-
 
 def _minimum_distances(discs: Sequence[Mapping[str, WheelSize]], problem: PlanProblem) -> Floats:
-    """Return minimum distances [mm] between axes whose wheels share a level and do not mesh, and between the pulleys of
-    one belt; 0 for other axes.
-    """
+    """Return minimum distances [mm] between axes with wheels on one level, or pulleys of one belt; 0 for others."""
     need = np.zeros((len(discs), len(discs)))
     clusters: dict[int, list[tuple[int, str]]] = {}
     for at, own in enumerate(discs):
@@ -177,9 +170,7 @@ class PlanOrder:
         self.steps = self._find_steps(fixed)
 
     def _find_alike(self, fixed: set[int]) -> Iterable[Sequence[Sequence[int]]]:
-        """Return lists of equal groups of axes. All axes of a group are on one carrier, and bars connect them to each
-        other and to the axis of the carrier.
-        """
+        """Return lists of equal groups of axes on one carrier; bars join each group only to the axis of the carrier."""
         carried = [at for at in self.pivot if at not in fixed]
         bars = [bar[:2] for bar in self.bars if self.pivot.get(bar[0]) != bar[1] and self.pivot.get(bar[1]) != bar[0]]
         alike: dict[tuple[object, ...], list[list[int]]] = {}
@@ -191,19 +182,19 @@ class PlanOrder:
         return alike.values()
 
     def _shape(self, group: Sequence[int], pivot: int) -> Iterator[tuple[float, ...]]:
-        """Yield, for each axis of a group, its radius and its distances to the other axes of the group and to the pivot
-        [mm].
-
-        The numbers are rounded, so that equal lengths compare equal.
-        """
+        """Yield the rounded radius of each axis of a group and its distances to the group and to the pivot [mm]."""
         for at in group:
             joined = self._joined[at]
             yield (round(float(self.radius[at]), 9), *(round(joined.get(end, -1.0), 9) for end in (*group, pivot)))
 
     def _find_steps(self, placed: set[int]) -> list[PlanStep]:
-        order = sorted(placed)
-        closing = self._on_closed_chains(placed)
-        found = []
+        order, found = sorted(placed), []
+        # axes on closed chains: the 2-core of the graph of bars, in which all placed axes are one node
+        closing = set(range(len(self._joined)))
+        while ends := {at for at in closing - placed if len(self._joined[at].keys() & closing) < 2}:
+            closing -= ends
+        if len(closing) > _NEAR:
+            closing = set()
         while len(order) < len(self._joined):
             at = min((at for at in range(len(self._joined)) if at not in placed), key=lambda at: self._rank(at, placed))
             tied = tuple(
@@ -216,34 +207,15 @@ class PlanOrder:
         return found
 
     def _rank(self, at: int, placed: set[int]) -> tuple[bool, int, float]:
-        """Return the rank of an axis as a tuple. The axis with the minimum rank is placed next.
-
-        An axis comes after the axis of its carrier. Among other axes, the axis with the most placed neighbours comes
-        first. Ties are decided by the larger radius, or, for axes without placed neighbours, by the larger number of
-        bars.
-        """
+        """Return an axis's sort key: after its carrier, by number of placed neighbours, then by radius or bars."""
         late = at in self.pivot and self.pivot[at] not in placed
         tied = len(self._joined[at].keys() & placed)
         weight = float(self.radius[at]) if tied else float(len(self._joined[at]))
         # rounded, so that equal radii keep the order declared
         return late, -tied, -round(weight, 9)
 
-    def _on_closed_chains(self, placed: set[int]) -> set[int]:
-        """Return the 2-core of the graph of bars, in which all placed axes are one node; empty if there are more than
-        60 axes.
-        """
-        left = set(range(len(self._joined)))
-        while ends := {at for at in left - placed if len(self._joined[at].keys() & left) < 2}:
-            left -= ends
-        return left if len(left) <= _NEAR else set()
-
     def _bounds(self, at: int, placed: set[int], closing: set[int]) -> list[DistanceBound]:
-        """Return bounds on the distances of an axis from placed axes, computed from the shortest paths over axes that
-        are not placed yet.
-
-        The distance between the ends of a chain of bars is at most the length of the chain, and at least the length of
-        its longest bar minus the lengths of its other bars.
-        """
+        """Return bounds on the distances of an axis from placed axes, from shortest paths over axes not placed yet."""
         ways: list[tuple[float, float, int]] = [(0.0, 0.0, at)]  # (length, longest bar, end)
         done: set[int] = set()
         found: list[DistanceBound] = []
@@ -277,8 +249,7 @@ _ROW = 1.2  # default distance between two axes on a line divided by the sum of 
 
 
 def crossings(a: Sequence[float], radius: float, b: Sequence[float], other: float) -> list[Point]:
-    """Return the intersections of a circle about `a` with the radius r (`radius`) and a circle about `b` with the
-    radius s (`other`).
+    """Return the intersections of a circle about `a` with the radius r (`radius`) and one about `b` with s (`other`).
 
     For circles that do not intersect, the result is the point on the line of centres midway between them; it is empty
     for concentric circles. With the distance d of the centres, the intersections are at x = (d^2 + r^2 - s^2) / 2d
@@ -344,9 +315,7 @@ def fit_distances(points: Floats, bars: Sequence[Bar], fixed: Iterable[int]) -> 
 
 
 def plan_axes(problem: PlanProblem) -> dict[str, Point]:
-    """Return points in the plan of all axes [mm], at the required distances or fitted to them. The result is
-    deterministic.
-    """
+    """Return points in the plan of all axes [mm], at the required distances or fitted to them; deterministic."""
     return _BeamSearch(problem).found()
 
 
@@ -381,7 +350,11 @@ class _BeamSearch:
     def _options(self, step: PlanStep, points: Floats) -> list[tuple[float, Floats]]:
         """Return the best positions of the axis of a step in one partial plan, each with its cost."""
         candidates = self._candidates(step, points)
-        costs = _distance_cost(step, candidates, points)
+        costs = np.zeros(len(candidates))
+        for bound in (*step.tied, *step.bounds):  # distances that the position violates or makes impossible
+            apart = candidates - points[bound.axis]
+            far = np.hypot(apart[:, 0], apart[:, 1])
+            costs += _MISS * (np.maximum(far - bound.most, 0) + np.maximum(bound.minimum - far, 0))
         costs += self.clearance.cost(step.axis, step.placed, candidates, points)
         if len(step.placed):
             apart = candidates - points[step.placed].mean(axis=0)
@@ -410,9 +383,7 @@ class _BeamSearch:
         return np.array(found or self._round_first(step, points))
 
     def _in_row(self, step: PlanStep, points: Floats) -> list[Point]:
-        """Return candidate points of an axis that must be on a line with a placed axis, at the required distance or at
-        chosen distances; empty for other axes.
-        """
+        """Return candidate points of an axis that must be in a row with a placed axis; empty for other axes."""
         label, placed = self.problem.labels[step.axis], set(step.placed.tolist())
         for pair, way in self.problem.rows.items():
             if label not in pair:
@@ -433,10 +404,7 @@ class _BeamSearch:
         return []
 
     def _rotated(self, step: PlanStep, points: Floats) -> list[Point]:
-        """Return the point of an axis in a group of planets that equals an earlier group. The point is that of the
-        corresponding axis in the first group, rotated about the axis of the carrier. The result is empty for other
-        axes.
-        """
+        """Return the point of an axis in a repeated group of planets; return an empty list for any other axis."""
         first, turn = self.order.rotated.get(step.axis, (None, 0.0))
         placed = set(step.placed.tolist())
         if first not in placed or self.order.pivot[step.axis] not in placed:
@@ -458,10 +426,9 @@ class _BeamSearch:
         return [(x + far * cos(pi * at / 4), y + far * sin(pi * at / 4)) for at in range(8)]
 
     def _round_first(self, step: PlanStep, points: Floats) -> list[Point]:
-        """Return points on the circle about the first placed axis from which the distance of the axis is prescribed.
+        """Return points on the circle about the first placed axis at a prescribed distance, in all directions.
 
-        The points are in all directions, or only at positions in which a planet can be assembled. Equivalent axes on
-        one carrier are evenly spaced, starting at the first of these axes.
+        Planets have only the positions in which they can be assembled. Equivalent axes on a carrier are evenly spaced.
         """
         pivot, far = step.tied[0].axis, step.tied[0].most
         x, y = points[pivot].tolist()
@@ -480,15 +447,3 @@ class _BeamSearch:
         for bound in step.bounds:  # feasible arcs may be narrower than the spacing of directions
             found += crossings((x, y), far, points[bound.axis].tolist(), (bound.minimum + bound.most) / 2)
         return found
-
-
-def _distance_cost(step: PlanStep, candidates: Floats, points: Floats) -> Floats:
-    """Return the cost of each candidate position: a penalty for the distances that the position violates or makes
-    impossible.
-    """
-    total = np.zeros(len(candidates))
-    for bound in (*step.tied, *step.bounds):
-        apart = candidates - points[bound.axis]
-        far = np.hypot(apart[:, 0], apart[:, 1])
-        total += _MISS * (np.maximum(far - bound.most, 0) + np.maximum(bound.minimum - far, 0))
-    return total

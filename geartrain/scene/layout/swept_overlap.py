@@ -44,16 +44,12 @@ class SweptDistances:
     far: Floats
 
     def overlap(self, disc: Disc, axis: int, other: Disc, other_axis: int) -> bool:
-        """Return True if the wheel `disc` on one axis and the wheel `other` on another, at the same height, collide at
-        some angles of the carriers.
-        """
+        """Return True if two wheels at the same height on two axes collide at some angles of the carriers."""
         return overlap(disc, other, float(self.near[axis, other_axis]), float(self.far[axis, other_axis]))
 
 
 class _Swept(NamedTuple):
-    """Position of an axis relative to a link that carries it: at a distance of `low` to `high` [mm] from the axis
-    `centre`.
-    """
+    """Position of an axis relative to a link that carries it: `low` to `high` [mm] from the axis `centre`."""
 
     at: int
     centre: str
@@ -110,18 +106,17 @@ class WheelBlock:
 
     wheel: str
     axis: int
-    """Index of the wheel's axis. `link` is the link to which the wheel belongs; it is empty for a crossing wheel."""
+    """Index of the wheel's axis."""
     link: str
+    """Link to which the wheel belongs; empty for a crossing wheel."""
     stack: int
-    """Index of the stack to which the wheel belongs. A stack is a set of wheels with fixed relative heights because
-    they mesh.
-    """
+    """Index of the wheel's stack: a set of wheels with fixed relative heights because they mesh."""
     offset: float
-    """Height of the wheel in its stack [mm]. `low` and `high` are the extents of the wheel below and above this height
-    [mm].
-    """
+    """Height of the wheel in its stack [mm]."""
     low: float
+    """Extent of the wheel below its height [mm]."""
     high: float
+    """Extent of the wheel above its height [mm]."""
     inner: float
     """Radius of the free space inside a ring [mm]; 0 for other wheels."""
     outer: float
@@ -129,9 +124,7 @@ class WheelBlock:
     across: bool = False
     """True for a wheel on an axis that crosses this group of axes. The wheel meshes with a wheel of this stack."""
     trace: tuple[Point, Point] | None = None
-    """Ends of the line in the plan along which a fixed crossing wheel extends; `outer` is the half width. None for
-    other wheels.
-    """
+    """Ends of the line in the plan along which a fixed crossing wheel extends; None for other wheels."""
 
 
 def find_plan_overlap(
@@ -143,8 +136,7 @@ def find_plan_overlap(
     plates: Mapping[str, str],
     pins: Sequence[tuple[str, str]] = (),
 ) -> tuple[Flags, Flags]:
-    """Return a mask of the pairs of blocks that must not be at the same height, shape (blocks, blocks), and a mask of
-    the blocks that each arbor or pin would pierce, shape (arbors and pins, blocks).
+    """Return the masks `clash` and `pierce` of a `StackProblem`.
 
     plates   arbor -> the wheel that carries its axis, and has a hole for it
     pins     pairs of wheels: the wheel that has the pin, and the wheel that has the slot
@@ -174,19 +166,12 @@ def find_plan_overlap(
     for row, link in enumerate(links):
         if link in plates:
             pierce[row, named[plates[link]]] = False
-    rows = [_pin_obstacles(blocks, off, (named[pin], named[slot])) for pin, slot in pins]
-    return clash, np.vstack([pierce, *rows])
-
-
-def _pin_obstacles(blocks: Sequence[WheelBlock], off: Floats, ends: tuple[int, int]) -> Flags:
-    """Return a mask of the blocks of other links that a pin may hit between the wheel with the pin and the wheel with
-    the slot.
-    """
-    pin, slot = (blocks[at] for at in ends)
-    outer = np.array([block.outer for block in blocks])
-    own = np.array([block.link in (pin.link, slot.link) for block in blocks])
-    # the radius of the pin is not known here: it may be anywhere on its wheel
-    return np.asarray((off[pin.axis] - pin.outer < outer) & ~own)
+    rows = [pierce]
+    for pin, slot in ((blocks[named[pin]], blocks[named[slot]]) for pin, slot in pins):
+        own = np.array([block.link in (pin.link, slot.link) for block in blocks])
+        # the radius of the pin is not known here: it may be anywhere on its wheel
+        rows.append((off[pin.axis] - pin.outer < outer) & ~own)
+    return clash, np.vstack(rows)
 
 
 def segment_distance(point: Point, start: Point, end: Point) -> float:

@@ -21,7 +21,7 @@ from geartrain.numerics.results import Shown
 from geartrain.numerics.vectors import Vector, across, azimuth, cross, dot, frame, minus, plus, scaled, size, unit
 from geartrain.scene.layout.declared_geometry import DeclaredGeometry, PitchContact, read_geometry
 from geartrain.scene.layout.parallel_groups import Arrangement, arrange
-from geartrain.scene.layout.wheel_modules import Seat, opposite, pitch_distance, size_geometry
+from geartrain.scene.layout.wheel_modules import opposite, pitch_distance, size_geometry
 from geartrain.scene.layout.wheel_reach import bare_reach, span
 from geartrain.scene.layout.wheel_stacks import WheelStack
 
@@ -34,9 +34,7 @@ _SHOWN = 6
 
 
 def pitch_gaps(found: Arrangement) -> dict[str, float]:
-    """Return the gap between the pitch circles of each pair whose pitch circles do not touch [mm]; it is negative for
-    an overlap.
-    """
+    """Return the gaps between pitch circles that do not touch [mm], by pair; they are negative for an overlap."""
     sizes = found.geometry.sizes
     gaps = {}
     for contact in found.geometry.declared.contacts:
@@ -86,7 +84,10 @@ def notices(
     for contact in declared.contacts:
         if contact.name in gaps:
             yield _not_touching(contact, gaps[contact.name], place[contact.name])
-    yield from _simplified(declared, place)
+    for wheel, pair, axis in declared.strays:
+        what = f"wheel '{wheel}' is drawn only on axis '{declared.axis[wheel]}'"
+        why = f"pair '{pair}' requires it on axis '{axis}' as well"
+        yield Problem(what, why, "declare a separate wheel for each of its meshes", place[pair])
     yield from _misplaced(train, found)
     for stack in found.stacks:
         yield from _crowding(found, stack)
@@ -110,14 +111,6 @@ def _not_touching(contact: PitchContact, gap: float, place: str) -> Problem:
         "change a tooth count, a position or a module; the gap itself does not affect speeds",
         place,
     )
-
-
-def _simplified(declared: DeclaredGeometry, place: Mapping[str, str]) -> Iterator[Problem]:
-    """Yield notices on wheels that are not drawn as declared."""
-    for wheel, pair, axis in declared.strays:
-        what = f"wheel '{wheel}' is drawn only on axis '{declared.axis[wheel]}'"
-        why = f"pair '{pair}' requires it on axis '{axis}' as well"
-        yield Problem(what, why, "declare a separate wheel for each of its meshes", place[pair])
 
 
 def _misplaced(train: GearTrain, found: Arrangement) -> Iterator[Problem]:
@@ -175,8 +168,7 @@ def reference(direction: Vector) -> Vector:
 def pitch_directions(
     wheels: tuple[WheelPlace, WheelPlace], ways: tuple[Vector, Vector], rings: tuple[bool, bool]
 ) -> tuple[Vector, Vector]:
-    """Return the unit vectors from the centres of two wheels to their pitch point. Each is perpendicular to the axis of
-    its wheel.
+    """Return the unit vectors from the axes of two wheels to their pitch point, each perpendicular to its axis.
 
     ways    declared directions of the axes
     rings   for each wheel, True if it is a ring
@@ -425,7 +417,10 @@ def _axis_places(found: Arrangement) -> dict[str, AxisPlace]:
 def _wheel_places(found: Arrangement) -> dict[str, WheelPlace]:
     """Return the positions of all wheels, before they are rotated so that teeth mesh, by wheel."""
     geometry, declared = found.geometry, found.geometry.declared
-    layers, coned = _layers(found), _coned_seats(found)
+    layers, contacts = _layers(found), declared.contacts
+    # wheels that also mesh with a wheel on a parallel axis have no cone
+    straight = {wheel for contact in contacts if contact.parallel for wheel in contact.wheels}
+    coned = {wheel: seat for (_, wheel), seat in geometry.seats.items() if wheel not in straight}
     places = {}
     for wheel, (link, kind) in declared.wheels.items():
         axis, sized = declared.axis[wheel], geometry.sizes[wheel]
@@ -448,19 +443,8 @@ def _wheel_places(found: Arrangement) -> dict[str, WheelPlace]:
     return places
 
 
-def _coned_seats(found: Arrangement) -> dict[str, Seat]:
-    """Return the seats of the wheels in pairs with non-parallel axes, by wheel. Wheels that also mesh with a wheel on a
-    parallel axis are omitted.
-    """
-    contacts = found.geometry.declared.contacts
-    straight = {wheel for contact in contacts if contact.parallel for wheel in contact.wheels}
-    return {wheel: seat for (_, wheel), seat in found.geometry.seats.items() if wheel not in straight}
-
-
 def _layers(found: Arrangement) -> dict[str, int]:
-    """Return the index of the level of each wheel on the main axes, counted from the lowest level. For a broad wheel,
-    it is its lowest level.
-    """
+    """Return the index of the lowest level of each wheel on the main axes, counted from the bottom, by wheel."""
     declared, sizes = found.geometry.declared, found.geometry.sizes
     heights = {
         wheel: dot(found.centres[wheel], found.up) - sizes[wheel].foot

@@ -5,12 +5,8 @@ force the ratio of the modules of their clusters. These ratios are stored in a w
 fractions. The scale of a group of clusters is given by a declared module. If there is none, it is a least squares fit
 of declared distances, or the median of all known modules.
 
-Free modules are changed until every closed chain of axes can close. A chain can close if none of its distances is
-longer than the sum of its other distances (polygon inequality). The method is relaxation: each distance that is longer
-than the shortest path between its ends is shortened, or that path is lengthened, repeatedly.
-
-`SizedGeometry` is the input of all steps that place axes and wheels: the declared geometry with modules, sizes of
-wheels, and seats of pairs whose axes are not parallel.
+Free modules are changed until every closed chain of axes can close (polygon inequality). The method is relaxation: each
+distance that is longer than the shortest path between its ends is shortened, or that path is lengthened, repeatedly.
 """
 
 from __future__ import annotations
@@ -19,14 +15,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
-from itertools import pairwise
+from itertools import pairwise, product
 from math import atan2, tan
 from statistics import median
 
 from geartrain.numerics.graphs import RatioSets, joined_groups
 from geartrain.numerics.quantity import millimetres
 from geartrain.numerics.vectors import Vector, across, cross, dot, minus, size, unit
-from geartrain.scene.layout.declared_geometry import ContactSide, CouplingTie, DeclaredGeometry, PitchContact
+from geartrain.scene.layout.declared_geometry import ContactSide, DeclaredGeometry, PitchContact
 from geartrain.teeth.standard_teeth import DEDENDUM
 
 # -------------------------------------------------------------------------------------------------------- closed chains
@@ -55,9 +51,7 @@ class AxisDistance:
 def close_chains(
     distances: Sequence[AxisDistance], modules: Mapping[int, Fraction], free: frozenset[int]
 ) -> dict[int, Fraction]:
-    """Return the modules of the reference clusters (roots) [mm]. The modules in `free` are multiplied by simple factors
-    until all closed chains of axes can close.
-    """
+    """Return the modules of reference clusters [mm], those in `free` changed so that all chains of axes can close."""
     found = dict(modules)
     if not free or len(distances) > _MOST:
         return found
@@ -69,9 +63,7 @@ def close_chains(
 
 
 def _relax(distances: Sequence[AxisDistance], at: int, modules: dict[int, Fraction], free: frozenset[int]) -> bool:
-    """Shorten, in place, a distance that is longer than the alternative path between its ends, or lengthen that path.
-    Return True if a module was changed.
-    """
+    """Shorten, in place, a distance that is too long, or lengthen the path between its ends; return True if changed."""
     one = distances[at]
     way = _way_round(distances, at, modules)
     length, way_length = one.length(modules), sum(other.length(modules) for other in way)
@@ -97,18 +89,12 @@ def _relax(distances: Sequence[AxisDistance], at: int, modules: dict[int, Fracti
 
 
 def _simple(factor: float) -> Fraction:
-    """Return the nearest fraction with a denominator of at most 1000, so that module values are simple. The result may
-    be 0.
-    """
+    """Return the nearest fraction with a denominator of at most 1000, which may be 0, so that modules are simple."""
     return Fraction(factor).limit_denominator(1000)
 
 
 def _way_round(distances: Sequence[AxisDistance], at: int, modules: Mapping[int, Fraction]) -> list[AxisDistance]:
-    """Return the shortest path between the two axes of a distance that does not use this distance (Dijkstra's
-    algorithm).
-
-    The path is empty if no other path connects the two axes.
-    """
+    """Return the shortest path between the axes of a distance without this distance (Dijkstra); empty if none."""
     import networkx as nx
 
     graph: nx.Graph[str] = nx.Graph()
@@ -138,15 +124,11 @@ class WheelModules:
     """Module of each wheel [mm], by wheel."""
     declared: frozenset[str]
     distances: Mapping[tuple[str, str], float]
-    """Required distance [mm] by pair of axes: the declared offset of a pin, or, without a pin, the mean distance of the
-    gear pairs.
-    """
+    """Required distance [mm] by pair of axes: the declared offset of a pin, or the mean distance of the gear pairs."""
 
 
 def pitch_distance(geometry: DeclaredGeometry, module: Mapping[str, float], contact: PitchContact) -> float:
-    """Return the distance between the axes of a gear pair [mm] at which the pitch circles touch or the declared teeth
-    mesh.
-    """
+    """Return the distance between the axes of a gear pair [mm] at which pitch circles touch or declared teeth mesh."""
     first, second = (float(geometry.radius(wheel)) * module[wheel] for wheel in contact.wheels)
     return float(contact.stretch) * (abs(first - second) if contact.kind == "ring" else first + second)
 
@@ -203,9 +185,13 @@ class _ModuleSearch:
         for contacts in self.between.values():
             for first, second in pairwise(contacts):
                 self._join(ratios, first, second)
-        if len(self.given) < len(self.clusters):
-            for tie in self.geometry.ties:
-                self._join_nearby(ratios, tie)
+        # after all constraints, a choice: the axes of a pin and its slot, which are close together, have the same
+        # distance from each axis with which both mesh
+        nearby = [tie for tie in self.geometry.ties if tie.encloses and len(self.given) < len(self.clusters)]
+        for tie, other in product(nearby, self.geometry.lines):
+            met = [self.between.get((min(end, other), max(end, other)), [])[:1] for end in tie.axes]
+            if all(met):
+                self._join(ratios, met[0][0], met[1][0])
         return [ratios.root(at) for at in self.clusters]
 
     def _join(self, ratios: RatioSets[int], first: PitchContact, second: PitchContact) -> None:
@@ -215,24 +201,9 @@ class _ModuleSearch:
         if far and other and not (ends[0] in self.given and ends[1] in self.given):
             ratios.join(*ends, far / other)
 
-    def _join_nearby(self, ratios: RatioSets[int], tie: CouplingTie) -> None:
-        """Record that the axes of a pin and its slot, which are close together, have the same distance from each axis
-        with which both mesh.
-
-        This relation is a choice and not a constraint, so it is recorded after all constraints.
-        """
-        for other in self.geometry.lines if tie.encloses else ():
-            met = [self.between.get((min(end, other), max(end, other)), [])[:1] for end in tie.axes]
-            if all(met):
-                self._join(ratios, met[0][0], met[1][0])
-
     def _anchored(self) -> dict[int, Fraction]:
-        """Return the modules of the reference clusters (roots) [mm] that are declared, or that follow from declared
-        positions and offsets by a least squares fit.
-
-        For distances d_i = m a_i with known factors a_i and one unknown module m, the least squares solution is m = sum
-        a_i d_i / sum a_i^2.
-        """
+        """Return the modules of reference clusters [mm] that are declared, or fitted to positions (least squares)."""
+        # for distances d_i = m a_i with one unknown module m, the solution is m = sum a_i d_i / sum a_i^2
         roots: dict[int, Fraction] = {}
         for at, module in self.given.items():
             root, times = self._multiples[at]
@@ -251,9 +222,7 @@ class _ModuleSearch:
         return {root: products[root] / square for root, square in squares.items() if square} | roots
 
     def _declared_distance(self, axes: tuple[str, str]) -> Fraction | None:
-        """Return the distance of two axes [mm], computed from their declared points or equal to a pin's declared
-        offset; None if neither is declared.
-        """
+        """Return the distance of two axes [mm] from their declared points or a pin's offset; None if undeclared."""
         first, second = (self.geometry.lines[name] for name in axes)
         if first.given is not None and second.given is not None:
             apart = minus(second.given, first.given)
@@ -303,9 +272,7 @@ class Seat:
     """Position of a wheel relative to its mate in a pair whose axes are not parallel."""
 
     far: float
-    """Distance along the wheel's axis to the wheel's centre [mm], from the intersection of the two axes, or, for skew
-    axes, from the point nearest to the other axis.
-    """
+    """Distance of the wheel's centre along its axis from the point nearest to the other axis [mm]."""
     cone: float
     """Half angle of the wheel's pitch cone [rad]; 0 for a cylinder."""
     out: Vector
@@ -313,16 +280,16 @@ class Seat:
 
 
 def seats(geometry: DeclaredGeometry, contact: PitchContact, radii: tuple[float, float]) -> tuple[Seat, Seat]:
-    """Return the seats of the first and the second wheel of a pair, computed from the declared directions of the axes
-    and the declared sides of the wheels.
+    """Return the seats of both wheels of a pair with non-parallel axes.
 
-    The pitch point is on the side to which both wheels face. The shaft angle S is the angle between the directions from
-    the apex to both wheels. The first wheel of a bevel pair has the cone half angle d_1 with tan d_1 = sin S / (z_2/z_1
-    + cos S), where z_1 and z_2 are the tooth counts; d_2 of the second wheel is analogous. The pitch cylinder of a
-    crown wheel's pinion rolls on a cone of half angle S, which is a plane if S is a right angle.
+    With the shaft angle S and the tooth counts z, the first wheel of a bevel pair has the cone half angle d_1 with
+    tan d_1 = sin S / (z_2/z_1 + cos S). The pitch cylinder of a crown wheel's pinion rolls on a cone of half angle S.
     """
     if contact.kind == "screw":
-        out = _from_worm(geometry, contact)
+        worm, wheel = (geometry.lines[axis] for axis in contact.axes)
+        out = unit(cross(wheel.direction, worm.direction))
+        if worm.given is not None and wheel.given is not None and dot(minus(wheel.given, worm.given), out) < 0:
+            out = opposite(out)
         return Seat(0.0, 0.0, out), Seat(0.0, 0.0, opposite(out))
     facing, other_facing = (geometry.wheel(wheel).facing for wheel in contact.wheels)
     first_way, second_way = (geometry.lines[axis].direction for axis in contact.axes)
@@ -346,22 +313,8 @@ def seats(geometry: DeclaredGeometry, contact: PitchContact, radii: tuple[float,
 
 
 def opposite(v: Vector) -> Vector:
-    """Return the opposite of a vector, in which a component -0.0 is replaced by 0.0 because it would be printed in
-    pictures.
-    """
+    """Return the opposite of a vector, with 0.0 instead of -0.0, which would be printed in pictures."""
     return minus((0.0, 0.0, 0.0), v)
-
-
-def _from_worm(geometry: DeclaredGeometry, contact: PitchContact) -> Vector:
-    """Return the unit vector from a worm's axis to its wheel's axis.
-
-    If no positions are declared, it is the cross product of the directions of the wheel's axis and the worm's axis.
-    """
-    worm, wheel = (geometry.lines[axis] for axis in contact.axes)
-    way = unit(cross(wheel.direction, worm.direction))
-    if worm.given is not None and wheel.given is not None and dot(minus(wheel.given, worm.given), way) < 0:
-        return opposite(way)
-    return way
 
 
 @dataclass(frozen=True, slots=True)
@@ -378,8 +331,7 @@ class WheelSize:
     outer: float
     """Outer radius of the wheel, including clearance [mm]."""
     slot: float = 0.0
-    """Height of the middle of the wheel above the lowest slot [mm], if its level is divided into slots; 0 if it is not.
-    """
+    """Height of the middle of the wheel above the lowest slot of its level [mm]; 0 for a level without slots."""
     plain: float = 0.0
     """Thickness of the wheel before it was broadened to mesh with several mates [mm]."""
 

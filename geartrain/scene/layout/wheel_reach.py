@@ -21,8 +21,7 @@ _MOST_FACE = 0.45  # maximum face width divided by the cone distance
 
 
 def taper(cone: float, radius: float, thickness: float) -> float:
-    """Return the tooth size of a bevel wheel at the small end divided by its tooth size at the large end, limited to
-    0.55 to 1.
+    """Return the tooth size of a bevel wheel at its small end over that at its large end, limited to 0.55 to 1.
 
     cone        half angle of the wheel's pitch cone [rad], above 0; a right angle for a crown wheel
     radius      pitch radius at the large end [mm]
@@ -52,15 +51,12 @@ def back_of_cone(cone: float, radius: float, thickness: float, root: float) -> f
 
 
 def bare_reach(cone: float, radius: float, thickness: float, module: float) -> tuple[float, float]:
-    """Return the extents of a wheel [mm] as defined by `reach`, with the standard tooth heights of the module, for a
-    wheel whose teeth are unknown.
-    """
+    """Return the extents of a wheel [mm] as defined by `reach`, with standard tooth heights for unknown teeth."""
     return reach(cone, radius, thickness, -DEDENDUM * module, ADDENDUM * module)
 
 
 def reach(cone: float, radius: float, thickness: float, root: float, tip: float) -> tuple[float, float]:
-    """Return the axial extents of a wheel's body, measured from its pitch circle away from the apex and towards the
-    apex [mm].
+    """Return the axial extents of a wheel's body from its pitch circle, away from the apex and towards it [mm].
 
     cone        half angle of the wheel's pitch cone [rad], 0 for a cylinder
     root, tip   heights of the tooth roots and tips above the pitch cone [mm]
@@ -80,7 +76,5 @@ def web(cone: float, radius: float, thickness: float, root: float) -> tuple[floa
 
 
 def span(facing: int, away: float, towards: float) -> tuple[float, float]:
-    """Return the extents computed by `reach` as positions along the axis relative to the pitch circle, in ascending
-    order [mm].
-    """
+    """Return the extents of `reach` as ascending positions along the axis relative to the pitch circle [mm]."""
     return (-towards, away) if facing > 0 else (-away, towards)

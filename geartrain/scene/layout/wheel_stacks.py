@@ -52,9 +52,7 @@ class StackProblem:
     plates: Mapping[str, str]
     """Wheel of the carrier that carries the axis of each arbor, by arbor."""
     pins: Sequence[tuple[str, str]] = ()
-    """Pairs of wheels: the wheel with a pin, and the wheel with the slot of this pin. They are in the order of the rows
-    of `pierce` after the rows of the arbors.
-    """
+    """Pairs of wheels (with the pin, with its slot), in the order of the last rows of `pierce`."""
     still: str = ""
     """Name of the fixed link. If several wheels of this link are on one axis, they form a fixed arbor."""
 
@@ -65,8 +63,7 @@ class StackProblem:
 
 
 class _OrderSearch:
-    """Search for the order of the stacks of one problem. Each stack has a key; keys increase upwards, and stacks with
-    equal keys share a level.
+    """Search for the order of the stacks of one problem.
 
     clash     for each stack, the stacks that must not share a level with it
     carried   for each arbor, the stacks of its wheels and of the wheel that carries its axis
@@ -100,9 +97,7 @@ class _OrderSearch:
 
     @cached_property
     def _fixed_stacks(self) -> dict[int, tuple[int, ...]]:
-        """Stacks of the fixed wheels on each axis, by axis. Only axes with several such stacks are included; their
-        fixed wheels form one part.
-        """
+        """Stacks of the fixed wheels, which form one part, on each axis with several such stacks, by axis."""
         found: dict[int, dict[int, None]] = {}
         for block in self.problem.blocks:
             if block.link and block.link == self.problem.still and not block.across and not block.inner:
@@ -110,16 +105,12 @@ class _OrderSearch:
         return {axis: tuple(stacks) for axis, stacks in found.items() if len(stacks) > 1}
 
     def _mates(self, at: int) -> Iterator[int]:
-        """Yield the stacks that share an arbor with a stack, including the stack itself. A stack is repeated for each
-        shared arbor.
-        """
+        """Yield the stacks that share an arbor with a stack, and itself, repeated for each shared arbor."""
         return (stack for arbor in self.bearing[at] for stack in self.carried[arbor])
 
     @cached_property
     def order(self) -> list[int]:
-        """Order in which stacks are placed: first the stack with the most arbors, then repeatedly the stack that shares
-        the most arbors with earlier stacks.
-        """
+        """Order in which stacks are placed: most arbors first, then most arbors shared with stacks already placed."""
         score = np.array([len(arbors) for arbors in self.bearing], float)
         weight = float(score.sum()) + 1  # one shared arbor outweighs any number of others
         order: list[int] = []
@@ -134,30 +125,22 @@ class _OrderSearch:
     # ------------------------------------------------------------------------------------------------ every place tried
 
     def local_search(self) -> Floats:
-        """Return the key of each stack, found by moving stacks and groups of adjacent levels until no move improves the
-        order.
-        """
+        """Return the key of each stack, found by moving stacks and adjacent levels until no move improves the order."""
         keys = np.full(self.count, np.nan)
         for at in self.order:
             self._place_best(keys, at, 0.0)
         for fixed_cost in _FIXED_COSTS if self._fixed_stacks else (0.0,):
-            keys = self._converged(keys, fixed_cost)
-        return keys
-
-    def _converged(self, keys: Floats, fixed_cost: float) -> Floats:
-        for _ in range(_PASSES):
-            before = keys.copy()
-            for at in self.order:
-                self._place_best(keys, at, fixed_cost)
-            keys, better = self._best_shift(keys, fixed_cost)
-            if not better and np.array_equal(before, keys):
-                break
+            for _ in range(_PASSES):
+                before = keys.copy()
+                for at in self.order:
+                    self._place_best(keys, at, fixed_cost)
+                keys, better = self._best_shift(keys, fixed_cost)
+                if not better and np.array_equal(before, keys):
+                    break
         return keys
 
     def _best_shift(self, keys: Floats, fixed_cost: float) -> tuple[Floats, bool]:
-        """Return the best order that results from moving or reversing at most one group of adjacent levels, and True if
-        it is an improvement.
-        """
+        """Return the best order after moving or reversing one group of adjacent levels, and True if it is better."""
         level = np.searchsorted(np.unique(keys), keys)
         ranks = np.concatenate(list(_shifts(int(level.max()) + 1)))[:, level].astype(float)
         costs = self._costs(ranks, fixed_cost)
@@ -166,9 +149,7 @@ class _OrderSearch:
         return ranks[best], bool(costs[best].round(9) < costs[0].round(9))
 
     def _place_best(self, keys: Floats, at: int, fixed_cost: float) -> None:
-        """Move one stack to the position of minimum cost, which is a level (integer key) or between two levels
-        (half-integer key).
-        """
+        """Move one stack to the position of minimum cost: a level (integer key) or between levels (half-integer)."""
         keys[at] = np.nan
         known = np.unique(keys[~np.isnan(keys)])
         if not len(known):
@@ -185,9 +166,7 @@ class _OrderSearch:
         keys[at] = tries[int(np.argmin(np.round(self._costs(every, fixed_cost), 9)))]
 
     def _costs(self, every: Floats, fixed_cost: float) -> Floats:
-        """Return the costs of several orders. Each row of `every` contains the keys of one order, with NaN for stacks
-        that are not placed yet.
-        """
+        """Return the cost of each order; a row of `every` has the keys of one order, NaN for stacks not placed yet."""
         keys = np.ascontiguousarray(every.T, np.float32)  # exact for small half-integers, and fast to compare
         low, high = keys[self._stack_table[0]], keys[self._stack_table[0]]  # two copies, each modified in place below
         for stacks in self._stack_table[1:]:
@@ -207,9 +186,7 @@ class _OrderSearch:
         return np.asarray(_PIERCED * pierced + _LONG * span.astype(float) + _LEVEL * levels, float)
 
     def _interleaved(self, keys: NDArray[np.float32], low: NDArray[np.float32], high: NDArray[np.float32]) -> Floats:
-        """Return, for each order, the number of pairs of coaxial arbors that interleave, so that neither arbor can be a
-        pipe around the other.
-        """
+        """Return, for each order, the number of coaxial pairs of arbors, each with a stack between the other's ends."""
         arbor, stack, starts = self._coaxial
         if not len(starts):
             return np.zeros(keys.shape[1])
@@ -218,11 +195,9 @@ class _OrderSearch:
         return np.asarray((covers[::2] & covers[1::2]).sum(axis=0), float)
 
     def _split_fixed(self, keys: NDArray[np.float32]) -> Floats:
-        """Return, for each order, a measure of how often arbors interleave with fixed wheels on their axis, which then
-        cannot be one part.
+        """Return, for each order, half the number of alternations between wheels of arbors and fixed wheels.
 
-        From the lowest wheel to the highest, wheels of the arbor and fixed wheels alternate. One alternation is free of
-        cost, because the arbor is then next to the fixed wheels; each further alternation counts as 1/2.
+        One alternation per axis and arbor is free, because the arbor is then next to the fixed wheels.
         """
         found = np.zeros(keys.shape[1])
         below, above = (frozenset(each.tolist()) for each in self._dial_arbors)
@@ -241,11 +216,7 @@ class _OrderSearch:
 
     @cached_property
     def _coaxial(self) -> tuple[Indices, Indices, Indices]:
-        """Rows (arbor, stack) for all ordered pairs of coaxial arbors. The rows of a pair combine the first arbor with
-        every stack of the second arbor.
-
-        The arrays are the arbors of all rows, the stacks of all rows, and the index of the first row of each pair.
-        """
+        """Pairs of an arbor and a stack of a coaxial arbor: the arbors, the stacks, first index of each arbor pair."""
         rows, starts = list[tuple[int, int]](), list[int]()
         for about in self._hubs.values():
             for one, other in combinations(about, 2):
@@ -271,18 +242,14 @@ class _OrderSearch:
 
     @cached_property
     def _stack_table(self) -> Indices:
-        """Stacks of every arbor, shape (maximum number of stacks, arbors). Arbors with fewer stacks repeat their first
-        stack.
-        """
+        """Stacks of every arbor, shape (maximum number, arbors); arbors with fewer stacks repeat their first stack."""
         most = max(map(len, self.carried), default=1)
         filled = [[*stacks, *stacks[:1] * (most - len(stacks))] for stacks in self.carried]
         return np.array(filled, np.intp).reshape(-1, most).T
 
     @cached_property
     def _pierced(self) -> tuple[Indices, Indices, NDArray[np.float32]]:
-        """Arbors, stacks with wheels that these arbors would pierce at equal height, and the number of such wheels in
-        each stack.
-        """
+        """Arbors, stacks with wheels that these arbors would pierce at equal height, and the numbers of such wheels."""
         times = np.zeros((len(self.carried), self.count), np.float32)
         rows, blocks = np.nonzero(self.problem.pierce)
         np.add.at(times, (rows, self.stacks[blocks]), 1.0)
@@ -292,9 +259,7 @@ class _OrderSearch:
 
     @cached_property
     def _dial_arbors(self) -> tuple[Indices, Indices]:
-        """Indices of the arbors that extend beyond the low end of the stack, and of the arbors that extend beyond its
-        high end.
-        """
+        """Indices of the arbors that extend beyond the low end of the stack, and beyond its high end."""
         ends = [self.problem.ends.get(arbor, DialEnds()) for arbor in self.problem.arbors]
         ends += [DialEnds()] * len(self.problem.pins)
         low, high = np.array(ends, bool).reshape(-1, 2).T
@@ -303,9 +268,7 @@ class _OrderSearch:
     # ------------------------------------------------------------------------------------------------ too many for that
 
     def first_fit(self) -> Floats:
-        """Return the keys of stacks. Each stack in turn is put into the free level nearest to the other stacks of its
-        arbors, or into a new top level.
-        """
+        """Return the keys of stacks, each put into the free level nearest to its mates, or into a new top level."""
         keys = np.full(self.count, np.nan)
         levels = 0
         for at in self.order:
@@ -322,9 +285,7 @@ class _OrderSearch:
 
 
 def _shifts(count: int) -> Iterator[Indices]:
-    """Yield orders of `count` levels as ranks, shape (orders, count): first unchanged, then with a group of adjacent
-    levels moved or reversed.
-    """
+    """Yield orders of levels as ranks, shape (orders, count): unchanged, then with some levels moved or reversed."""
     rank = np.arange(count)
     yield rank[None, :]
     for length in (each for each in _RUNS if each < count):
@@ -345,9 +306,7 @@ _SLACK = 1e-9  # relative to the radii: touching wheels must not collide due to 
 
 
 def stack_heights(problem: StackProblem, gap: float) -> dict[int, float]:
-    """Return the height of each stack [mm]. The lowest upright wheel is at 0, and the levels are separated by `gap`
-    [mm].
-    """
+    """Return the height of each stack [mm], with the lowest upright wheel at 0 and `gap` [mm] between the levels."""
     if not problem.count:
         return {}
     search = _OrderSearch(problem)
@@ -361,9 +320,7 @@ def stack_heights(problem: StackProblem, gap: float) -> dict[int, float]:
 
 
 def _level_heights(problem: StackProblem, level: Indices, count: int, gap: float) -> Floats:
-    """Return the heights of levels [mm]. Each level is above the previous level, and above all blocks that clash with
-    its own blocks.
-    """
+    """Return the heights of levels [mm], each above the previous one and above all blocks that clash with its own."""
     blocks = problem.blocks
     level_of = np.array([level[block.stack] for block in blocks])
     bottom = np.array([block.offset - block.low for block in blocks])
@@ -381,9 +338,7 @@ def _level_heights(problem: StackProblem, level: Indices, count: int, gap: float
 
 
 def _thickest(blocks: Sequence[WheelBlock], which: Indices) -> float:
-    """Return the maximum thickness [mm] of the selected blocks that have no offset in their stack; 0 if there are no
-    such blocks.
-    """
+    """Return the maximum thickness [mm] of the selected blocks without offset in their stack; 0 if there are none."""
     sizes = [blocks[at].low + blocks[at].high for at in which.tolist() if not blocks[at].offset]
     return max(sizes, default=0.0)
 
@@ -433,9 +388,7 @@ class WheelStack:
                 yield one.wheel, other.wheel
 
     def pierced(self, height: Mapping[str, float]) -> Iterator[tuple[str, str]]:
-        """Yield arbors, each with a wheel through which it passes. The arbors of a pin and its slot are omitted,
-        because they share a stud.
-        """
+        """Yield arbors, each with a wheel through which it passes, except those of a pin and its slot."""
         tied = {frozenset(pair) for pair in self.problem.pins}
         ends = {block.link: block.wheel for block in self.upright if any(block.wheel in pair for pair in tied)}
         spans: dict[str, list[float]] = {}

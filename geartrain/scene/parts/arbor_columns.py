@@ -51,9 +51,7 @@ class FramePlaces:
 
 @dataclass(frozen=True, slots=True)
 class ColumnMember:
-    """Arbor or pipe of a column: its link, its ends [mm], its inner diameter (0 if it is solid) and its outer diameter
-    [mm].
-    """
+    """Arbor or pipe of a column: its link, its ends, its inner diameter (0 if solid) and its outer diameter [mm]."""
 
     link: str
     low: float
@@ -78,20 +76,15 @@ class AxisColumn:
     low: float
     high: float
     members: tuple[ColumnMember, ...]
-    """Arbors and pipes of the column, from the innermost outwards. If an arbor extends through both plates, the first
-    member is this arbor.
-    """
+    """Arbors and pipes of the column, from the innermost outwards; an arbor through both plates is the first."""
     hit: tuple[tuple[StackDisc, float], ...] = ()
-    """Discs of other axes that obstruct the column, each with its distance to the column [mm], which is less than
-    `APART`.
-    """
+    """Discs of other axes that are nearer to the column than `APART`, each with its distance to the column [mm]."""
     tangled: tuple[str, str] | None = None
     """Two links neither of which can be inside the other; None if all links can be nested."""
     on: str = ""
-    """Axis of another stud, if this stud projects from the end of that stud and is one part with it; empty if it does
-    not. `topped` is True for a stud from whose end another stud projects.
-    """
+    """Axis of the stud from the end of which this stud projects as one part; empty for other columns."""
     topped: bool = False
+    """True for a stud from the end of which another stud projects."""
 
     @property
     def is_stud(self) -> bool:
@@ -111,18 +104,14 @@ class AxisColumn:
 
 @dataclass(frozen=True)
 class ColumnProblem:
-    """Input for the choice of the arbor, pipes and studs of one axis: discs on the axis, discs on other axes, and ends
-    at dials.
-    """
+    """Input for the choice of the arbor, pipes and studs of one axis."""
 
     axis: str
     at: Point
     discs: Sequence[StackDisc]
     others: Sequence[StackDisc]
     ends: Mapping[str, tuple[int, int]]
-    """Number of hands, one above the other, at the lower and the upper end of each link's arbor, by link; 0 if the end
-    does not extend beyond the stack.
-    """
+    """Number of hands at the lower and the upper end of each link's arbor, by link; 0 if the end is in the stack."""
     span: tuple[float, float]
     """Lowest and highest point of the stack, including the space of dials [mm]."""
     frame: str
@@ -136,9 +125,7 @@ class ColumnProblem:
 
     @cached_property
     def beside(self) -> list[tuple[StackDisc, float]]:
-        """Discs of other axes, each with its distance to the centre line of this axis [mm], which does not depend on
-        the positions of the plates.
-        """
+        """Discs of other axes, each with its distance to the centre line of this axis [mm]."""
         return beside(self.axis, self.at, self.others)
 
     def columns(self, places: FramePlaces) -> Iterator[AxisColumn]:
@@ -147,18 +134,14 @@ class ColumnProblem:
         return (self._thinned(bearing, places, order, tangled) for bearing in self._bearings(places))
 
     def bridged(self, bridge: tuple[float, float]) -> AxisColumn:
-        """Return the column (arbor and pipes) with a single bearing in a bridge, and with a collar on either side of
-        the bridge.
-        """
+        """Return the column (arbor and pipes) with its only bearing in a bridge, between two collars."""
         places = FramePlaces(bridge, bridge)
         return self._thinned(AxisBearing.BRIDGE, places, *self._ordered(places))
 
     def _thinned(
         self, bearing: AxisBearing, places: FramePlaces, order: Sequence[CoaxialLink], tangled: tuple[str, str] | None
     ) -> AxisColumn:
-        """Return the column with the given core diameter; if none is given, the column with the thickest standard core
-        that is clear of all obstacles. If none is clear, return the column with the default core.
-        """
+        """Return the column with the given core, or with the thickest standard core that is clear of all obstacles."""
         stud = bearing in (AxisBearing.BACK_STUD, AxisBearing.FRONT_STUD) or all(each.fixed for each in order)
 
         def column(core: float) -> AxisColumn:
@@ -189,24 +172,24 @@ class ColumnProblem:
         return [AxisBearing.THROUGH]
 
     def _ordered(self, places: FramePlaces) -> tuple[tuple[CoaxialLink, ...], tuple[str, str] | None]:
-        """Return the pieces from the innermost outwards, and two links neither of which fits into the other. The two
-        links are None if all links can be nested.
-        """
+        """Return the pieces from the innermost outwards, and two links that cannot be nested (None if all can)."""
         if not self._fixed_discs:
             return self._turning_order
+        middle = (self._fixed_discs[0].low + self._fixed_discs[-1].high) / 2
+        plates = sorted((places.back, places.front), key=lambda plate: abs(sum(plate) / 2 - middle))
         tangled = None
-        for still in self._fixed_pieces(places, [height for each in self._turning_pieces for height in each.hubs]):
+        for still in self._fixed_pieces(plates):
             order, clash = nested([*still, *self._turning_pieces])
             if not clash:
                 return order, None
             tangled = tangled or clash
-        return nested([self._single_piece(places), *self._turning_pieces])[0], tangled
+        # one piece, without its hub in the nearer plate, so that no pipe is considered to collide with it
+        whole = self._fixed_piece(self._fixed_discs, plates[0])
+        return nested([replace(whole, hubs=whole.hubs[:-1]), *self._turning_pieces])[0], tangled
 
     @cached_property
     def _turning_order(self) -> tuple[tuple[CoaxialLink, ...], tuple[str, str] | None]:
-        """Order of nesting of the turning pieces, which does not depend on the positions of the plates, and two links
-        that cannot be nested.
-        """
+        """Order of nesting of the turning pieces, and two links that cannot be nested, for all positions of plates."""
         return nested(self._turning_pieces)
 
     @cached_property
@@ -233,29 +216,18 @@ class ColumnProblem:
         """Discs of the fixed wheels, from the lowest to the highest."""
         return sorted((disc for disc in self.discs if disc.hub and disc.link == self.frame), key=lambda disc: disc.low)
 
-    def _single_piece(self, places: FramePlaces) -> CoaxialLink:
-        """Return the fixed wheels as one piece. The hub in the nearer plate is omitted, so that no pipe is considered
-        to collide with it.
-        """
-        held = self._fixed_piece(self._fixed_discs, self._nearer(places)[0])
-        return replace(held, hubs=held.hubs[:-1])
-
-    def _nearer(self, places: FramePlaces) -> list[tuple[float, float]]:
-        """Return the faces of both plates [mm]; the plate that is nearer to the fixed wheels is first."""
-        middle = (self._fixed_discs[0].low + self._fixed_discs[-1].high) / 2
-        return sorted((places.back, places.front), key=lambda plate: abs(sum(plate) / 2 - middle))
-
-    def _fixed_pieces(self, places: FramePlaces, hubs: Sequence[float]) -> Iterator[list[CoaxialLink]]:
-        """Yield the possible sets of pieces that hold the fixed wheels: one piece for all wheels, or two pieces, one of
-        which is next to its plate.
-
-        hubs   heights of all turning discs on the axis, none of which may be between a piece next to a plate and that
-        plate
-        """
-        own, plates = self._fixed_discs, self._nearer(places)
+    def _fixed_pieces(self, plates: Sequence[tuple[float, float]]) -> Iterator[list[CoaxialLink]]:
+        """Yield the possible sets of pieces that hold the fixed wheels, one or two pieces, each fixed in a plate."""
+        own = self._fixed_discs
         yield from ([self._fixed_piece(own, plate)] for plate in plates)
+        hubs = [height for each in self._turning_pieces for height in each.hubs]
         for plate in plates:
-            next_to = [disc for disc in own if not any(_between(height, disc, plate) for height in hubs)]
+            # no turning disc may be between a plate and the wheels that are fixed next to it
+            next_to = [
+                disc
+                for disc in own
+                if not any(min(disc.middle, plate[0]) < height < max(disc.middle, plate[1]) for height in hubs)
+            ]
             rest = [disc for disc in own if disc not in next_to]
             if next_to and rest:
                 yield from (
@@ -263,9 +235,7 @@ class ColumnProblem:
                 )
 
     def _fixed_piece(self, discs: Sequence[StackDisc], plate: tuple[float, float]) -> CoaxialLink:
-        """Return the fixed piece that extends from its discs into a plate, with hubs at the mid-heights of the discs
-        and the plate.
-        """
+        """Return the fixed piece of the given wheels, which extends into a plate; the plate is its last hub."""
         low, high = min(discs[0].low, plate[0]), max(discs[-1].high, plate[1])
         hubs = (*(disc.middle for disc in discs), sum(plate) / 2)
         return CoaxialLink(self.frame, hubs, low, high, True, tuple(discs))
@@ -296,9 +266,7 @@ class ColumnProblem:
         return with_hits(column, self.beside)
 
     def _core(self, order: Sequence[CoaxialLink], stud: bool) -> float:
-        """Return the diameter of the core [mm]: the given diameter, or the diameter at which every pipe fits into its
-        smallest wheel.
-        """
+        """Return the diameter of the core [mm], as given, or such that every pipe fits into its smallest wheel."""
         if self.core is not None:
             return self.core
         roots = [min((disc.root for disc in each.discs if disc.root), default=9.0) for each in order]
@@ -332,20 +300,13 @@ def _reach(order: Sequence[CoaxialLink]) -> list[tuple[float, float]]:
     return found[::-1]
 
 
-def _between(height: float, disc: StackDisc, plate: tuple[float, float]) -> bool:
-    """Return True if a height is between the middle of a disc and a plate."""
-    return min(disc.middle, plate[0]) < height < max(disc.middle, plate[1])
-
-
 def beside(axis: str, at: Point, discs: Iterable[StackDisc]) -> list[tuple[StackDisc, float]]:
     """Return the discs of other axes, each with its distance to the centre line of the axis [mm]."""
     return [(disc, disc.clearance_to(at, 0.0)) for disc in discs if disc.axis != axis]
 
 
 def with_hits(column: AxisColumn, others: Iterable[tuple[StackDisc, float]]) -> AxisColumn:
-    """Return the column with its obstacles, which are the discs of other axes, at the same heights, that are nearer
-    than the clearance.
-    """
+    """Return the column with its obstacles: discs of other axes at the same heights that are nearer than `APART`."""
     # most discs are too far off for the widest part, which saves computing the radius at their height
     room = APART + max([column.core, *(each.outer for each in column.members)]) / 2
     near = ((disc, free, column.radius(disc.low, disc.high)) for disc, free in others if free < room)
@@ -362,32 +323,25 @@ class CoaxialLink:
 
     link: str
     hubs: tuple[float, ...]
-    """Heights at which the piece carries discs [mm], and, for fixed wheels, the height of the plate that holds the
-    piece.
-    """
+    """Heights of the discs on the piece [mm], followed by the height of the plate that holds a fixed piece."""
     low: float
     high: float
     fixed: bool = False
     discs: tuple[StackDisc, ...] = ()
-    """Discs on the piece. The entries of `ends` (below, above) are True for the ends of the piece that extend beyond
-    the stack.
-    """
     ends: tuple[bool, bool] = (False, False)
-
-    def covers(self, other: CoaxialLink) -> bool:
-        """Return True if a hub of the other piece is between the ends of this piece, so that this piece cannot be a
-        pipe around the other.
-        """
-        return any(self.low < height < self.high for height in other.hubs)
+    """True for the lower and the upper end of the piece if that end extends beyond the stack."""
 
 
 def nested(links: Sequence[CoaxialLink]) -> tuple[tuple[CoaxialLink, ...], tuple[str, str] | None]:
-    """Return the links from the innermost outwards (topological order).
+    """Return pieces of coaxial links from the innermost outwards (topological order), and None.
 
-    The second item is None. If no such order exists, the links are returned as given, with the names of two links that
-    conflict.
+    If no such order exists, return the pieces as given, and the names of two links that cannot be nested.
     """
-    around = [{k for k, other in enumerate(links) if k != at and other.covers(each)} for at, each in enumerate(links)]
+    # a piece that covers a hub of another one cannot be a pipe around it
+    around = [
+        {k for k, other in enumerate(links) if k != at and any(other.low < hub < other.high for hub in each.hubs)}
+        for at, each in enumerate(links)
+    ]
     left, order = list(range(len(links))), list[int]()
     while left:
         # the next may contain no other: the longest first, fixed pieces last

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
 from math import dist
@@ -51,15 +51,14 @@ class CarrierSeat:
 
 @dataclass(frozen=True, slots=True)
 class CarriedAxis:
-    """Axis that a link carries, with the discs on it. `through` contains wheels of other links that have holes for its
-    arbor.
-    """
+    """Axis that a link carries, with the discs on it."""
 
     label: str
     carrier: str
     at: Point
     discs: tuple[StackDisc, ...]
     through: frozenset[str] = frozenset()
+    """Wheels of other links that have holes for the arbor of the axis."""
 
 
 def plate_seat(
@@ -70,10 +69,8 @@ def plate_seat(
     round_: bool = False,
     flange: bool = False,
 ) -> CarrierSeat:
-    """Return a seat on a plate at the given height, in a gap of the stack. The faces of the plate are nominal until
-    heights are set.
-    """
-    disc = replace(disc, low=height - _THIN, high=height + _THIN)
+    """Return a seat on a plate at the given height [mm], in a gap of the stack."""
+    disc = replace(disc, low=height - _THIN, high=height + _THIN)  # nominal faces until heights are set
     return CarrierSeat(disc.link, disc.name, (TurningPlate(disc, spots, ring, round_, flange),))
 
 
@@ -85,9 +82,7 @@ def carrier_seats(
     own: Sequence[StackDisc],
     slab_gaps: Sequence[float],
 ) -> list[CarrierSeat]:
-    """Return the possible seats of the axes that a link carries: first on its own wheels, then on a plate above or
-    below the wheels of these axes.
-    """
+    """Return the possible seats of the axes that a link carries: its own wheels, or a plate below or above the axes."""
     reach = max(dist(at, each.at) for each in carried) + BOSS
     fit = (disc for disc in own if disc.hub and disc.root > reach + WIDEST / 2)
     found = [CarrierSeat(link, disc.name, ()) for disc in fit]
@@ -120,34 +115,38 @@ def carried_columns(
     core: float | None,
     head: float = SHAKE + HEAD,
 ) -> list[AxisColumn]:
-    """Return the column (stud and pipes) of each axis in `axes`, all on one carrier, in positions relative to the
-    carrier.
+    """Return the column (stud and pipes) of each axis in `axes`, all on one carrier, in positions relative to it.
 
-    If `head` is 0, no space is reserved for the heads of studs. If two axes are so close that their studs would
-    intersect, the stud of the axis whose wheels are farther from the seat starts at the end of the other stud. Both
-    studs are then one stepped part.
+    If `head` is 0, no space is reserved for the heads of studs. If the studs of two axes would intersect, they become
+    one stepped part: the stud of the axis with wheels farther from the seat starts at the end of the other stud.
     """
     seen = [seen_from_carrier(seat.link, seat.at, disc) for disc in discs if disc.name != seat.name]
-    found = [_carried_column(axis, seat, seen, process, core, head) for axis in axes]
-    for one, other in combinations(range(len(axes)), 2):
-        near, far = sorted((one, other), key=lambda at: _away(axes[at], seat))
+    faces = seat.low, seat.high
+
+    def column(at: int, core: float | None) -> AxisColumn:
+        axis, others = axes[at], [disc for disc in seen if disc.name not in axes[at].through]
+        problem = ColumnProblem(axis.label, axis.at, axis.discs, others, {}, faces, "", process, core, head=head)
+        return next(problem.columns(FramePlaces(faces, faces)))
+
+    def away(at: int) -> float:
+        return min((abs(disc.middle - seat.middle) for disc in axes[at].discs), default=0.0)
+
+    found = [column(at, core) for at in range(len(axes))]
+    for pair in combinations(range(len(axes)), 2):
+        near, far = sorted(pair, key=away)
         apart, meeting = dist(axes[near].at, axes[far].at), (found[near].core + found[far].core) / 2 + _BLADE
         if 0 < apart < meeting and found[near].bearing is found[far].bearing and found[near].is_stud:
             thin = min(found[far].core, _STEP)
             # the end of the nearer stud contains the section of the farther one
             wide = round(thin + 2 * apart + _BLADE, 2)
-            foot = _carried_column(axes[near], seat, seen, process, wide, head)
-            end = _carried_column(axes[far], seat, seen, process, thin, head)
-            found[near], found[far] = _stepped(foot, end, _others(axes[near], seen))
+            others = [disc for disc in seen if disc.name not in axes[near].through]
+            found[near], found[far] = _stepped(column(near, wide), column(far, thin), others)
     return found
 
 
 def _stepped(near: AxisColumn, far: AxisColumn, others: Sequence[StackDisc]) -> tuple[AxisColumn, AxisColumn]:
-    """Return the column of the nearer axis, whose stud has no head, and the column of the farther axis, whose stud
-    starts at the end of the first stud.
-    """
-    up = max(each.high for each in far.members) > max(each.high for each in near.members)
-    if up:
+    """Return both columns, changed so that the stud of `far` starts at the end of the stud of `near`."""
+    if max(each.high for each in far.members) > max(each.high for each in near.members):
         end = max(each.high for each in near.members) + SHAKE / 2
         near, far = replace(near, high=end, topped=True), replace(far, low=end, on=near.axis)
     else:
@@ -156,31 +155,10 @@ def _stepped(near: AxisColumn, far: AxisColumn, others: Sequence[StackDisc]) -> 
     return with_hits(near, beside(near.axis, near.at, others)), with_hits(far, beside(far.axis, far.at, others))
 
 
-def _away(axis: CarriedAxis, seat: StackDisc) -> float:
-    """Return the axial distance between the seat and the nearest wheel on a carried axis [mm]; 0 if the axis has no
-    wheels.
-    """
-    return min((abs(disc.middle - seat.middle) for disc in axis.discs), default=0.0)
-
-
-def _carried_column(
-    axis: CarriedAxis, seat: StackDisc, seen: Sequence[StackDisc], process: Process, core: float | None, head: float
-) -> AxisColumn:
-    """Return the preferred column (stud and pipes) of a carried axis. The stud is fixed only in its seat."""
-    ends: Mapping[str, tuple[bool, bool]] = {}
-    faces = seat.low, seat.high
-    others = _others(axis, seen)
-    problem = ColumnProblem(axis.label, axis.at, axis.discs, others, ends, faces, "", process, core, head=head)
-    return next(problem.columns(FramePlaces(faces, faces)))
-
-
-def _others(axis: CarriedAxis, seen: Sequence[StackDisc]) -> list[StackDisc]:
-    return [disc for disc in seen if disc.name not in axis.through]
-
-
 def seen_from_carrier(carrier: str, middle: Point, disc: StackDisc) -> StackDisc:
-    """Return a disc as seen from a turning carrier. The discs of the carrier and on its axes are fixed; all other discs
-    revolve.
+    """Return a disc relative to a turning carrier: discs of the carrier and on its axes are fixed, all others revolve.
+
+    middle   position of the axis of the carrier [mm]
     """
     still = disc.link == carrier or (disc.carrier is not None and dist(disc.carrier, middle) < 1e-6)
     return replace(disc, carrier=None if still else middle)

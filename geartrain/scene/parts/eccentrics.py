@@ -1,11 +1,7 @@
 """Eccentrics, circles of pins in plates, and the cups of strain waves.
 
 An eccentric is a round disc, off centre on an arbor, on which a carried wheel turns. It replaces a stud if the carried
-axis is so close to the axis of its carrier that a wheel on the carried axis surrounds both axes. The wheel has a hole
-for the eccentric, and two washers keep it in place.
-
-Circles of pins are fixed in a plate: the pins of a pin ring, and the pins that move in round holes of a disc. The cup
-of a strain wave gear is the wall that connects a flexible wheel to the body that the wheel turns.
+axis is so close to the axis of its carrier that a wheel on the carried axis surrounds both axes.
 """
 
 from __future__ import annotations
@@ -106,8 +102,7 @@ class Eccentric:
     carried: str
     """Label of the axis about which the wheels in `wheels` turn."""
     middle: float = 0.0
-    """Radius of the central hole in wheels that turn on several eccentrics [mm]; 0 if they turn only on this eccentric.
-    """
+    """Radius of the central hole in wheels that turn on several eccentrics [mm]; 0 if they turn only on this one."""
     coupling: str = ""
     """Name of the coupling by parallel cranks of which the eccentric is a part; empty for other eccentrics."""
     wave: Wave | None = None
@@ -153,9 +148,7 @@ class Eccentric:
         return StackDisc(self.name, self.link, self.axis, self.at, low, high, reach, 0.0, root, True, carrier)
 
     def washers(self, disc: StackDisc, bore: float) -> Iterator[TurnedPart]:
-        """Yield a washer on the same arbor at each side of the wheels; yield nothing for a flexible wheel, which has a
-        cup wall.
-        """
+        """Yield a washer on the arbor at each side of the wheels, except for a flexible wheel, which has a cup wall."""
         if self.wave is not None:
             return
         radius = max(self.radius, self.wall + _OVER)
@@ -164,9 +157,7 @@ class Eccentric:
             yield TurnedPart(self.link, name, "collar", self.at, (ring,), "on the arbor, beside its eccentric")
 
     def faces(self, disc: StackDisc) -> tuple[float, float]:
-        """Return the heights of the faces of the eccentric [mm]: between its washers, or below the cup's wall in a
-        flexible wheel.
-        """
+        """Return the heights of the faces of the eccentric [mm]: between its washers, or below the wall of a cup."""
         if self.wave is not None:
             return disc.low + ROOM, disc.high - ROOM - self.wave.length - SHAKE
         return disc.low + HEAD, disc.high - HEAD
@@ -195,9 +186,7 @@ def too_thin(eccentric: Eccentric, arbor: float) -> Problem | None:
 
 
 def on_eccentrics(discs: Sequence[StackDisc], eccentrics: Sequence[Eccentric]) -> Iterator[StackDisc]:
-    """Yield all discs, in which wheels that turn on eccentrics have central holes, followed by the discs of the
-    eccentrics.
-    """
+    """Yield all discs, with central holes in wheels that turn on eccentrics, and then the discs of the eccentrics."""
     for disc in discs:
         own = [each for each in eccentrics if disc.name in each.wheels]
         yield replace(disc, inner=own[0].middle or own[0].radius) if own else disc
@@ -274,10 +263,9 @@ def pin_seats(
     slab_gaps: Sequence[float],
     carried: Sequence[CarriedAxis] = (),
 ) -> list[CarrierSeat]:
-    """Return the possible seats of a circle of pins on a plate next to the disc with the holes, or of a cup on its
-    bottom.
+    """Return the possible seats of a circle of pins on a plate next to the discs in `slots`, or of a cup on its bottom.
 
-    The plate is above the disc, or on the side of the disc at which the plate carries axes.
+    The plate is above the discs, or on the side of the discs at which the plate carries axes.
     """
     low, high = min(disc.low for disc in slots), max(disc.high for disc in slots)
     others = [disc.middle for each in carried for disc in each.discs]

@@ -1,11 +1,7 @@
 """Plan of plates, pillars, arbors, pipes and studs of a train, with their positions in the stack.
 
-The two plates of the frame, and the plates of carriers, are tried in every gap between levels. For each axis the best
-bearing is selected, and the obstacles are counted. Among the positions with the fewest obstacles, the position with the
-lowest cost of studs and of arbors that pass through a plate is selected.
-
-Plates of shafts are either arms, which bypass obstacles, or flanges for clutches. The heights of wheels in the layout
-are changed to heights as built, which include space for all plates.
+The two plates of the frame, and the plates of carriers, are tried in every gap between levels. Among the positions with
+the fewest obstacles, the position with the lowest cost of studs and of arbors that pass through a plate is selected.
 """
 
 from __future__ import annotations
@@ -55,9 +51,7 @@ _INSIDE, _OUTSIDE, _PASSING = 30, 15, 11  # costs of a stud between the plates o
 
 @dataclass(frozen=True, slots=True)
 class PlateChoice:
-    """Choice of the heights of the frame plates, of the seats of carriers and of all columns, with the cost of this
-    choice.
-    """
+    """Choice of the heights of the frame plates, of the seats of carriers and of all columns, with its cost."""
 
     places: FramePlaces
     seats: tuple[CarrierSeat, ...]
@@ -65,9 +59,7 @@ class PlateChoice:
     outside: int
     """1 if the train extends above the front plate, -1 if it extends below the back plate, 0 if neither."""
     cost: tuple[int, int]
-    """Number of obstacles on all axes, including crossing wheels that a plate would cut, followed by the cost of studs
-    and of arbors that pass through a plate.
-    """
+    """Number of obstacles, including crossing wheels that a plate would cut; cost of studs and of passing arbors."""
 
 
 def best_places(
@@ -115,27 +107,21 @@ def best_places(
 def _columns(
     problems: list[ColumnProblem], places: FramePlaces, cost: tuple[int, int], bound: tuple[float, int]
 ) -> tuple[dict[str, AxisColumn], tuple[int, int]] | None:
-    """Return the best column of every axis, by axis, and the total cost of these columns; None if the cost reaches the
-    bound.
-
-    The axis at which the cost reaches the bound is moved to the front of `problems` in place, because it is likely to
-    exclude the next positions of the plates too.
-    """
+    """Return the best column of every axis, by axis, and their total cost; None if the cost reaches the bound."""
     found: dict[str, AxisColumn] = {}
     for at, problem in enumerate(problems if cost < bound else ()):
         column = found[problem.axis] = best_column(problem.columns(places))
-        cost = cost[0] + obstacles([column]), cost[1] + _effort(column, places)
+        if column.is_stud:
+            inside = any(places.back[1] < each.high and each.low < places.front[0] for each in column.members)
+            effort = _INSIDE if inside else _OUTSIDE
+        else:
+            effort = _PASSING * sum(column.passes(plate) for plate in (places.back, places.front))
+        cost = cost[0] + obstacles([column]), cost[1] + effort
         if cost >= bound:
+            # this axis comes first from now on, as it is likely to exclude the next positions of the plates too
             problems.insert(0, problems.pop(at))
             break
     return (found, cost) if cost < bound else None
-
-
-def _effort(column: AxisColumn, places: FramePlaces) -> int:
-    if column.is_stud:
-        inside = any(places.back[1] < each.high and each.low < places.front[0] for each in column.members)
-        return _INSIDE if inside else _OUTSIDE
-    return _PASSING * sum(column.passes(plate) for plate in (places.back, places.front))
 
 
 def obstacles(columns: Iterable[AxisColumn]) -> int:
@@ -151,10 +137,7 @@ def with_discs(axis: ColumnProblem, discs: Sequence[StackDisc]) -> ColumnProblem
 
 
 def best_column(columns: Iterable[AxisColumn]) -> AxisColumn:
-    """Return the first column without an obstacle; if all have obstacles, return the first column.
-
-    The iterable is read only as far as necessary.
-    """
+    """Return the first column without an obstacle; if all have obstacles, return the first column."""
     first = None
     for each in columns:
         if not each.hit and not each.tangled:
@@ -181,9 +164,7 @@ class FramePlan:
     core: float | None
     """Diameter of all arbors [mm]; None if it may be chosen for each axis."""
     ends: Mapping[str, tuple[int, int]]
-    """Number of hands, one above the other, at the lower and the upper end of each link's arbor, by link; 0 if the end
-    does not extend to a dial.
-    """
+    """Number of hands at the lower and the upper end of each link's arbor, by link; 0 if the end is not at a dial."""
 
     @property
     def has_sized_dials(self) -> bool:
@@ -202,13 +183,10 @@ class FramePlan:
 
     @cached_property
     def choice(self) -> PlateChoice:
-        """Positions of the plates with the fewest obstacles; ties are broken in favour of the lowest cost of studs.
-
-        If the arbor of a link extends to a dial but cannot be nested, the link gets an arm that is connected to it by a
-        bar, if this reduces the number of obstacles.
-        """
+        """Positions of the plates with the fewest obstacles; ties are broken in favour of the lowest cost of studs."""
         first = self._best([])
         tangled = [each for each in first.columns if each.tangled]
+        # a link that extends to a dial but cannot be nested may get an arm, which a bar connects to the link
         arms = [[arm] for column in tangled for arm in arm_seats(self.stack, column, self.ends, self._gaps)]
         return min(first, self._best(arms), key=lambda each: each.cost[0]) if arms else first
 
@@ -329,9 +307,7 @@ class FramePlan:
 
     @cached_property
     def columns(self) -> tuple[AxisColumn, ...]:
-        """Column (arbor or stud, with pipes) of each axis of the frame. It is supported by a bridge if no plate can
-        support the axis.
-        """
+        """Column (arbor or stud, with pipes) of each axis of the frame, in a bridge if no plate can support it."""
         found = [best_column(axis.columns(self.places)) for axis in self._built_axes(self.bridge)]
         if self.bridge is None:
             return tuple(found)
@@ -344,8 +320,7 @@ class FramePlan:
 
     @cached_property
     def bridge(self) -> tuple[float, float] | None:
-        """Heights of the faces of a plate beyond all wheels on one side [mm], which supports an axis that the frame
-        plates cannot support.
+        """Heights of the faces of a plate beyond all wheels, for an axis that the frame plates cannot support [mm].
 
         The value is None if no axis needs a bridge, or if no bridge can support the axis.
         """
@@ -409,9 +384,7 @@ class FramePlan:
 
     @cached_property
     def cut(self) -> frozenset[str]:
-        """Names of the pinions that are cut from the solid arbor, because there is too little material between their
-        roots and the arbor.
-        """
+        """Names of the pinions that are cut from the solid arbor, because their roots are too close to the arbor."""
         wheels = self.stack.layout.wheels
         return frozenset(
             disc.name
@@ -434,9 +407,7 @@ class FramePlan:
 
     @cached_property
     def layout(self) -> Layout:
-        """Layout in which wheels are moved along the normal of the plates to their heights as built. Wheels on crossing
-        axes are moved together with their mates.
-        """
+        """Layout with wheels at their heights as built; wheels on crossing axes are moved together with their mates."""
         return self.stack.raised(self.heights.shift)
 
     @cached_property
@@ -445,9 +416,7 @@ class FramePlan:
         return replace(self.stack, layout=self.layout).across
 
     def across(self, low: float, high: float) -> list[tuple[Point, float]]:
-        """Return circles that contain the wheels that are not upright between two heights, each as centre and radius
-        [mm].
-        """
+        """Return circles (centre and radius [mm]) around those wheels on inclined axes that are between two heights."""
         return [circle for wheel in self.wheels_across if wheel.is_between(low, high) for circle in wheel.circles]
 
     @cached_property
@@ -468,16 +437,9 @@ class FramePlan:
                 what = f"the {who} {'passes through' if room < 0 else 'is too close to'} '{disc.name}'"
                 why = f"the clearance is {room:.3f} mm, and at least {APART:g} mm is required"
                 yield Problem(what, why, "move the axis, change the order of the wheels, or use a smaller --bore")
-        yield from self._thin_roots()
-        for each in self.stack.eccentrics:
-            if each.name in self.members and (problem := too_thin(each, self.members[each.name].outer)):
-                yield problem
-
-    def _thin_roots(self) -> Iterator[Problem]:
         for name, member in self.members.items():
-            place = self.stack.layout.wheels.get(name)
             root = next(disc.root for disc in member.discs if disc.name == name)
-            if place is not None and root < member.outer / 2 - 1e-9:
+            if name in self.stack.layout.wheels and root < member.outer / 2 - 1e-9:
                 shaft = "pipe" if member.inner else "arbor"
                 what = f"wheel '{name}' is too small for its {shaft}"
                 why = (
@@ -485,6 +447,9 @@ class FramePlan:
                     f"{member.outer:g} mm"
                 )
                 yield Problem(what, why, "use a smaller --bore, or a larger module")
+        for each in self.stack.eccentrics:
+            if each.name in self.members and (problem := too_thin(each, self.members[each.name].outer)):
+                yield problem
 
 
 # ------------------------------------------------------------------------------------------------------ seats of shafts
@@ -497,9 +462,7 @@ _ROOM = 4.0  # mm of a disc beyond all others on its axis, for a bar
 def arm_seats(
     stack: FrameStack, column: AxisColumn, ends: Mapping[str, tuple[int, int]], slab_gaps: Sequence[float]
 ) -> Iterator[CarrierSeat]:
-    """Yield the seats of arms beyond all wheels, for links that extend to a dial and cannot be nested. Each arm is
-    connected to its link by a bar.
-    """
+    """Yield the seats of arms beyond all wheels, for links that extend to a dial and cannot be nested."""
     for link in column.tangled or ():
         below, above = ends.get(link, (0, 0))
         about = [disc for disc in stack.discs if disc.axis == column.axis and disc.hub]
@@ -514,9 +477,7 @@ def arm_seats(
 
 
 def flange_seats(stack: FrameStack, slab_gaps: Sequence[float]) -> Iterator[list[CarrierSeat]]:
-    """Yield the possible seats of a flange, below or above all wheels, for each shaft that only has brakes or
-    clutches.
-    """
+    """Yield the possible seats of a flange, below or above all wheels, for each shaft with only brakes or clutches."""
     train = stack.train
     held = {link for each in train.declaration.clutches.values() for link in each.locks or (each.fixes,)}
     bearing = {axis.carrier for axis in stack.layout.axes.values()}
@@ -540,10 +501,9 @@ class StackHeights:
     """Heights of all parts as built, with plates inserted into the stack of the layout."""
 
     starts: tuple[float, ...]
-    """Height of the lower face of each slab in the layout [mm]; `shifts` are the distances by which the slabs are moved
-    up [mm].
-    """
+    """Height of the lower face of each slab in the layout [mm]."""
     shifts: tuple[float, ...]
+    """Distance by which each slab is moved up [mm]."""
     places: FramePlaces
     plates: dict[str, tuple[float, float]]
 

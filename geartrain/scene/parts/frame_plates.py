@@ -63,9 +63,7 @@ class FlatPlate:
 
 
 def _windows(eccentric: Eccentric, bore: float) -> Iterator[Hole]:
-    """Yield six or more holes between the lobes of a wide wave generator, around a central hole of the diameter `bore`
-    [mm].
-    """
+    """Yield six or more holes between the lobes of a wide wave generator with a central hole of `bore` [mm]."""
     wave, radius = eccentric.wave, eccentric.radius
     if wave is None or radius < _WIDE * bore:
         return
@@ -104,9 +102,7 @@ class FramePlates:
 
     @cached_property
     def circles(self) -> list[tuple[Point, float]]:
-        """Circles that contain the parts that turn between the plates, for all positions of carriers, each as centre
-        and radius [mm].
-        """
+        """Circles (centre and radius [mm]) that the parts between the plates sweep in all positions of carriers."""
         low, high = self.plan.places.back[0], self.plan.places.front[1]
         return [swept_circle(disc) for disc in self.plan.discs if low < disc.middle < high]
 
@@ -173,9 +169,7 @@ class FramePlates:
 
     @cached_property
     def sides(self) -> Mapping[str, tuple[float, float]]:
-        """Heights of the faces of the plates by name [mm]. The front plate is the plate nearer to the dials or the
-        viewer.
-        """
+        """Heights of the faces of each plate [mm], by name; the front plate is nearer to the dials or the viewer."""
         places, outside = self.plan.places, self.plan.choice.outside or self.plan.stack.layout.front
         names = ("back", "front") if outside > 0 else ("front", "back")
         return dict(zip(names, (places.back, places.front), strict=True))
@@ -203,9 +197,7 @@ class FramePlates:
         return [hole for column in self.plan.columns if (hole := self._bearing(column, faces))]
 
     def _bearing(self, column: AxisColumn, faces: tuple[float, float]) -> Hole | None:
-        """Return the hole in a plate that supports the arbor of an axis or lets it pass; None if the plate has no such
-        hole.
-        """
+        """Return the hole in a plate for the arbor of an axis; None if the plate has no such hole."""
         process = self.plan.process
         middle = sum(faces) / 2
         passing = [
@@ -225,16 +217,13 @@ class FramePlates:
         return Hole(column.axis, column.at, column.core + process.press) if own == faces else None
 
     def seat_holes(self, seat: str) -> list[Hole]:
-        """Return the holes for studs, posts, pins and eccentrics in a wheel or plate that carries axes. The hole for
-        its own arbor is not included.
-        """
-        return [*self._disjoint(self._seat_holes(seat), self._hub(seat)), *self._eccentric_holes(seat)]
-
-    def _eccentric_holes(self, wheel: str) -> Iterator[Hole]:
-        """Yield the holes of a wheel that turns on several eccentrics."""
-        for each in self.plan.stack.eccentrics:
-            if each.middle and wheel in each.wheels:
-                yield Hole("eccentric", each.centre, running_hole(each, self.plan.process))
+        """Return the holes for studs, posts, pins and eccentrics in a wheel or plate, except that for its own arbor."""
+        eccentric = [
+            Hole("eccentric", each.centre, running_hole(each, self.plan.process))
+            for each in self.plan.stack.eccentrics
+            if each.middle and seat in each.wheels  # a wheel that turns on several eccentrics
+        ]
+        return [*self._disjoint(self._seat_holes(seat), self._hub(seat)), *eccentric]
 
     def _hub(self, seat: str) -> list[Hole]:
         member = self.plan.members.get(seat)
@@ -262,9 +251,7 @@ class FramePlates:
     # ---------------------------------------------------------------------------------------------- pillars and posts
 
     def turned(self) -> Iterator[TurnedPart]:
-        """Yield all turned parts: the parts of axes, sleeves, barrels, washers, cup walls, pillars, posts, pins and
-        feet.
-        """
+        """Yield all turned parts: rods, sleeves, barrels, washers, walls of cups, pillars, posts, pins and feet."""
         plan = self.plan
         for column in plan.columns:
             bridged = column.bearing is AxisBearing.BRIDGE and plan.bridge is not None
@@ -299,12 +286,12 @@ class FramePlates:
     @cached_property
     def pins(self) -> tuple[TurnedPart, ...]:
         """Pins that are fixed in plates, as turned parts."""
-        return tuple(part for each in self.standing for part in self._standing(each))
-
-    def _standing(self, pins: StandingPins) -> Iterator[TurnedPart]:
-        wheel = self._disc(pins.wheel)
-        faces = self.plan.heights.plates[pins.seat] if pins.seat else nearer_plate(self.plan, wheel.middle)
-        return pins.parts(faces, wheel, self.plan.process.joint)
+        found: list[TurnedPart] = []
+        for pins in self.standing:
+            wheel = self._disc(pins.wheel)
+            faces = self.plan.heights.plates[pins.seat] if pins.seat else nearer_plate(self.plan, wheel.middle)
+            found += pins.parts(faces, wheel, self.plan.process.joint)
+        return tuple(found)
 
     @cached_property
     def posts(self) -> tuple[TurnedPart, ...]:

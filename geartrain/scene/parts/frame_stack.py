@@ -19,7 +19,7 @@ import numpy as np
 from geartrain.errors import Problem
 from geartrain.kinematics.buildability.equal_planets import ON_ECCENTRIC
 from geartrain.numerics.vectors import Vector, basis, dot, plus, scaled, size
-from geartrain.scene.bodies import BentWheel, bent_wheels
+from geartrain.scene.bodies import bent_wheels
 from geartrain.scene.joints import coupling_sizes, pin_and_hole
 from geartrain.scene.layout.declared_geometry import upwards
 from geartrain.scene.parts.arbor_columns import HEAD_ROOM
@@ -69,9 +69,7 @@ class AcrossWheel:
     """
 
     def passage(self, faces: tuple[float, float]) -> Passage | None:
-        """Return the passage that the wheel requires in a plate; None if the wheel does not intersect the plate or has
-        no section.
-        """
+        """Return the passage of the wheel through a plate; None if it does not meet the plate or has no section."""
         if self.section is None:
             return None
         (x, y), (u, v), height, reach, half = self.section
@@ -86,9 +84,7 @@ class AcrossWheel:
 
 
 def find_normal(train: GearTrain, layout: Layout) -> Vector | None:
-    """Return the direction of the axes on which most wheels of the frame are mounted; None if the frame carries no
-    wheel.
-    """
+    """Return the direction of the axes on which most wheels of the frame are mounted; None if there are none."""
     count: Counter[Vector] = Counter()
     for place in layout.wheels.values():
         axis = layout.axes[place.axis]
@@ -100,9 +96,7 @@ def find_normal(train: GearTrain, layout: Layout) -> Vector | None:
 
 @dataclass(frozen=True)
 class FrameStack:
-    """Train with its positions in the plan view of its plates. `core` is the diameter of all arbors [mm]; None if it
-    may be chosen.
-    """
+    """Train with its positions in the plan view of its plates."""
 
     train: GearTrain
     layout: Layout
@@ -110,6 +104,7 @@ class FrameStack:
     normal: Vector
     """Unit vector perpendicular to the plates, along which heights increase."""
     core: float | None = None
+    """Diameter of all arbors [mm]; None if it may be chosen."""
 
     @property
     def frame(self) -> str:
@@ -118,9 +113,7 @@ class FrameStack:
 
     @cached_property
     def turn(self) -> Floats:
-        """Rotation matrix, shape (3, 3). Its columns are the rightward direction, the upward direction and the normal
-        of the stack.
-        """
+        """Rotation matrix, shape (3, 3), with the rightward and upward directions and the normal as its columns."""
         return np.column_stack([*basis(self.normal), self.normal])
 
     def in_space(self, at: Point, height: float = 0.0) -> Vector:
@@ -164,14 +157,10 @@ class FrameStack:
         }
 
     def carrier_axis(self, axis: AxisPlace) -> str | None:
-        """Return the axis of the frame about which an upright axis is carried; None if the axis is not carried in this
-        way.
-        """
-        own = (
-            None
-            if axis.carrier == self.frame or not self.is_upright(axis)
-            else self.train.kinematics.tree.axis(axis.carrier)
-        )
+        """Return the axis of the frame about which an upright axis is carried; None if there is no such axis."""
+        if axis.carrier == self.frame or not self.is_upright(axis):
+            return None
+        own = self.train.kinematics.tree.axis(axis.carrier)
         return own if own in self.axes else None
 
     @cached_property
@@ -225,9 +214,7 @@ class FrameStack:
 
     @cached_property
     def pin_circles(self) -> dict[str, PinCircle]:
-        """Circles of pins in round holes, by coupling. A circle is included only if the link of its pins has no wheel
-        of sufficient size.
-        """
+        """Circles of pins in round holes, by coupling, if the link of the pins has no wheel of sufficient size."""
         return {each.name: each for each in find_pin_circles(self)}
 
     @cached_property
@@ -254,9 +241,7 @@ class FrameStack:
 
     @cached_property
     def tied(self) -> dict[str, tuple[float, float]]:
-        """Heights between which a plate would separate wheels that are not upright from their mates [mm], by axis of
-        these wheels.
-        """
+        """Heights between which no plate may be, as wheels on a crossing axis mesh there [mm], by axis."""
         heights: dict[str, list[float]] = {}
         upright = {disc.name: disc for disc in self.discs}
         for gear in self.train.declaration.gears:
@@ -295,8 +280,7 @@ class FrameStack:
         return AcrossWheel(place.wheel, low, high, circles, section)
 
     def raised(self, shift: Callable[[float], float]) -> Layout:
-        """Return the layout with each wheel shifted along the normal of the stack. Wheels whose axes are not parallel
-        to this normal are shifted together with the wheels that they mesh with.
+        """Return the layout with wheels shifted along the normal; wheels on other axes are shifted with their mates.
 
         shift   function of the height [mm] that returns the shift [mm]
         """
@@ -333,12 +317,9 @@ class FrameStack:
         for label, axis in self.layout.axes.items():
             used = any(place.axis == label for place in self.layout.wheels.values())
             if used and label not in self.axes and label not in self.carried and label not in self.on_eccentrics:
-                upright = self.is_upright(axis)
-                why = (
-                    f"its carrier '{axis.carrier}' does not turn about a frame axis perpendicular to the plates"
-                    if upright
-                    else "it is not perpendicular to the plates"
-                )
+                why = "it is not perpendicular to the plates"
+                if self.is_upright(axis):
+                    why = f"its carrier '{axis.carrier}' does not turn about a frame axis perpendicular to the plates"
                 what = f"axis '{label}' has no bearings"
                 yield Problem(what, why, f"make a bracket for it on '{axis.carrier}' by hand")
 
@@ -379,7 +360,11 @@ def find_eccentrics(stack: FrameStack) -> Iterator[Eccentric]:
         if dist(at, discs[0].at) >= ON_ECCENTRIC * min(disc.root for disc in discs):
             continue
         if bent := next((waves[disc.name] for disc in discs if disc.name in waves), None):
-            found = [_wave(stack, bent, label, at)]
+            (x, y), blank = _place(stack, label), stack.blanks[bent.wheel]
+            thin, towards = wall(blank.pitch_radius), atan2(y - at[1], x - at[0])
+            wave = Wave(size(bent.offset), bent.lobes, thin, towards, CUP * 2 * blank.pitch_radius)
+            name, radius = f"{bent.link} wave", blank.root_radius - thin
+            found = [Eccentric(name, bent.link, bent.axis, at, at, radius, (bent.wheel,), label, wave=wave)]
         elif cranks := list(_cranks(stack, axis.carrier, own)):
             found = list(_on_cranks(stack, cranks, at, label, discs))
         else:
@@ -387,15 +372,6 @@ def find_eccentrics(stack: FrameStack) -> Iterator[Eccentric]:
         for each in found:
             count[each.name] += 1
             yield each if count[each.name] == 1 else replace(each, name=f"{each.name} {count[each.name]}")
-
-
-def _wave(stack: FrameStack, bent: BentWheel, label: str, at: Point) -> Eccentric:
-    """Return the wave generator of a strain wave gear as an eccentric."""
-    (x, y), blank = _place(stack, label), stack.blanks[bent.wheel]
-    thin = wall(blank.pitch_radius)
-    wave = Wave(size(bent.offset), bent.lobes, thin, atan2(y - at[1], x - at[0]), CUP * 2 * blank.pitch_radius)
-    name, radius = f"{bent.link} wave", blank.root_radius - thin
-    return Eccentric(name, bent.link, bent.axis, at, at, radius, (bent.wheel,), label, wave=wave)
 
 
 def _place(stack: FrameStack, label: str) -> Point:
@@ -417,9 +393,7 @@ def _arbor(stack: FrameStack, link: str) -> float | None:
 
 
 def _cranks(stack: FrameStack, link: str, own: str) -> Iterator[tuple[str, str, str]]:
-    """Yield the link, the axis and the coupling of each parallel crank that a link represents and that is carried about
-    the axis of this link.
-    """
+    """Yield the link, axis and coupling of each parallel crank that the carrier `link` on the axis `own` represents."""
     tree = stack.train.kinematics.tree
     for coupling in stack.train.declaration.pin_couplings:
         pair = coupling.pin, coupling.slot

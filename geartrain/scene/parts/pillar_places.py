@@ -40,13 +40,10 @@ def pillar_places(
 ) -> list[Point]:
     """Return four, three or five positions of pillars [mm], in this order of preference.
 
-    The polygon of the positions contains all axes and has the shortest perimeter. If no such polygon exists, the result
-    contains up to five positions that are far apart.
-
-    In each direction from the middle of the axes, the candidate is the innermost position with free space outwards.
-    Candidates that do not satisfy `suits` are used only if too few candidates satisfy it. For a single axis, many
-    polygons have nearly the same perimeter, some of them with three positions at one end and one at the other end. If
-    `even` is True, the positions surround a single axis evenly, and their polygon is wider than high.
+    They are the polygon around all axes with the shortest perimeter or, if there is none, up to five positions that are
+    far apart. In each direction from the middle of the axes, the candidate is the innermost position with free space
+    outwards. Candidates that do not satisfy `suits` are used only if too few satisfy it. If `even` is True, the
+    positions surround a single axis evenly, and their polygon is wider than high.
     """
     points = np.array(axes, dtype=float)
     middle = (points.min(axis=0) + points.max(axis=0)) / 2
@@ -64,9 +61,7 @@ def pillar_places(
 
 
 def far_apart(spots: Sequence[Point], first: Point, count: int) -> list[Point]:
-    """Return `count` positions: the first position, then repeatedly the position that is farthest from those already
-    chosen (greedy dispersion).
-    """
+    """Return `count` positions: the first, then repeatedly the one farthest from those chosen (greedy dispersion)."""
     taken = [first]
     while len(taken) < min(count, len(set(spots))):
         taken.append(max(spots, key=lambda each: min(dist(each, other) for other in taken)))
@@ -86,9 +81,7 @@ def _free(middle: Floats, angle: float, blocked: Sequence[tuple[Floats, float]])
 
 
 def _around(tried: Floats, axes: Floats, count: int, minimum_edge: float, even: bool) -> Floats | None:
-    """Return the polygon of `count` candidates with the shortest perimeter around all axes, shape (count, 2), relative
-    to the middle of the axes; None if none exists.
-    """
+    """Return the shortest polygon of `count` candidates around all axes, shape (count, 2); None if none exists."""
     best, minimum = None, np.inf
     steps = tried[None, :, :] - tried[:, None, :]
     cross = steps[:, :, None, 0] * (axes[None, None, :, 1] - tried[:, None, None, 1])
@@ -109,9 +102,7 @@ def _around(tried: Floats, axes: Floats, count: int, minimum_edge: float, even: 
 
 
 def clear_of(at: Point, circles: Sequence[tuple[Point, float]]) -> float:
-    """Return the minimum distance from a point to the circles [mm]. It is negative inside a circle, and infinite if
-    there are no circles.
-    """
+    """Return the minimum distance from a point to the circles [mm]: negative in a circle, infinite without circles."""
     return min((dist(at, centre) - reach for centre, reach in circles), default=np.inf)
 
 
@@ -126,16 +117,14 @@ _RIM_PART = 0.3  # radius of the end of a post divided by the width of a ring's 
 
 
 def ring_posts(plan: FramePlan) -> tuple[TurnedPart, ...]:
-    """Return the parts that hold all rings of a plan: posts in a frame plate, and drums that connect turning rings to
-    their discs.
-    """
+    """Return the parts that hold all rings: posts in a frame plate, and drums between turning rings and their discs."""
     found: list[TurnedPart] = []
     discs = {plate.ring: plate.disc.name for plate in plan.turning if plate.ring}
     for disc in plan.discs:
         if disc.hub:
             continue
         if disc.link == plan.stack.frame:
-            found += _posts(plan, disc, nearer_plate(plan, disc.middle))
+            found += _posts(plan, disc)
         elif disc.name in discs:
             wall = Band(*_between(disc, plan.heights.plates[discs[disc.name]]), disc.outer, disc.root)
             found.append(TurnedPart(disc.link, f"{disc.name} drum", "drum", disc.at, (wall,), plan.process.joint))
@@ -152,28 +141,21 @@ def _between(ring: StackDisc, plate: tuple[float, float]) -> tuple[float, float]
     return (plate[1], ring.low) if plate[1] < ring.low else (ring.high, plate[0])
 
 
-def _posts(plan: FramePlan, ring: StackDisc, plate: tuple[float, float]) -> Iterator[TurnedPart]:
-    """Yield the posts of one ring in a frame plate, placed with clearance from other parts."""
-    radius = min(_RIM_PART / TENON * (ring.outer - ring.root), _POST_WIDEST)
-    spots = _spots(plan, ring, plate, (ring.outer + ring.root) / 2, radius)
+def _posts(plan: FramePlan, ring: StackDisc) -> Iterator[TurnedPart]:
+    """Yield three equally spaced posts of a ring in the nearer frame plate, with clearance from other parts."""
+    plate, radius = nearer_plate(plan, ring.middle), min(_RIM_PART / TENON * (ring.outer - ring.root), _POST_WIDEST)
+    start, end = sorted((sum(plate) / 2, ring.middle))
+    between = [disc for disc in plan.discs if start < disc.middle < end and disc.name != ring.name]
     low, high, inner = min(plate[0], ring.low), max(plate[1], ring.high), _between(ring, plate)
+    circles = [swept_circle(disc) for disc in between]
+    circles += [(column.at, column.radius(low, high)) for column in plan.columns]
+    away = (ring.outer + ring.root) / 2
+    tried = [evenly(ring.at, away, _POSTS, 2 * pi * k / _TRIED / _POSTS) for k in range(_TRIED)]
+    # clearance above 0.5 mm does not matter: the first such rotation is used, so that the result is stable
+    spots = max(tried, key=lambda spots: min(0.5, *(clear_of(at, circles) - radius for at in spots)))
     for number, at in enumerate(spots, 1):
         bands = Band(low, inner[0], radius * TENON), Band(*inner, radius), Band(inner[1], high, radius * TENON)
         yield TurnedPart(ring.link, f"{ring.name} post {number}", "post", at, bands, plan.process.joint, (ring.name,))
-
-
-def _spots(plan: FramePlan, ring: StackDisc, plate: tuple[float, float], away: float, radius: float) -> list[Point]:
-    """Return three equally spaced positions on a rim. Their clearance from arbors and other parts is the maximum, up to
-    0.5 mm.
-    """
-    low, high = sorted((sum(plate) / 2, ring.middle))
-    between = [disc for disc in plan.discs if low < disc.middle < high and disc.name != ring.name]
-    circles = [swept_circle(disc) for disc in between]
-    reach = min(plate[0], ring.low), max(plate[1], ring.high)
-    circles += [(column.at, column.radius(*reach)) for column in plan.columns]
-    tried = [evenly(ring.at, away, _POSTS, 2 * pi * k / _TRIED / _POSTS) for k in range(_TRIED)]
-    # more than 0.5 mm does not matter: the first such rotation is used, so that the result is stable
-    return max(tried, key=lambda spots: min(0.5, *(clear_of(at, circles) - radius for at in spots)))
 
 
 def blocked_posts(plan: FramePlan, posts: Iterable[TurnedPart]) -> Iterator[Problem]:

@@ -50,9 +50,7 @@ USUAL = "hand"
 
 
 def process_named(name: str | None) -> Process:
-    """Return the process with a given name, or the default process if the name is None; raise `QuestionError` if the
-    name is unknown.
-    """
+    """Return the process with a given name, the default process for None; raise `QuestionError` if it is unknown."""
     wanted = USUAL if name is None else name
     if wanted not in PROCESSES:
         what, fix = f"'{wanted}' is not a manufacturing process", suggest(wanted, PROCESSES)

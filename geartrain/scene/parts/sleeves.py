@@ -29,10 +29,9 @@ _FREE = 0.3  # mm between a collet and the next turning part
 def sleeves(plan: FramePlan, held: str = "") -> Iterator[TurnedPart]:
     """Yield the spacers and collets of all arbors and pipes of a plan, if there is space for them.
 
-    Links with pins or slots have no spacers or collets, because the pins move next to the wheels.
-
     held   name of a wheel that needs no collet because a barrel is fixed to it
     """
+    # links with pins or slots have none, because the pins move next to the wheels
     coupled = {link for each in plan.stack.train.declaration.pin_couplings for link in each.ends}
     for column in plan.all_columns:
         around = _Obstacles(plan, column)
@@ -41,26 +40,10 @@ def sleeves(plan: FramePlan, held: str = "") -> Iterator[TurnedPart]:
                 yield from _MemberSleeves(around, member).all(held)
 
 
-def free_beside(
-    plan: FramePlan, column: AxisColumn, member: ColumnMember, name: str, size: tuple[float, float]
-) -> tuple[float, float] | None:
-    """Return the heights of the ends of a drum next to a wheel with clearance to all other parts [mm]; None if it does
-    not fit.
-
-    size   radius and maximum length of the drum [mm]; the length is reduced to a quarter if necessary
-    """
-    around, (radius, longest) = _Obstacles(plan, column), size
-    disc = next(each for each in member.discs if each.name == name)
-    places = _beside(disc, longest, 0.0)
-    return next((faces for faces, room in places if around.is_free(member, *room, radius)), None)
-
-
 def _beside(
     disc: StackDisc, longest: float, shortest: float
 ) -> Iterator[tuple[tuple[float, float], tuple[float, float]]]:
-    """Yield the ends of possible rings on either side of a wheel, longest first, each with the ends of the space that
-    the ring needs [mm].
-    """
+    """Yield the ends of possible rings at a wheel, longest first, each with the ends of the space it needs [mm]."""
     for part in (1.0, 0.75, 0.5, 0.25):
         length = max(part * longest, shortest)
         yield (disc.high, disc.high + length), (disc.high, disc.high + length + _FREE)
@@ -76,25 +59,18 @@ class _Obstacles:
 
     @cached_property
     def discs(self) -> tuple[StackDisc, ...]:
-        """Discs of the train, and arbors of other axes as discs, with positions relative to the axis of the column,
-        which may be carried.
-        """
-        discs = *self.plan.discs, *self._rods()
+        """Discs of the train, and arbors of other axes as discs, relative to the axis of the column."""
+        discs = list(self.plan.discs)
+        for other in self.plan.all_columns:
+            for each in other.members if other is not self.column else ():
+                link, about = each.link, next((disc.carrier for disc in each.discs), None)
+                rod = StackDisc(link, link, other.axis, other.at, each.low, each.high, each.outer / 2, carrier=about)
+                discs.append(rod)
         if self.column.axis in self.plan.carried:
             carrier = self.plan.stack.carried[self.column.axis].carrier
             seat = next(disc for disc in discs if disc.name == self.plan.seat_of(carrier))
-            discs = tuple(seen_from_carrier(carrier, seat.at, disc) for disc in discs)
-        return discs
-
-    def _rods(self) -> Iterator[StackDisc]:
-        """Yield the arbors and pipes of other axes, as discs."""
-        for other in self.plan.all_columns:
-            if other is not self.column:
-                for each in other.members:
-                    about = next((disc.carrier for disc in each.discs), None)
-                    yield StackDisc(
-                        each.link, each.link, other.axis, other.at, each.low, each.high, each.outer / 2, carrier=about
-                    )
+            discs = [seen_from_carrier(carrier, seat.at, disc) for disc in discs]
+        return tuple(discs)
 
     @cached_property
     def walls(self) -> tuple[tuple[float, float], ...]:
@@ -111,9 +87,7 @@ class _Obstacles:
         return min(faces), max(faces)
 
     def is_free(self, member: ColumnMember, low: float, high: float, radius: float) -> bool:
-        """Return True if a ring on a member, between two heights and with a given radius, has clearance to all other
-        parts.
-        """
+        """Return True if a ring of a given radius on a member, between two heights, is clear of all other parts."""
         if low < self.span[0] or high > self.span[1] or low < member.low or member.high < high:
             return False
         # a wider member at these heights would be a pipe around the ring
@@ -149,8 +123,13 @@ class _MemberSleeves:
                 yield self._part(name, "spacer", band, "slides on, between wheels")
         joint = self.around.plan.process.joint
         for disc in self.discs:
-            if disc.name not in held and (band := self._collet(disc)) is not None:
-                yield self._part(f"collet of {disc.name}", "collet", band, f"{joint}, its wheel against it")
+            if disc.name in held:
+                continue
+            for faces, room in _beside(disc, _LONGEST * self.member.outer, _SHORTEST):
+                if (band := self._ring(*room)) is not None:
+                    ring = Band(*faces, band.radius, band.bore)
+                    yield self._part(f"collet of {disc.name}", "collet", ring, f"{joint}, its wheel against it")
+                    break
 
     def _ring(self, low: float, high: float) -> Band | None:
         """Return the thickest ring between two heights that has clearance to all other parts; None if no ring fits."""
@@ -158,15 +137,6 @@ class _MemberSleeves:
         walls = (wall for wall in _WALLS if self.around.is_free(self.member, low, high, bore + wall))
         wall = next(walls, None)
         return None if wall is None else Band(low, high, bore + wall, bore + self.around.plan.process.press / 2)
-
-    def _collet(self, disc: StackDisc) -> Band | None:
-        """Return the longest collet on either side of a wheel that has clearance to turning parts; None if no collet
-        fits.
-        """
-        for faces, room in _beside(disc, _LONGEST * self.member.outer, _SHORTEST):
-            if (band := self._ring(*room)) is not None:
-                return Band(*faces, band.radius, band.bore)
-        return None
 
     def _part(self, name: str, kind: str, band: Band, joint: str) -> TurnedPart:
         return TurnedPart(self.member.link, name, kind, self.around.column.at, (band,), joint)
@@ -187,9 +157,7 @@ class Barrel:
 
 
 def find_barrel(plan: FramePlan, link: str | None) -> Barrel | None:
-    """Return the barrel of the link at which power enters; None if no weight or drum is declared, or if there is not
-    enough space.
-    """
+    """Return the barrel of the link at which power enters; None if no weight or drum is declared or it does not fit."""
     drive = plan.stack.train.declaration.drive
     if drive is None or drive.weight is None or drive.drum is None:
         return None
@@ -199,7 +167,8 @@ def find_barrel(plan: FramePlan, link: str | None) -> Barrel | None:
     column, member = own[0]
     widest = max(member.discs, key=lambda disc: disc.outer)
     radius = 1000 * drive.drum.si
-    faces = free_beside(plan, column, member, widest.name, (radius, _LONGEST_BARREL))
+    around, places = _Obstacles(plan, column), _beside(widest, _LONGEST_BARREL, 0.0)
+    faces = next((faces for faces, room in places if around.is_free(member, *room, radius)), None)
     if faces is None:
         return None
     band = Band(*faces, radius, member.outer / 2 + plan.process.press / 2)

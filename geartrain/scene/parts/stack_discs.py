@@ -23,9 +23,7 @@ _SAME = 1e-6  # mm: touching faces must not overlap due to rounding errors
 
 @dataclass(frozen=True, slots=True)
 class StackDisc:
-    """Cylinder that contains a wheel or a turning plate of a link. It extends from `low` to `high` along its axis;
-    lengths are in mm.
-    """
+    """Cylinder around a wheel or a turning plate of a link, from `low` to `high` along its axis; lengths are in mm."""
 
     name: str
     link: str
@@ -37,9 +35,7 @@ class StackDisc:
     outer: float
     """Outer radius of the teeth or of the rim [mm]."""
     inner: float = 0.0
-    """Radius of the free space inside the teeth of a ring, or of a central hole for an eccentric [mm]; 0 for other
-    discs.
-    """
+    """Radius of the free space in a ring, or of a central hole for an eccentric [mm]; 0 for other discs."""
     root: float = 0.0
     """Root radius of the teeth [mm]; 0 for a plate, which does not limit the diameter of its arbor."""
     hub: bool = True
@@ -70,9 +66,7 @@ class StackDisc:
 
 
 def slabs(discs: Iterable[StackDisc], tied: Sequence[tuple[float, float]] = ()) -> list[tuple[float, float]]:
-    """Return the occupied intervals of height from the lowest [mm]. Overlapping discs and the intervals in `tied` are
-    merged.
-    """
+    """Return the occupied intervals of height, from the lowest [mm]; intervals in `tied` count as occupied."""
     found: list[tuple[float, float]] = []
     for low, high in sorted([*((disc.low, disc.high) for disc in discs), *tied]):
         if found and low < found[-1][1] - _SAME:
@@ -153,9 +147,7 @@ class Passage:
 
 
 def with_passages(edge: Contour, passages: Iterable[Passage]) -> tuple[Contour, tuple[Contour, ...]]:
-    """Return the convex edge of a plate with notches, and the windows of the plate. Passages that would divide the
-    plate are omitted.
-    """
+    """Return the convex edge of a plate with notches, and its windows. Passages that would divide it are omitted."""
     windows = []
     for each in passages:
         x, y = each.way
@@ -188,18 +180,14 @@ def _is_inside(line: Floats, point: Floats) -> bool:
 
 
 def _notched(line: Floats, start: float, width: float) -> Floats:
-    """Return a closed counter-clockwise line with a notch, which begins at x = `start` and includes all points up to
-    `width` from the x axis.
-    """
+    """Return a closed counter-clockwise line with a notch where x > `start` and y is between -`width` and `width`."""
     (last, below), (first, above) = (_exit(line, level, start) for level in (-width, width))
     order = (first + 1 + np.arange((last - first - 1) % len(line) + 1)) % len(line)
     return np.vstack([above, line[order], below, [[start, -width], [start, width]]])
 
 
 def _exit(line: Floats, level: float, start: float) -> tuple[int, Floats]:
-    """Return the first edge of a closed line, beyond `start` along x, that crosses the height `level`: the index of the
-    first point of the edge, and the intersection.
-    """
+    """Return the index of the first edge beyond x = `start` that crosses y = `level`, and the intersection."""
     after = np.roll(line, -1, axis=0)
     crossing = np.flatnonzero((line[:, 1] < level) != (after[:, 1] < level))
     a, b = line[crossing], after[crossing]
@@ -209,9 +197,7 @@ def _exit(line: Floats, level: float, start: float) -> tuple[int, Floats]:
 
 
 def clear_passages(passages: Iterable[Passage], holes: Iterable[tuple[Point, float]]) -> list[Passage]:
-    """Return the passages that do not intersect a hole and are separated from each other by a web of the plate.
-
-    If two passages are too close together, the earlier passage is kept.
+    """Return the passages that intersect no hole; of two that are too close together, only the earlier is kept.
 
     holes   centres and radii of the holes [mm]
     """

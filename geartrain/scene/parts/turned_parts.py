@@ -1,6 +1,4 @@
-"""Arbors, pipes, studs and pillars as bodies of revolution, which consist of bands of constant radius, and their
-solids.
-"""
+"""Arbors, pipes, studs and pillars as bodies of revolution, which consist of bands of constant radius."""
 
 from __future__ import annotations
 
@@ -49,9 +47,7 @@ class TurnedPart:
     at: Point
     """Position of the part's axis in the stack [mm]."""
     bands: tuple[Band, ...]
-    """Bands from the lowest to the highest. A gap between two bands is occupied by a pinion that is cut from the same
-    piece.
-    """
+    """Bands from the lowest to the highest; a pinion cut from the same piece occupies a gap between two bands."""
     joint: str = ""
     """Part to which this part is joined, or method of joining."""
     through: tuple[str, ...] = ()
@@ -83,13 +79,17 @@ class TurnedPart:
 
     def solid(self) -> Solid:
         """Return the surface of the part as triangles, with the axis of the part along z."""
-        return joined(revolved(profile(section)) for section in self.sections())
+        turn = 2 * pi * np.arange(SIDES) / SIDES
+        circle, solids = np.column_stack([np.cos(turn), np.sin(turn)]), []
+        for section in self.sections():
+            # a corner on the axis is one vertex
+            rows = [np.column_stack([r * circle, np.full(SIDES, z)])[: None if r else 1] for r, z in profile(section)]
+            solids.append(lathed(rows))
+        return joined(solids)
 
 
 def profile(bands: Sequence[Band]) -> list[tuple[float, float]]:
-    """Return the radius and the height of the corners of half an axial section [mm], counter-clockwise, without
-    collinear corners.
-    """
+    """Return the corners (radius, height) of half an axial section [mm], counter-clockwise, none of them collinear."""
     outside = [corner for band in bands for corner in ((band.radius, band.low), (band.radius, band.high))]
     inside = [corner for band in bands[::-1] for corner in ((band.bore, band.high), (band.bore, band.low))]
     corners = [*outside, *inside]
@@ -105,20 +105,10 @@ def profile(bands: Sequence[Band]) -> list[tuple[float, float]]:
     ]
 
 
-def revolved(corners: Sequence[tuple[float, float]]) -> Solid:
-    """Return the closed surface that half an axial section generates by revolution about z."""
-    turn = 2 * pi * np.arange(SIDES) / SIDES
-    rows = [np.column_stack([r * np.cos(turn), r * np.sin(turn), np.full(SIDES, height)]) for r, height in corners]
-    # a corner on the axis is one vertex
-    return lathed([row if radius else row[:1] for row, (radius, _) in zip(rows, corners, strict=True)])
-
-
 def column_parts(
     column: AxisColumn, places: FramePlaces, frame: str, process: Process, cut: frozenset[str]
 ) -> Iterator[TurnedPart]:
-    """Yield the arbor or stud, the pipes and the collars of an axis. Pinions in `cut` are one part with their arbor or
-    pipe.
-    """
+    """Yield the arbor or stud, the pipes and the collars of an axis; pinions in `cut` are one part with their arbor."""
     members = column.members
     if column.is_stud or not members or members[0].inner:
         if column.is_stud:
@@ -136,9 +126,7 @@ def column_parts(
 
 
 def rod_name(column: AxisColumn, member: ColumnMember) -> str:
-    """Return the name of an arbor or a pipe. If one link has several pipes on an axis, the name includes the name of a
-    wheel.
-    """
+    """Return the name of an arbor or a pipe, including the name of a wheel if a link has several pipes on an axis."""
     if not member.inner:
         return f"{member.link} arbor"
     first = next(each for each in column.members if each.link == member.link and each.inner)
@@ -167,9 +155,7 @@ def _carries(member: ColumnMember) -> str:
 def _core(
     column: AxisColumn, member: ColumnMember, places: FramePlaces, process: Process, cut: frozenset[str]
 ) -> Iterator[TurnedPart]:
-    """Yield an arbor between two shoulders, with a pivot at each plate, or with a collar if it passes through the
-    plate.
-    """
+    """Yield an arbor with a shoulder and a pivot at each plate, or with a collar if it passes through the plate."""
     low, high = places.back[1] + SHAKE / 2, places.front[0] - SHAKE / 2
     thick, thin = column.core / 2, column.pivot / 2
     below, above = crosses(member, places.back), crosses(member, places.front)
@@ -210,9 +196,7 @@ def crosses(member: ColumnMember, plate: tuple[float, float]) -> bool:
 
 
 def _stud(column: AxisColumn, places: FramePlaces, frame: str, process: Process) -> TurnedPart:
-    """Return a stud that is fixed in one plate. It has a head that retains the turning parts, unless another stud is on
-    its end.
-    """
+    """Return a stud fixed in one plate; its head retains the turning parts unless another stud is on its end."""
     plate = places.back if column.bearing is AxisBearing.BACK_STUD else places.front
     radius = column.core / 2
     low, high = column.low, column.high

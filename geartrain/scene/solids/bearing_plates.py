@@ -1,7 +1,4 @@
-"""Full-scale drawings of flat parts with cut contours and marks, curves around holes, and discs of pins and slots.
-
-Lengths are in mm, and y points upwards.
-"""
+"""Full-scale drawings of flat parts, curves around holes, and discs of pins and slots. Lengths are in mm, y is up."""
 
 from __future__ import annotations
 
@@ -32,9 +29,7 @@ TOLERANCE = 0.001  # mm: tolerance of chords
 
 @dataclass(frozen=True, slots=True)
 class EngravedText:
-    """Text with letters of a given height [mm], the position of its centre [mm], and its angle from the x axis
-    [degrees].
-    """
+    """Text with its centre [mm], the height of its letters [mm], and its angle from the x axis [degrees]."""
 
     text: str
     at: tuple[float, float]
@@ -60,15 +55,9 @@ class FlatDrawing:
     @property
     def box(self) -> tuple[Floats, Floats]:
         """Minimum x and y, and maximum x and y, of all contours [mm], including a margin."""
-        points = np.concatenate([_bounds(each) for each in (self.cut[0], *self.pitch)])
+        contours = self.cut[0], *self.pitch
+        points = np.concatenate([c.points if len(c.points) > _MANY else c.flattened(0.01) for c in contours])
         return points.min(axis=0) - MARGIN, points.max(axis=0) + MARGIN
-
-
-def _bounds(contour: Contour) -> Floats:
-    """Return points that bound a contour: its vertices if there are many, or the vertices of a polygon that
-    approximates it if there are few.
-    """
-    return contour.points if len(contour.points) > _MANY else contour.flattened(0.01)
 
 
 def wheel_drawing(wheel: WheelOutline) -> FlatDrawing:
@@ -142,9 +131,7 @@ def coupling_discs(
 
 
 def around(points: Sequence[Point], radius: float) -> Contour:
-    """Return the convex curve at the distance `radius` from the convex hull of points, which consists of straight edges
-    and arcs.
-    """
+    """Return the convex curve of straight edges and arcs at the distance `radius` from the convex hull of points."""
     corners = _hull(points)
     if len(corners) == 1:
         return Contour.circle(radius, corners[0])
@@ -161,9 +148,7 @@ def around(points: Sequence[Point], radius: float) -> Contour:
 
 
 def _hull(points: Sequence[Point]) -> list[Point]:
-    """Return the corners of the convex hull, counter-clockwise from the leftmost corner, or the two ends of collinear
-    points.
-    """
+    """Return the corners of the convex hull, counter-clockwise from the leftmost; collinear points give two ends."""
     # here, because scenes without plates do not need scipy
     from scipy.spatial import ConvexHull
 
@@ -181,9 +166,7 @@ def _hull(points: Sequence[Point]) -> list[Point]:
 
 
 def pin_diameter(radius: float) -> float:
-    """Return the default diameter of a pin [mm]: a quarter of the distance `radius` [mm] from its axis of revolution,
-    at most 2 mm.
-    """
+    """Return the default diameter [mm] of a pin that revolves at a given radius: a quarter of it, at most 2 mm."""
     return min(2.0, _PIN * radius)
 
 
@@ -216,14 +199,12 @@ def holed_bar(r: float, e: float, pin: float) -> tuple[Contour, ...]:
 
 
 def _disc(coupling: PinCoupling, link: str, diameters: Mapping[str, float], slotted: bool) -> Plate:
-    """Return the disc that carries a pin at the radius r, or the disc with its slot. The slot extends from |r - e| to r
-    + e from the axis, where e is the distance between the axes.
-    """
+    """Return the disc that carries the pin of a coupling, or the disc with its slot."""
     assert coupling.pin_radius is not None
     assert coupling.offset is not None
     r, e = coupling.pin_radius.si * 1000, coupling.offset.si * 1000
     pin = pin_diameter(r)
-    low, high = (abs(r - e), r + e) if slotted else (r, r)
+    low, high = (abs(r - e), r + e) if slotted else (r, r)  # ends of the slot, or the pin, as distances from the axis
     # a bore that would meet the slot is reduced
     own = min(diameters.get(link, 0.0), max(2 * (low - pin), 0.0))
     cut = [Contour.circle(high + pin / 2 + _LAND), around([(low, 0.0), (high, 0.0)], pin / 2)]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -99,9 +99,7 @@ def build_scene(
 
 
 def _with_holes(wheel: SceneWheel, model: SolidModel) -> SceneWheel:
-    """Return a wheel with its slots and its hole for an eccentric. Other holes are omitted because they are filled by
-    parts.
-    """
+    """Return a wheel with its slots and its hole for an eccentric; other holes are not seen, as parts fill them."""
     blank = model.blanks.wheels.get(wheel.id)
     moved_in = {cut.slot.id for cut in model.cut_couplings.values()}
     if model.plan is not None:
@@ -185,10 +183,9 @@ def _with_seated(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tupl
 def _on_bracket(
     at: int, scene: Scene, dials: tuple[DialFace, ...], pointers: tuple[Pointer, ...], parts: Sequence[ScenePart]
 ) -> tuple[tuple[DialFace, ...], tuple[Pointer, ...]]:
-    """Return all dials and pointers. A dial without a plate is placed on the bracket of the arbor of its pointers.
+    """Return all dials and pointers, with the dial of index `at` on the bracket of the arbor of its pointers.
 
-    Neighbouring arbors limit the radius of the dial. The dial is not changed if there is no bracket or not enough
-    space.
+    Neighbouring arbors limit its radius. It is unchanged if it has a plate, or if a bracket or space is missing.
     """
     face = dials[at]
     own = [n for n, each in enumerate(pointers) if each.dial == at and not each.seat]
@@ -198,28 +195,20 @@ def _on_bracket(
     if face.plate or face.look != "scale" or not under:
         return dials, pointers
     high = max(dot(minus(part.place, face.centre), face.normal) + part.height / 2 for part in under)
-    radius = min([face.radius, *_radius_limits(face, [part for part in along if part.bands])])
+    radius = face.radius
+    for part in (each for each in along if each.bands):
+        off = minus(part.place, face.centre)
+        apart = float(np.sqrt(max(dot(off, off) - dot(off, face.normal) ** 2, 0.0)))
+        if apart > _SAME:  # not coaxial
+            radius = min(radius, (apart - max(band[2] for band in part.bands) - _CLEAR) / _EDGE)
     if radius <= 0:
         return dials, pointers
     laid = replace(face, centre=plus(face.centre, face.normal, high + _LAID), radius=radius)
-    hands = {n: replace(pointers[n], level=_HAND / 2, seat=_widest(pointers[n].body, along)) for n in own}
+    hands = {}
+    for n in own:
+        radii = (band[2] for part in along if part.body == pointers[n].body for band in part.bands)
+        hands[n] = replace(pointers[n], level=_HAND / 2, seat=2 * max(radii, default=0.0))
     return (*dials[:at], laid, *dials[at + 1 :]), tuple(hands.get(n, each) for n, each in enumerate(pointers))
-
-
-def _radius_limits(face: DialFace, parts: Sequence[ScenePart]) -> Iterator[float]:
-    """Yield upper limits on the radius of a dial [mm]: distances to turned parts that are parallel to its axis but not
-    coaxial.
-    """
-    for part in parts:
-        off = minus(part.place, face.centre)
-        apart = float(np.sqrt(max(dot(off, off) - dot(off, face.normal) ** 2, 0.0)))
-        if apart > _SAME:
-            yield (apart - max(band[2] for band in part.bands) - _CLEAR) / _EDGE
-
-
-def _widest(body: int, parts: Sequence[ScenePart]) -> float:
-    """Return the maximum diameter of the turned parts of a body [mm]; 0 if it has none."""
-    return 2 * max((band[2] for part in parts if part.body == body for band in part.bands), default=0.0)
 
 
 def _on_arbor(pointer: Pointer, scene: Scene, dials: Sequence[DialFace], plan: FramePlan) -> Pointer:

@@ -2,17 +2,13 @@
 
 A bracket is a plate perpendicular to an arbor and to the plates of the frame, which bears an end of the arbor.
 
-A cage holds axes of a carrier that are inclined to the carrier's axis, such as the axes of the pinions of a
-differential. An eye bears the outer end of the pinion's arbor. A post extends from the eye along the carrier's axis to
-a wheel of the carrier, if one has a sufficient radius. If none has, the post extends to an arm beyond all wheels, which
-extends inwards to the carrier's axis. If a plate of the frame is in front of the wheel, the arm is next to the pinion.
-
-The pendulum of an escapement and the driving weight are drawn in true size.
+A cage holds axes of a carrier that are inclined to the carrier's axis, such as those of the pinions of a differential:
+an eye bears the outer end of the pinion's arbor, and a post connects the eye to a wheel of the carrier or to an arm.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -74,9 +70,7 @@ class HangingParts:
 
     @cached_property
     def front(self) -> tuple[Vector, Vector] | None:
-        """Direction towards the reader of the first dial on a face of the train, and the downward direction; None if no
-        such dial exists.
-        """
+        """Direction towards the reader of the first dial on a face of the train, and down; None if there is no dial."""
         normal = self.plan.stack.normal
         faces = (face for face in self.scene.dials if abs(dot(face.normal, normal)) > 0.5)
         face = next(faces, None)
@@ -84,9 +78,7 @@ class HangingParts:
 
     @cached_property
     def pendulum(self) -> SceneHanger | None:
-        """Pendulum behind the frame, above the escape wheel; None if no pendulum is declared, or if it cannot be
-        placed.
-        """
+        """Pendulum behind the frame, above the escape wheel; None if none is declared, or if it cannot be placed."""
         escapement, normal = self.declared.escapement, self.plan.stack.normal
         if self.front is None or escapement is None or escapement.pendulum is None:
             return None
@@ -107,9 +99,7 @@ class HangingParts:
 
     @property
     def _side(self) -> float:
-        """1 if the normal points away from the reader, so that the space behind the frame is above it; -1 if the normal
-        points towards the reader.
-        """
+        """1 if the normal of the stack points away from the reader of the dial, -1 if it points to the reader."""
         assert self.front is not None
         return -1.0 if dot(self.front[0], self.plan.stack.normal) > 0 else 1.0
 
@@ -155,9 +145,7 @@ class HangingParts:
 
 
 def hanging_solids(hanger: SceneHanger, frame: int) -> Iterator[SolidPart]:
-    """Yield the turned parts of a hanging part at their positions relative to the body with index `frame`; yield
-    nothing for a line.
-    """
+    """Yield the solids of a pendulum or a weight, fixed to the body with index `frame`; yield nothing for a line."""
     end, wide = plus(hanger.point, hanger.down, hanger.length), hanger.wide
     if hanger.kind == "pendulum":
         rod = Band(_COCK, hanger.length - wide, _ROD * wide)
@@ -188,9 +176,9 @@ class Bracket:
     """Support of one end of an arbor that is parallel to the plates: a plate with a hole, fixed in a frame plate."""
 
     body: int
-    """Index of the arbor's body; `reach` is the position of the bracket's outer face along the arbor's direction [mm].
-    """
+    """Index of the arbor's body."""
     reach: float
+    """Position of the bracket's outer face along the arbor's direction [mm]."""
     side: str
     """Name of the frame plate to which the bracket is fixed, through the passage `mortise`."""
     mortise: Passage
@@ -198,9 +186,7 @@ class Bracket:
 
 
 def find_brackets(scene: Scene, plan: FramePlan, bores: Mapping[str, float]) -> tuple[Bracket, ...]:
-    """Return the brackets of all arbors that are parallel to the frame plates; `bores` contains the arbor diameters by
-    axis [mm].
-    """
+    """Return the brackets of all arbors parallel to the frame plates; `bores` are arbor diameters by axis [mm]."""
     sides = FramePlates(plan).sides
     borne = {column.axis for column in plan.all_columns}
     found: list[Bracket] = []
@@ -213,9 +199,7 @@ def find_brackets(scene: Scene, plan: FramePlan, bores: Mapping[str, float]) -> 
 
 
 def wheel_ends(scene: Scene, at: int) -> tuple[float, float] | None:
-    """Return the positions of the ends of a body's wheels along its direction, relative to its point [mm]; None for a
-    body without wheels, or with only rings.
-    """
+    """Return the ends of a body's wheels along its direction, relative to its point [mm]; None without such wheels."""
     body = scene.bodies[at]
     along = np.array(body.direction)
     own = [wheel for wheel in scene.wheels if wheel.body == at and wheel.kind != "ring"]
@@ -227,68 +211,45 @@ def wheel_ends(scene: Scene, at: int) -> tuple[float, float] | None:
 def _brackets(
     scene: Scene, plan: FramePlan, sides: Mapping[str, tuple[float, float]], at: int, radius: float
 ) -> Iterator[Bracket]:
-    body, ends = scene.bodies[at], wheel_ends(scene, at)
+    """Yield the brackets of an arbor, at both ends or at the end nearer to the middle of the train."""
+    body, ends, stack = scene.bodies[at], wheel_ends(scene, at), plan.stack
     if ends is None:
         return
-    middle = np.mean([plan.stack.in_space(column.at) for column in plan.columns], axis=0)
-    centre = float((middle - np.array(body.point)) @ np.array(body.direction))
+    along, normal = np.array(body.direction), np.array(stack.normal)
+    middle = np.mean([stack.in_space(column.at) for column in plan.columns], axis=0)
+    centre = float((middle - np.array(body.point)) @ along)
     low, high = ends
     faces = {1: high + _ROOM, -1: low - _ROOM}
+    places = {way: np.array(body.point) + (face + way * plan.thickness / 2) * along for way, face in faces.items()}
+    best = {way: _best_plate(plan, place, sides) for way, place in places.items()}
     ways = [way for way, inner in ((1, high > centre - _FLAT), (-1, low < centre + _FLAT)) if inner]
     if len(ways) == 1:  # on the inner side, unless wheels obstruct it there
-        ways = [min(ways[0], -ways[0], key=lambda way: _best_plate(plan, body, faces[way], way, sides)[0])]
+        ways = [min(ways[0], -ways[0], key=lambda way: best[way][0])]
+    aside = np.cross(body.direction, normal)
+    turn, edge = np.column_stack([normal, aside, body.direction]), radius + LAND
     for way in ways:
-        yield _bracket(scene, plan, sides, at, faces[way], way, radius)
+        place, side = places[way], best[way][1]
+        height, foot = float(place @ normal), stack.flat(tuple(place.tolist()))
+        away = max(sides[side], key=lambda each: abs(each - height)) - height
+        down = max(abs(away) - edge, 0.0) * (1 if away > 0 else -1)
+        cut = around([(0.0, 0.0), (down, 0.0)], edge), Contour.circle(radius + plan.process.running / 2)
+        name = f"{body.id} bracket" + (" 2" if way < 0 else "")
+        mortise = Passage(foot, stack.flat(tuple(aside.tolist())), edge, (plan.thickness + plan.process.press) / 2)
+        part = SolidPart(_frame(scene, plan), name, "plate", turn, place, "", cut, plan.thickness)
+        yield Bracket(at, faces[way] + way * plan.thickness, side, mortise, part)
 
 
-def _best_plate(
-    plan: FramePlan, body: SceneBody, face: float, way: int, sides: Mapping[str, tuple[float, float]]
-) -> tuple[int, float, str]:
-    """Return the number of wheels in front of the best plate for a bracket, the distance of this plate [mm], and its
-    name.
-    """
-    place, stack = _middle(plan, body, face, way), plan.stack
-    height, foot = float(place @ np.array(stack.normal)), stack.flat(tuple(place.tolist()))
+def _best_plate(plan: FramePlan, place: Floats, sides: Mapping[str, tuple[float, float]]) -> tuple[int, str]:
+    """Return the number of wheels between a bracket at `place` and the best plate for it, and the plate's name."""
+    height, foot = float(place @ np.array(plan.stack.normal)), plan.stack.flat(tuple(place.tolist()))
 
-    def cost(side: str) -> tuple[int, float, str]:
+    def cost(side: str) -> tuple[int, float]:
         low, high = sorted((height, sum(sides[side]) / 2))
         wheels = [swept_circle(disc) for disc in plan.discs if disc.low < high and low < disc.high]
-        return sum(dist(foot, middle) < reach for middle, reach in wheels), high - low, side
+        return sum(dist(foot, middle) < reach for middle, reach in wheels), high - low
 
-    return min(map(cost, sides), key=lambda each: each[:2])
-
-
-def _middle(plan: FramePlan, body: SceneBody, face: float, way: int) -> Floats:
-    """Return the centre of a bracket in space [mm], on the axis that it supports."""
-    return np.array(body.point) + (face + way * plan.thickness / 2) * np.array(body.direction)
-
-
-def _bracket(
-    scene: Scene,
-    plan: FramePlan,
-    sides: Mapping[str, tuple[float, float]],
-    at: int,
-    face: float,
-    way: int,
-    radius: float,
-) -> Bracket:
-    """Return the bracket at one end of an arbor. It is on the plate with fewer wheels in front of it, or, for equal
-    numbers, on the nearer plate.
-    """
-    body, stack = scene.bodies[at], plan.stack
-    place, normal = _middle(plan, body, face, way), np.array(stack.normal)
-    height, foot, edge = float(place @ normal), stack.flat(tuple(place.tolist())), radius + LAND
-    _, _, side = _best_plate(plan, body, face, way, sides)
-    away = max(sides[side], key=lambda each: abs(each - height)) - height
-    down = max(abs(away) - edge, 0.0) * (1 if away > 0 else -1)
-    hole = Contour.circle(radius + plan.process.running / 2)
-    cut = around([(0.0, 0.0), (down, 0.0)], edge), hole
-    name = f"{body.id} bracket" + (" 2" if way < 0 else "")
-    aside = np.cross(body.direction, normal)
-    turn = np.column_stack([normal, aside, body.direction])
-    mortise = Passage(foot, stack.flat(tuple(aside.tolist())), edge, (plan.thickness + plan.process.press) / 2)
-    part = SolidPart(_frame(scene, plan), name, "plate", turn, place, "", cut, plan.thickness)
-    return Bracket(at, face + way * plan.thickness, side, mortise, part)
+    side = min(sides, key=cost)
+    return cost(side)[0], side
 
 
 def _frame(scene: Scene, plan: FramePlan) -> int:
@@ -310,19 +271,16 @@ _SAME = 1e-6
 
 @dataclass(frozen=True)
 class Cage:
-    """Support of a body whose axis is inclined to its carrier's axis; `reach` is the position of the outer end of its
-    arbor [mm].
-    """
+    """Support of a body whose axis is inclined to the axis of its carrier."""
 
     body: int
     reach: float
+    """Position of the outer end of the body's arbor along its axis [mm]."""
     parts: tuple[SolidPart, ...]
 
 
 def find_cages(scene: Scene, plan: FramePlan, bores: Mapping[str, float]) -> tuple[Cage, ...]:
-    """Return the cages of axes that are inclined to the axis of their carrier; `bores` contains the arbor diameters by
-    axis [mm].
-    """
+    """Return the cages of axes that are inclined to the axis of their carrier, from arbor diameters by axis [mm]."""
     found = []
     for at, body in enumerate(scene.bodies):
         carrier = None if body.parent is None else scene.bodies[body.parent]
@@ -348,31 +306,40 @@ class _CageBuilder:
         return float((np.asarray(point, dtype=float) - np.array(self.carrier.point)) @ self.along)
 
     def cage(self) -> Cage:
+        """Return the eye with its post, and an arm that holds the post if no wheel of the carrier can hold it."""
         radius = self.bores[self.body.axis] / 2
         post = min(2.0, 0.6 + 0.8 * radius)
         side, end = self._outer_end()
-        eye = self._eye(radius, post, end + side * (GAP + post))
+        bore = radius + self.plan.process.running / 2
+        ring = (Band(-post, post, radius + LAND, bore),)
+        part = TurnedPart(self.carrier.id, f"{self.body.id} eye", "collar", (0.0, 0.0), ring)
+        middle = on_axis(self.body, end + side * (GAP + post))
+        eye = turned_about(self.index, part, self.body.direction, middle)
         height = self.height(eye.place)
         aside = eye.place - on_axis(self.carrier, height)
         away = float(np.linalg.norm(np.cross(self.carrier.direction, aside)))
-        seat = self._own_wheel(height, away)
+        # the nearest face of the carrier's own wheels that extend beyond the post
+        own = (wheel for wheel in self._coaxial() if wheel.body == self.index and wheel.tip > away)
+        faces = (face for wheel in own for face in self._faces(wheel, wheel.web))
+        seat = min(faces, key=lambda each: abs(each - height), default=None)
         if seat is not None and self._is_behind_a_plate(height, seat):
             seat, level = None, self._beside(height)
         else:
             level = self._level(height, away - post) if seat is None else seat
         way = 1 if level > height else -1
         ends = [height + way * (radius + LAND / 2), level]
-        if seat is None:  # the post passes through the arm
+        if seat is None:  # the post passes through the arm, in which it has a tenon
             ends[1:] = level - way * _ARM / 2, level + way * _ARM / 2
-        parts = [eye, self._post(eye.place - height * self.along, ends, post)]
+        sizes = zip(pairwise(ends), (post, TENON * post), strict=False)
+        bands = sorted((Band(min(pair), max(pair), size) for pair, size in sizes), key=lambda band: band.low)
+        part = TurnedPart(self.carrier.id, f"{self.body.id} cage post", "post", (0.0, 0.0), tuple(bands))
+        parts = [eye, turned_about(self.index, part, self.carrier.direction, eye.place - height * self.along)]
         if seat is None:
             parts.append(self._arm(aside, away, level, post))
         return Cage(self.at, end + side * (GAP + 2 * post), tuple(parts))
 
     def _outer_end(self) -> tuple[int, float]:
-        """Return the outer end of the wheels on an arbor: its side along the arbor's direction (1 or -1) and its
-        position [mm].
-        """
+        """Return the outer end of the wheels on an arbor: its side along the arbor (1 or -1) and its position [mm]."""
         ends = wheel_ends(self.scene, self.at)
         assert ends is not None
         normal = np.cross(self.body.direction, self.along)
@@ -380,30 +347,6 @@ class _CageBuilder:
         near = float(np.cross(gap, self.along) @ normal / (normal @ normal))  # the point where the axes intersect
         side = 1 if sum(ends) / 2 > near else -1
         return side, max(ends) if side > 0 else min(ends)
-
-    def _eye(self, radius: float, post: float, middle: float) -> SolidPart:
-        bore = radius + self.plan.process.running / 2
-        part = TurnedPart(
-            self.carrier.id, f"{self.body.id} eye", "collar", (0.0, 0.0), (Band(-post, post, radius + LAND, bore),)
-        )
-        return turned_about(self.index, part, self.body.direction, on_axis(self.body, middle))
-
-    def _post(self, foot: Floats, ends: Sequence[float], radius: float) -> SolidPart:
-        """Return the post between the first and the second height of `ends`, and its tenon between the second and the
-        third height.
-        """
-        sizes = zip(pairwise(ends), (radius, TENON * radius), strict=False)
-        bands = sorted((Band(min(pair), max(pair), size) for pair, size in sizes), key=lambda band: band.low)
-        part = TurnedPart(self.carrier.id, f"{self.body.id} cage post", "post", (0.0, 0.0), tuple(bands))
-        return turned_about(self.index, part, self.carrier.direction, foot)
-
-    def _own_wheel(self, height: float, away: float) -> float | None:
-        """Return the height of the nearest face among the carrier's own wheels that extend beyond a post at the radius
-        `away` [mm]; None if there is no such wheel.
-        """
-        own = (wheel for wheel in self._coaxial() if wheel.body == self.index and wheel.tip > away)
-        faces = (face for wheel in own for face in self._faces(wheel, wheel.web))
-        return min(faces, key=lambda each: abs(each - height), default=None)
 
     def _is_behind_a_plate(self, height: float, seat: float) -> bool:
         """Return True if a plate of the frame is between two heights."""
@@ -434,9 +377,7 @@ class _CageBuilder:
                 yield wheel
 
     def _faces(self, wheel: SceneWheel, ends: tuple[float, float]) -> tuple[float, float]:
-        """Return the heights, along the carrier's axis, of the ends of a wheel [mm], given by `ends` relative to the
-        centre of the wheel.
-        """
+        """Return the heights along the carrier's axis [mm] of two `ends` that are relative to the wheel's centre."""
         up = 1 if float(np.dot(wheel.direction, self.along)) > 0 else -1
         low, high = sorted(self.height(wheel.centre) + up * end for end in ends)
         return low, high
@@ -459,9 +400,7 @@ class _CageBuilder:
         return beyond(side) + side * (_PAST + _ARM / 2)
 
     def _arm(self, aside: Floats, away: float, level: float, post: float) -> SolidPart:
-        """Return the arm that extends from the carrier's axis to a post. Its hub turns on the arbor or pipe that passes
-        through it.
-        """
+        """Return the arm from the carrier's axis, where its hub turns on an arbor or pipe, to a post."""
         hub = self.bores.get(self.carrier.axis, 2.0) / 2 + self.plan.process.running / 2
         across = aside / (away or 1.0)
         wide = max(hub + LAND, post)

@@ -1,8 +1,4 @@
-"""Plates of dials in front of and behind a mechanism: their sizes, heights, holes and scales.
-
-A plate of dials is mounted on feet, which are pins between this plate and the nearest frame plate. The feet are clear
-of all turning parts.
-"""
+"""Plates of dials in front of and behind a mechanism: their sizes, heights, holes, scales and feet."""
 
 from __future__ import annotations
 
@@ -66,9 +62,7 @@ class DialCircle:
                 yield from (self.radii[name] * np.array(line) for line in each.lines)
 
     def marks(self) -> Iterator[EngravedText]:
-        """Yield the names of dials that fit, as letters engraved below the hole, in coordinates relative to the centre
-        of the disc [mm].
-        """
+        """Yield the names of dials that fit below the hole, with positions relative to the centre of the disc [mm]."""
         height = max(_LETTER * self.radius, _SMALLEST)
         inside = min(self.radii.values()) * (1 - DEPTH)
         for depth, name in enumerate(self.scales):
@@ -96,9 +90,7 @@ class DialPlate:
     up: Point
     """Unit vector that points up for the reader of the plate, in the coordinates of the stack."""
     corners: tuple[Point, ...] = ()
-    """Corners of a rectangular plate, in the coordinates of the stack [mm]; empty if the edge follows the outlines of
-    the dials.
-    """
+    """Corners of a rectangular plate in the stack [mm]; empty if the edge follows the outlines of the dials."""
 
     @property
     def at(self) -> Point:
@@ -107,18 +99,14 @@ class DialPlate:
 
     @property
     def contours(self) -> tuple[Contour, ...]:
-        """Edge of the plate, followed by the holes for pointers and feet, in the coordinates of the stack relative to
-        `at` [mm].
-        """
+        """Edge of the plate, then its holes for pointers and feet, in stack coordinates relative to `at` [mm]."""
         return self._contours(self._own)
 
     def _own(self, point: Point) -> Point:
         return point[0] - self.at[0], point[1] - self.at[1]
 
     def _seen(self, point: Point) -> Point:
-        """Return the coordinates of a point of the stack as distances to the right and upwards for the reader of the
-        plate [mm].
-        """
+        """Return the position of a point to the right and upwards, as seen by the reader of the plate [mm]."""
         x, y = self._own(point)
         return x * self.right[0] + y * self.right[1], x * self.up[0] + y * self.up[1]
 
@@ -128,9 +116,7 @@ class DialPlate:
         return self._edge(place), *(Contour.circle(radius, place(at)) for at, radius in holes)
 
     def _edge(self, place: Callable[[Point], Point]) -> Contour:
-        """Return the edge of the plate: the declared rectangle, or the disc of a single dial if it contains all feet.
-        In all other cases, return the convex curve around all dials and feet.
-        """
+        """Return the edge of the plate: a declared rectangle, the disc of one dial, or a curve around all dials."""
         first, wide = self.circles[0], FOOT_RADIUS + _LAND
         if self.corners:
             return around([place(point) for point in _inset(self.corners, wide)], wide)
@@ -159,9 +145,7 @@ class DialPlate:
 
 
 def dial_plates(scene: Scene, plan: FramePlan, thickness: float = THICKNESS) -> list[DialPlate]:
-    """Return the plates of dials, at most one for each side of the frame. Only dials that are parallel to the plates
-    and that a pointer's arbor reaches are included.
-    """
+    """Return the plates of dials, at most one for each side, with all upright dials that a pointer's arbor reaches."""
     stack, columns = plan.stack, {column.axis: column for column in plan.columns}
     groups: dict[int, dict[str, list[DialFace]]] = {}
     for face in scene.dials:
@@ -183,9 +167,7 @@ def _plate(
     plan: FramePlan,
     thickness: float,
 ) -> DialPlate | None:
-    """Return the plate of dials on one side; None if no pointer's arbor reaches it, or if there is no space for its
-    dials.
-    """
+    """Return the plate of dials on one side; None if no pointer's arbor reaches it, or its dials do not fit."""
     ends = [face for disc in plan.discs for face in (disc.low, disc.high)]
     ends += [*plan.places.back, *plan.places.front, *(plan.bridge or ())]
     ends += [face for each in plan.wheels_across for face in (each.low, each.high) if plan.has_sized_dials]
@@ -232,8 +214,13 @@ def _circle(
     if not through:
         return None
     radius = max(face.radius for face in faces)
-    sized = plan.stack.train.declaration.dials[max(faces, key=lambda each: each.radius).id].diameter is not None
-    radius = radius / _SCALE if sized else _free_radius(column, radius, plan, heights)
+    if plan.stack.train.declaration.dials[max(faces, key=lambda each: each.radius).id].diameter is not None:
+        radius = radius / _SCALE
+    else:  # clear of other arbors and of wheels on crossing axes
+        for other in plan.columns:
+            if other.axis != column.axis and (rod := other.radius(*heights)):
+                radius = min(radius, dist(other.at, column.at) - rod - _BESIDE)
+        radius = min(radius, clear_of(column.at, plan.across(*heights)) - _BESIDE)
     hole = 2 * (through + _ROOM)
     if radius <= hole:
         return None
@@ -244,27 +231,13 @@ def _circle(
     return DialCircle(column.at, radius, hole, scales, radii)
 
 
-def _free_radius(column: AxisColumn, radius: float, plan: FramePlan, heights: tuple[float, float]) -> float:
-    """Return the radius of a dial, reduced so that it is clear of other arbors and of wheels on crossing axes [mm]."""
-    for other in plan.columns:
-        if other.axis != column.axis and (rod := other.radius(*heights)):
-            radius = min(radius, dist(other.at, column.at) - rod - _BESIDE)
-    return min(radius, clear_of(column.at, plan.across(*heights)) - _BESIDE)
-
-
 # ----------------------------------------------------------------------------------------------------------------- feet
 
 FOOT_RADIUS = 1.5  # mm; its ends in the plates are thinner
 _TENON = 0.6
 _GAP = 0.5  # mm of clearance between a foot and turning parts
 _FEET, _MOST, _WAYS = 3, 4, 48
-_SHARES = (
-    0.92,
-    0.8,
-    0.65,
-    0.5,
-    0.35,
-)  # candidate distances of a foot from the centre, divided by the radius of the dial
+_SHARES = 0.92, 0.8, 0.65, 0.5, 0.35  # candidate distances of a foot from the centre, over the radius of the dial
 _EDGE = 1.0  # mm: width of dial round the end of a foot
 _STEPS = 32  # samples from the centre of a dial to a foot, at which the edge between them is tested
 
@@ -276,8 +249,7 @@ def dial_feet(
     faces: tuple[float, float],
     corners: Sequence[Point] = (),
 ) -> list[TurnedPart]:
-    """Return up to four feet of a plate of dials. They are at its corners or far apart inside its dials, or, if there
-    is not enough space, outside all turning parts.
+    """Return up to four feet of a plate of dials, at its corners, inside its dials, or outside all turning parts.
 
     circles   centres and radii of the discs of the dials [mm]
     faces     heights of the faces of the plate [mm]
@@ -286,7 +258,10 @@ def dial_feet(
     plate = plan.places.front if above else plan.places.back
     low, high = (plate[1], faces[0]) if above else (faces[1], plate[0])
     turning = list(_between(plan, low, high))
-    tried = corners or [spot for at, radius in circles for spot in _tried(at, radius)]
+    tried = list(corners)
+    for ((x, y), radius), share, way in product(circles, _SHARES, range(_WAYS) if not corners else ()):
+        away, turn = min(share * radius, radius - FOOT_RADIUS - _EDGE), 2 * pi * (way + 0.5) / _WAYS
+        tried.append((x + away * cos(turn), y + away * sin(turn)))
     free = [spot for spot in tried if clear_of(spot, turning) > FOOT_RADIUS + _GAP]
     spots = far_apart(free, free[0], _MOST) if free else []
     if len(spots) < _FEET or max(dist(one, other) for one, other in combinations(spots, 2)) < circles[0][1]:
@@ -310,9 +285,7 @@ def _between(plan: FramePlan, low: float, high: float) -> Iterator[tuple[Point, 
 
 
 def _reaches(spot: Point, dials: Sequence[tuple[Point, float]], others: Sequence[tuple[Point, float]]) -> float:
-    """Return the clearance [mm] between the circles in `others` and a plate that extends straight from each dial to a
-    foot at `spot`.
-    """
+    """Return the clearance [mm] of the circles in `others` from a plate that widens from each dial to a foot."""
     minimum = inf
     for (x, y), radius in dials:
         for step in range(_STEPS + 1):
@@ -320,12 +293,6 @@ def _reaches(spot: Point, dials: Sequence[tuple[Point, float]], others: Sequence
             at = x + t * (spot[0] - x), y + t * (spot[1] - y)
             minimum = min(minimum, clear_of(at, others) - (radius + t * (FOOT_RADIUS + _EDGE - radius)))
     return minimum
-
-
-def _tried(at: Point, radius: float) -> Iterator[Point]:
-    for share, way in product(_SHARES, range(_WAYS)):
-        away, turn = min(share * radius, radius - FOOT_RADIUS - _EDGE), 2 * pi * (way + 0.5) / _WAYS
-        yield at[0] + away * cos(turn), at[1] + away * sin(turn)
 
 
 def _foot(plan: FramePlan, name: str, at: Point, ends: tuple[tuple[float, float], ...]) -> TurnedPart:

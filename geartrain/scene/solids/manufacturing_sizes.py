@@ -14,7 +14,7 @@ from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.containers import FrozenDict
 from geartrain.numerics.quantity import Quantity
 from geartrain.numerics.results import Shown
-from geartrain.scene.layout import Layout, WheelPlace
+from geartrain.scene.layout import Layout
 from geartrain.scene.layout.wheel_modules import WIDE
 from geartrain.scene.parts.processes import process_named
 from geartrain.teeth.standard_teeth import BACKLASH, DEDENDUM
@@ -164,9 +164,7 @@ def _with_modules(declared: Train, modules: Mapping[str, Fraction]) -> Train:
 
 
 def _with_backlash(declared: Train, modules: Mapping[str, Fraction], backlash: float | None) -> Train:
-    """Return the declaration with the given backlash for all pairs that allow it; raise `QuestionError` if no pair
-    allows it.
-    """
+    """Return the declaration with the given backlash where pairs allow it; raise `QuestionError` if none allows it."""
     own = {gear.name: problem for gear in declared.gears if (problem := _own_backlash(declared, gear)) is not None}
     if backlash is not None and own and len(own) == sum(declared.form_of(gear) is not None for gear in declared.gears):
         places = {gear.name: declared.place("gears", at) for at, gear in enumerate(declared.gears)}
@@ -197,9 +195,7 @@ def _own_backlash(declared: Train, gear: GearPair) -> Problem | None:
 
 
 def with_backlash(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> ManufacturingSizes:
-    """Return the sizes with the backlash of the named process, unless a backlash is given or all tooth forms determine
-    it.
-    """
+    """Return the sizes with the backlash of the named process, unless it is given or fixed by all tooth forms."""
     declared = train.declaration
     own = [_own_backlash(declared, gear) is not None for gear in declared.gears if declared.form_of(gear) is not None]
     if making.process is None or making.backlash is not None or not layout.wheels or (own and all(own)):
@@ -215,8 +211,7 @@ def usual_module(layout: Layout) -> float:
 
 
 def thick(declared: Train, layout: Layout, making: ManufacturingSizes) -> Layout:
-    """Return the layout with wheels of the requested thickness; if none is requested, with thicknesses of standard
-    sheets.
+    """Return the layout with wheels of the requested thickness, or, by default, with thicknesses of standard sheets.
 
     If all axes are along z, levels are moved apart as wheels become thicker.
     """
@@ -238,13 +233,18 @@ def thick(declared: Train, layout: Layout, making: ManufacturingSizes) -> Layout
 
 
 def _thicknesses(declared: Train, layout: Layout, making: ManufacturingSizes) -> dict[str, float]:
-    """Return the thickness of each wheel [mm], by name. It is as requested or declared. All other wheels have one stock
-    thickness if this is near enough to their default.
-    """
+    """Return the thickness of each wheel [mm], by name: as requested, as declared, or one standard thickness."""
     if making.thickness is not None:
         return dict.fromkeys(layout.wheels, making.thickness)
     own = {name: place.thickness for name, place in layout.wheels.items()}
-    free = [name for name, place in layout.wheels.items() if _is_free(declared, name, place)]
+    # spur wheels with the default thickness for their module, which is neither declared nor increased
+    free = [
+        name
+        for name, place in layout.wheels.items()
+        if declared.wheels[name][1].kind == "spur"
+        and wheel_thickness(declared, declared.wheels[name][1]) is None
+        and abs(place.thickness - WIDE * place.module) <= _SAME_LEVEL
+    ]
     if not free:
         return own
     usual = median(own[name] for name in free)
@@ -253,19 +253,8 @@ def _thicknesses(declared: Train, layout: Layout, making: ManufacturingSizes) ->
     return own if abs(log(stock / usual)) > log(_NEAR) else own | dict.fromkeys(free, stock)
 
 
-def _is_free(declared: Train, name: str, place: WheelPlace) -> bool:
-    """Return True if a spur wheel has the default thickness for its module, and its thickness is neither declared nor
-    increased.
-    """
-    wheel = declared.wheels[name][1]
-    plain = abs(place.thickness - WIDE * place.module) <= _SAME_LEVEL
-    return wheel.kind == "spur" and wheel_thickness(declared, wheel) is None and plain
-
-
 def bores(layout: Layout, making: ManufacturingSizes) -> dict[str, float]:
-    """Return the diameters of arbors [mm], by axis, if no plates hold them: the given bore, or 1/3 of the smallest root
-    diameter, up to 6 mm.
-    """
+    """Return the diameters of arbors without plates [mm], by axis: as given, or 1/3 of the smallest root diameter."""
     if making.bore is not None:
         return dict.fromkeys(layout.axes, making.bore)
     found = {}

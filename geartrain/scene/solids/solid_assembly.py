@@ -14,7 +14,7 @@ from geartrain.scene.construction import make_scene
 from geartrain.scene.layout import lay_out
 from geartrain.scene.layout.declared_geometry import read_geometry
 from geartrain.scene.parts.frame_plan import FramePlan
-from geartrain.scene.parts.frame_plates import FramePlates
+from geartrain.scene.parts.frame_plates import FlatPlate, FramePlates
 from geartrain.scene.parts.frame_stack import FrameStack, find_normal
 from geartrain.scene.parts.processes import Process, process_named
 from geartrain.scene.parts.sleeves import find_barrel
@@ -61,8 +61,7 @@ class SolidModel(Shown):
     ------
     QuestionError
         When a property is first used, if `making` contains sizes that the train already declares, or if the teeth
-        cannot have
-    the requested backlash.
+        cannot have the requested backlash.
 
     Examples
     --------
@@ -81,9 +80,7 @@ class SolidModel(Shown):
     """State in which the train is built; by default the first state."""
 
     def __post_init__(self) -> None:
-        """Replace equal planets that are declared as one by separate planets, because each planet is manufactured
-        separately.
-        """
+        """Replace planets that are declared as copies by separate planets, because each planet is a separate part."""
         object.__setattr__(self, "train", self.train.unfolded)
 
     @cached_property
@@ -230,17 +227,13 @@ class SolidModel(Shown):
     def structure(self) -> tuple[SolidPart, ...]:
         """Structural parts: all solids except wheels and hanging parts."""
         frame, couplings = self.frame, CouplingParts(self.scene, self.cut_couplings, self.process)
-        framed = () if frame is None else (*self._turned(frame), *self._plates(frame), *self._dials(frame))
+        framed = () if frame is None else self._framed(frame)
         caged = (part for each in self.cages for part in each.parts)
         return *self._rods(), *(each.part for each in self.brackets), *caged, *framed, *couplings.parts()
 
     @cached_property
     def _laid(self) -> Layout:
         return lay_out(self.train)
-
-    @cached_property
-    def _bodies(self) -> dict[str, int]:
-        return {body.id: at for at, body in enumerate(self.scene.bodies)}
 
     def _wheel(self, wheel: SceneWheel) -> SolidPart:
         """Return the solid of a wheel, from its flat shape if there is one."""
@@ -255,10 +248,7 @@ class SolidModel(Shown):
         return replace(flat, drawn=wheel_solid(blank))
 
     def _rods(self) -> Iterator[SolidPart]:
-        """Yield an arbor without bearings for every body with wheels that is not supported by a plate.
-
-        Each arbor is as long as the wheels, brackets and cages on it require.
-        """
+        """Yield an arbor for every body with wheels that no plate supports, as long as the parts on it require."""
         radii, borne = bores(self.layout, self.making), set[str]()
         if self.plan is not None:
             borne = {column.axis for column in self.plan.all_columns} | self.plan.stack.on_eccentrics
@@ -273,27 +263,16 @@ class SolidModel(Shown):
             part = TurnedPart(body.id, f"{body.id} arbor", "arbor", (0.0, 0.0), (band,))
             yield turned_about(at, part, body.direction, body.point)
 
-    def _turned(self, frame: FramePlates) -> Iterator[SolidPart]:
-        """Yield all turned parts of the frame and of the carriers, such as arbors, pipes, studs and pillars."""
-        stack = frame.plan.stack
+    def _framed(self, frame: FramePlates) -> Iterator[SolidPart]:
+        """Yield the turned parts, the plates and the eccentrics of the frame and of the carriers, and dial plates."""
+        stack, body = frame.plan.stack, {each.id: at for at, each in enumerate(self.scene.bodies)}
         for part in frame.turned():
             place = np.array(stack.in_space(part.at))
-            yield SolidPart(self._bodies[part.link], part.name, part.kind, stack.turn, place, turned=part)
-
-    def _plates(self, frame: FramePlates) -> Iterator[SolidPart]:
-        """Yield the plates of the frame, the turning plates and the eccentrics."""
-        stack = frame.plan.stack
+            yield SolidPart(body[part.link], part.name, part.kind, stack.turn, place, turned=part)
         eccentrics = {each.name for each in stack.eccentrics}
-        for plate in frame.plates():
+        flat: list[tuple[str, FlatPlate | DialPlate]] = [(plate.link, plate) for plate in frame.plates()]
+        flat += [(stack.frame, dial) for dial in self.dials]
+        for link, plate in flat:
             place = np.array(stack.in_space(plate.at, (plate.low + plate.high) / 2))
-            cut, thickness = plate.contours, plate.high - plate.low
-            kind = "eccentric" if plate.name in eccentrics else "plate"
-            yield SolidPart(self._bodies[plate.link], plate.name, kind, stack.turn, place, "", cut, thickness)
-
-    def _dials(self, frame: FramePlates) -> Iterator[SolidPart]:
-        """Yield the plates of dials, which are fixed to the frame."""
-        stack = frame.plan.stack
-        for dial in self.dials:
-            place, thickness = np.array(stack.in_space(dial.at, (dial.low + dial.high) / 2)), dial.high - dial.low
-            body = self._bodies[stack.frame]
-            yield SolidPart(body, dial.name, "plate", stack.turn, place, "", dial.contours, thickness)
+            kind, thickness = "eccentric" if plate.name in eccentrics else "plate", plate.high - plate.low
+            yield SolidPart(body[link], plate.name, kind, stack.turn, place, "", plate.contours, thickness)

@@ -69,17 +69,13 @@ class SolidPart(Shown):
 
 
 def turned_about(body: int, part: TurnedPart, direction: Vector, place: Sequence[float] | Floats) -> SolidPart:
-    """Return a turned part of a body as a solid whose axis passes through the point `place` [mm] in the given
-    direction.
-    """
+    """Return a turned part as a solid of a body, with its axis through `place` [mm] in the given direction."""
     turn = np.column_stack([*basis(direction), direction])
     return SolidPart(body, part.name, part.kind, turn, np.array(place), turned=part)
 
 
 def wheel_frame(wheel: SceneWheel) -> tuple[Floats, Floats]:
-    """Return the matrix whose columns are the axes of a wheel's own coordinates, with x through its first tooth, and
-    the centre of the wheel [mm].
-    """
+    """Return the axes of a wheel as columns of a matrix, x through its first tooth, and its centre [mm]."""
     along, reference = np.array(wheel.direction), np.array(wheel.reference)
     across = np.cross(along, reference)
     x = cos(wheel.turn) * reference + sin(wheel.turn) * across

@@ -1,9 +1,7 @@
 """Pins, slots and bars: cut into wheels, fixed in plates, or made as separate parts.
 
-A wheel whose root circle extends beyond the pin carries the pin. A wheel that covers the whole path of the pin contains
-the slot; if there is no such wheel, the slot is in a separate bar. Plates carry the pins of pin rings, and the pins
-that move in holes of a disc. An eccentric bar connects an arm to its link; the bar is fixed in the widest wheel of the
-link.
+A wheel that extends beyond a pin carries the pin, and a wheel that covers its whole path contains the slot. An
+eccentric bar connects an arm to the widest wheel of its link.
 """
 
 from __future__ import annotations
@@ -46,20 +44,16 @@ _WEB = 0.6  # mm: minimum width of a wheel round a pin and round a slot
 
 @dataclass(frozen=True, slots=True)
 class CutCoupling:
-    """Coupling cut into wheels: a pin in one wheel, and its slot or holes in another.
-
-    The wheel with the pins is None if the pins move in round holes and no wheel carries them.
-    """
+    """Coupling cut into wheels: a pin in one wheel, and its slot or holes in another."""
 
     coupling: SceneCoupling
     pin: SceneWheel | None
+    """Wheel with the pins; None if the pins move in round holes and no wheel carries them."""
     slot: SceneWheel
 
 
 def cut_couplings(scene: Scene, blanks: Mapping[str, Blank], bores: Mapping[str, float]) -> dict[str, CutCoupling]:
-    """Return the couplings, by name, that can be cut into flat wheels with the given bores [mm]. A coupling by pins in
-    round holes does not require a wheel for the pins.
-    """
+    """Return the couplings that can be cut into flat wheels with the given bores [mm], by name."""
     found = {}
     for coupling in scene.couplings:
         r, e, half = coupling.pin_radius, coupling.offset, WIDE * pin_width(coupling)
@@ -97,25 +91,8 @@ def _wide_wheels(
     ]
 
 
-def slot_bar(coupling: SceneCoupling) -> tuple[Contour, ...]:
-    """Return the edge of a bar and its slot. If no sizes are declared, the bar has a round hole in which the pin
-    revolves.
-    """
-    shape = slotted_bar if coupling.drawn else holed_bar
-    return shape(coupling.pin_radius, coupling.offset, pin_diameter(coupling.pin_radius))
-
-
-def slot_reach(coupling: SceneCoupling) -> tuple[float, float]:
-    """Return the distance from the slot's axis to the centre of the bar's rounded outer end, and half the width of the
-    bar [mm].
-    """
-    return coupling.pin_radius + coupling.offset, 1.2 * pin_diameter(coupling.pin_radius)
-
-
 def slot_frame(scene: Scene, coupling: SceneCoupling) -> Floats:
-    """Return the matrix whose columns are the unit vectors outwards along the slot, across the slot, and along the
-    axis, in the zero pose.
-    """
+    """Return unit vectors along the slot, across it and along its axis, as columns, in the zero pose."""
     along = np.array(scene.bodies[coupling.slot].direction)
     out = np.subtract(coupling.pin_at, coupling.slot_at)
     x = out / np.linalg.norm(out)
@@ -124,9 +101,7 @@ def slot_frame(scene: Scene, coupling: SceneCoupling) -> Floats:
 
 
 def holes(scene: Scene, cut: CutCoupling, wheel: str, turn: Floats, place: Floats, process: Process) -> list[Contour]:
-    """Return the holes in a wheel for pins and for a slot, in the wheel's own coordinates, which have the rotation
-    `turn` and the origin `place`.
-    """
+    """Return a wheel's holes for pins and for a slot, in its coordinates (rotation matrix `turn`, origin `place`)."""
     coupling, thick = cut.coupling, pin_width(cut.coupling)
     found = []
     if cut.pin is not None and wheel == cut.pin.id:
@@ -158,18 +133,14 @@ _GAP = 1.0  # mm between a plate and the next turning part
 
 @dataclass(frozen=True)
 class CouplingParts:
-    """Parts of the couplings of a scene: pins in wheels, and the arms and bars that replace wheels without space for a
-    pin or a slot.
-    """
+    """Parts of the couplings of a scene: pins in wheels, and arms and bars where no wheel has space for them."""
 
     scene: Scene
     cut: Mapping[str, CutCoupling]
     process: Process
 
     def parts(self) -> Iterator[SolidPart]:
-        """Yield the pins that connect two wheels, and the arms and bars of couplings, unless they are cut into a wheel.
-        Pins that are fixed in plates are omitted.
-        """
+        """Yield the pins that connect two wheels, and the arms and bars of couplings that are not cut into wheels."""
         for coupling in self.scene.couplings:
             direction, cut = self.scene.bodies[coupling.slot].direction, self.cut.get(coupling.id)
             along = np.array(direction)
@@ -179,8 +150,10 @@ class CouplingParts:
                 height = float(coupling.pin_at @ along)
                 levels = [self._level(body, height, along) for body in (coupling.pin, coupling.slot)]
                 low, high = min(levels) - _GAP, max(levels) + _GAP
-            else:
-                low, high = self._faces(cut.pin, cut.slot, along)
+            else:  # from the far face of the pin's wheel to the far face of the slot's wheel
+                wheels = product((cut.pin, cut.slot), (-1, 1))
+                ends = [float(wheel.centre @ along) + side * wheel.thickness / 2 for wheel, side in wheels]
+                low, high = min(ends), max(ends)
             band = Band(low, high, pin_width(coupling) / 2)
             for at, place in enumerate(coupling.pins_at or (coupling.pin_at,)):
                 name = f"{coupling.id} pin" + (f" {at + 1}" if coupling.pins_at else "")
@@ -191,13 +164,6 @@ class CouplingParts:
             if cut is None:
                 yield self._pin_arm(coupling, along, levels[0])
                 yield self._bar(coupling, along)
-
-    def _faces(self, pin: SceneWheel, slot: SceneWheel, along: Floats) -> tuple[float, float]:
-        """Return the heights of the two ends of a pin [mm]: the far face of its own wheel, and the far face of the
-        slot's wheel.
-        """
-        ends = [float(wheel.centre @ along) + side * wheel.thickness / 2 for wheel in (pin, slot) for side in (-1, 1)]
-        return min(ends), max(ends)
 
     def _pin_arm(self, coupling: SceneCoupling, along: Floats, level: float) -> SolidPart:
         """Return an arm from the axis of the pin's link to the pin."""
@@ -215,7 +181,10 @@ class CouplingParts:
         hub, turn = np.array(coupling.slot_at), slot_frame(self.scene, coupling)
         level = self._level(coupling.slot, float(coupling.pin_at @ along), along)
         place = hub + along * (level - hub @ along)
-        return SolidPart(coupling.slot, f"{coupling.id} slot", "plate", turn, place, "", slot_bar(coupling), _GAP)
+        # without declared sizes the bar has a round hole in which the pin revolves
+        shape = slotted_bar if coupling.drawn else holed_bar
+        bar = shape(coupling.pin_radius, coupling.offset, pin_diameter(coupling.pin_radius))
+        return SolidPart(coupling.slot, f"{coupling.id} slot", "plate", turn, place, "", bar, _GAP)
 
     def _level(self, body: int, height: float, along: Floats) -> float:
         """Return the mid-height of a plate on the face of a body's wheels that is nearest to the given height [mm]."""
@@ -271,9 +240,7 @@ def _of_ring(scene: Scene, plan: FramePlan, wheel: SceneWheel) -> StandingPins:
 
 
 def with_pins_apart(scene: Scene, plan: FramePlan) -> Scene:
-    """Return the scene with new tooth profiles for rings with separate pins. The teeth of such a ring are the material
-    between two seats of pins.
-    """
+    """Return the scene with new profiles for rings with separate pins: each tooth is the material between two pins."""
     wheels, profiles = list(scene.wheels), list(scene.profiles)
     for at, wheel in enumerate(wheels):
         blank = plan.stack.blanks.get(wheel.id)
@@ -293,9 +260,7 @@ def with_pins_apart(scene: Scene, plan: FramePlan) -> Scene:
 
 
 def _tooth_between_seats(blank: Blank) -> tuple[tuple[float, float], ...]:
-    """Return the profile of a ring between the middles of two seats. Each point is a radius divided by the pitch
-    radius, and an angle [rad].
-    """
+    """Return the profile of a ring between the middles of two seats, as points (radius in pitch radii, angle [rad])."""
     assert blank.pins is not None
     x, y = (float(part) for part in blank.contours[1].points[0])  # on the inner circle, at the start of the first seat
     R, half, pitch = blank.pins.circle * blank.module, pi / blank.teeth, blank.pitch_radius
@@ -329,9 +294,7 @@ def side_bars(scene: Scene, plan: FramePlan) -> Iterator[StandingPins]:
 
 
 def _spot(scene: Scene, plan: FramePlan, wheel: StackDisc, arm: StackDisc) -> Point:
-    """Return the outermost bar position with sufficient clearance to the other parts. If there is none, return the
-    position with the most clearance.
-    """
+    """Return the outermost position of a bar with sufficient clearance, or the position with the most clearance."""
     low, high = min(wheel.high, arm.high), max(wheel.low, arm.low)
     seen = [seen_from_carrier(wheel.link, wheel.at, disc) for disc in plan.discs if disc.low < high and low < disc.high]
     rods = [(each.at, wide) for each in plan.all_columns if (wide := each.radius(wheel.low, high))]
@@ -352,14 +315,13 @@ def _spot(scene: Scene, plan: FramePlan, wheel: StackDisc, arm: StackDisc) -> Po
 
 
 def _swept(scene: Scene, plan: FramePlan, coupling: SceneCoupling, wheel: StackDisc) -> Iterator[tuple[Point, float]]:
-    """Yield circles that cover a slotted bar for all positions of its pin, if `wheel` is part of the carrier of the
-    coupling.
-    """
+    """Yield circles that a slotted bar sweeps for all positions of its pin, if `wheel` is on the coupling's carrier."""
     if scene.bodies[coupling.carrier].id != wheel.link:
         return
     stack = plan.stack
     (x, y), pin = stack.flat(coupling.slot_at), stack.flat(scene.bodies[coupling.pin].point)
-    far, wide = slot_reach(coupling)
+    # distance to the centre of the bar's rounded end, and half the width of the bar
+    far, wide = coupling.pin_radius + coupling.offset, 1.2 * pin_diameter(coupling.pin_radius)
     r, e = coupling.pin_radius, hypot(pin[0] - x, pin[1] - y)
     if r >= e:  # the bar turns with the pin
         yield (x, y), far + wide

@@ -36,11 +36,9 @@ _NEXT = [1, 2, 0]
 
 
 def fill(outer: Floats, holes: Sequence[Floats] = ()) -> tuple[Floats, Integers]:
-    """Return the points (n, 2) of a polygon with holes, and counter-clockwise triangles (m, 3) as indices of these
-    points.
+    """Return the points (n, 2) of a polygon and then of its holes, and counter-clockwise triangles (m, 3) of indices.
 
-    The points of the polygon are followed by the points of its holes. Polygons, shape (k, 2), may have either
-    orientation. They must not intersect themselves or each other.
+    Polygons, shape (k, 2), may have either orientation. They must not intersect themselves or each other.
     """
     parts = [outer if area(outer) > 0 else outer[::-1], *(hole if area(hole) < 0 else hole[::-1] for hole in holes)]
     points = np.concatenate(parts)
@@ -54,16 +52,13 @@ def fill(outer: Floats, holes: Sequence[Floats] = ()) -> tuple[Floats, Integers]
 
 
 def area(polygon: Floats) -> float:
-    """Return the signed area of a polygon, in the squared unit of its points; it is positive if the points are
-    counter-clockwise.
-    """
+    """Return the signed area of a polygon in its squared unit, positive for counter-clockwise points."""
     x, y = polygon.T
     return float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
 
 
 def _bridged(points: Floats, loop: list[int], hole: list[int]) -> list[int]:
-    """Return the loop after joining it to a hole by a bridge, which connects the rightmost point of the hole to the
-    nearest visible point of the loop.
+    """Return the loop joined to a hole by a bridge from the hole's rightmost point to the nearest visible point.
 
     Only points to the right of the hole are considered. Raise `ValueError` if none is visible.
     """
@@ -109,9 +104,7 @@ def _ears(points: Floats, loop: list[int]) -> list[tuple[int, int, int]]:
 
 
 class _Corners:
-    """Corners of a polygon during ear clipping. `left` contains the corners that are not cut off yet; a cut changes two
-    neighbours.
-    """
+    """Corners of a polygon during ear clipping; `left` marks the corners that are not cut off yet."""
 
     def __init__(self, corners: Floats) -> None:
         count = len(corners)
@@ -133,9 +126,7 @@ class _Corners:
                 return at
 
     def _empty(self, at: int) -> bool:
-        """Return True if no other point is in the triangle of a convex corner. If a point is in it, record this point
-        as the blocker of the corner.
-        """
+        """Return True if no other point is in the triangle of a convex corner; if one is, record it as the blocker."""
         own = self.corners[[self.before[at], at, self.after[at]]]
         (ax, ay), (x, y) = own.T[..., None], self.corners.T
         side = (ax[_NEXT] - ax) * (y - ay) - (ay[_NEXT] - ay) * (x - ax)  # side of each edge, shape (3, n)
@@ -152,9 +143,7 @@ class _Corners:
         self._measure(c)
 
     def _measure(self, at: int) -> None:
-        """Update twice the signed area of a corner's triangle, and its ratio to a bound on the square of the longest
-        side.
-        """
+        """Update twice the signed area of a corner's triangle, and its aspect ratio."""
         a, b, c = self.corners[[self.before[at], at, self.after[at]]].tolist()
         turn = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
         # the sum of two squares bounds the larger one, which is sufficient to rank corners
@@ -176,9 +165,7 @@ _SLICE = 0.1  # rad: maximum rotation of helical teeth between layers
 
 @dataclass(frozen=True, slots=True)
 class Solid:
-    """Closed surface: vertices [mm], shape (n, 3), and triangles as vertex indices, shape (m, 3), counter-clockwise as
-    seen from outside.
-    """
+    """Closed surface: vertices [mm], shape (n, 3), and outward triangles as vertex indices, shape (m, 3)."""
 
     vertices: Floats
     faces: Integers
@@ -208,8 +195,7 @@ def _merged(points: Floats, faces: Integers) -> tuple[Floats, Integers]:
 def wheel_solid(blank: Blank) -> Solid:
     """Return the solid of a wheel from its flat shape, centred at the origin.
 
-    If the wheel has no holes except its bore, one pitch is triangulated and repeated. If it has other holes, the whole
-    shape is triangulated, without twist.
+    One pitch is triangulated and repeated, unless the wheel has holes besides its bore; it is then without twist.
     """
     contours = blank.contours
     ring = blank.kind == "ring"
@@ -233,9 +219,7 @@ def plate_solid(contours: Sequence[Contour], thickness: float) -> Solid:
 
 
 def round_about(circle: Contour) -> Floats:
-    """Return a polygon circumscribed about a circle. A part with the diameter of the circle therefore fits into the
-    polygon.
-    """
+    """Return a polygon circumscribed about a circle, so that a part with the diameter of the circle fits into it."""
     centre = circle.points.mean(axis=0)
     radius = float(abs(circle.points[0] - centre).max()) / np.cos(pi / SIDES)
     turn = 2 * pi * np.arange(SIDES) / SIDES
@@ -264,9 +248,7 @@ def extruded(
 
 
 def lathed(rows: Sequence[Floats]) -> Solid:
-    """Return the closed surface through rows of counter-clockwise points, each of shape (n, 3). A row of one point is a
-    pole that closes the surface.
-    """
+    """Return the closed surface through rows of counter-clockwise points (n, 3); a row of one point is a pole."""
     starts = np.cumsum([0, *map(len, rows)])
     count = max(map(len, rows))
     rings = [start + np.arange(count) * (len(row) > 1) for start, row in zip(starts.tolist(), rows, strict=False)]
@@ -281,9 +263,7 @@ def lathed(rows: Sequence[Floats]) -> Solid:
 
 
 def _pitch(tooth: Floats, radius: float, teeth: int, tolerance: float) -> Floats:
-    """Return the polygon of a tooth and its sector of the web. It is closed along the bore, or at the centre of a wheel
-    without a bore.
-    """
+    """Return the polygon of a tooth and its sector of the web, closed along the bore, or at the centre without one."""
     first, last = (float(np.arctan2(y, x)) for x, y in (tooth[0], tooth[-1]))
     if not radius:
         return np.concatenate([tooth, [[0.0, 0.0]]])
@@ -298,9 +278,7 @@ def _pitch(tooth: Floats, radius: float, teeth: int, tolerance: float) -> Floats
 
 
 def _repeated(points: Floats, triangles: Integers, times: int) -> tuple[Floats, Integers]:
-    """Return the points and triangles of one pitch repeated `times` times about the axis, with coincident points
-    merged.
-    """
+    """Return the points and triangles of one pitch repeated about the axis, with coincident points merged."""
     turn = 2 * pi * np.arange(times)[:, None] / times
     c, s = np.cos(turn), np.sin(turn)
     x, y = points.T
@@ -317,9 +295,7 @@ _SIDES = 720  # sides of a wheel drawn without teeth
 
 
 def approximation_solid(wheel: SceneWheel, profile: ToothProfile, bore: float = 0.0) -> Solid:
-    """Return the approximate solid of a wheel. The first tooth is along x, the axis along z, and the diameter of the
-    hole is `bore` [mm].
-    """
+    """Return the approximate solid of a wheel with a given bore [mm]; its axis is z, and its first tooth is along x."""
     if wheel.kind == "worm":
         twist = wheel.thickness * tan(wheel.helix) / wheel.radius
         return extruded(*_section(wheel, profile, bore), wheel.thickness, twist, _SLICES)
@@ -331,9 +307,7 @@ def approximation_solid(wheel: SceneWheel, profile: ToothProfile, bore: float = 
 
 
 def _polar(wheel: SceneWheel, profile: ToothProfile) -> tuple[Floats, Floats]:
-    """Return the radii [mm] and the angles [rad] of the whole outline of a wheel. If the wheel has too many teeth,
-    return those of its pitch circle.
-    """
+    """Return the radii [mm] and angles [rad] of the outline of a wheel, or of its pitch circle for too many teeth."""
     if wheel.teeth > MOST_TEETH:
         return np.full(_SIDES, wheel.radius), np.arange(_SIDES) * 2 * pi / _SIDES
     r, angle = np.array(profile.points, dtype=float)[:-1].T
@@ -359,11 +333,7 @@ def _section(wheel: SceneWheel, profile: ToothProfile, bore: float) -> tuple[Flo
 
 
 def _coned(wheel: SceneWheel, profile: ToothProfile, bore: float) -> Solid:
-    """Return the solid of a bevel or crown wheel: its back, its teeth from the large end to the small end, and the disc
-    inside the toothed rim.
-
-    The surface consists of rows of points, from the bore at the back, around the outside, to the bore at the front.
-    """
+    """Return the solid of a bevel or crown wheel, through rows of points from the bore at its back to that in front."""
     radius, cone, thickness = wheel.radius, wheel.cone, wheel.thickness
     r, turn = _polar(wheel, profile)
     rho = r / radius
@@ -383,26 +353,17 @@ def _coned(wheel: SceneWheel, profile: ToothProfile, bore: float) -> Solid:
 
 
 def _cone_points(wheel: SceneWheel, rho: Floats, turn: Floats, scale: float) -> Floats:
-    """Return the points of a wheel's outline on its back cone, shape (n, 3), scaled towards the apex of the pitch cone;
-    the apex is upwards.
-    """
+    """Return the outline of a wheel on its back cone [mm], shape (n, 3), scaled towards the apex, which is upwards."""
     depth = (rho - 1) * wheel.radius
     r = (wheel.radius + depth * np.cos(wheel.cone)) * scale
-    if wheel.cone > CROWN:
-        turn = _flank_angles(wheel, turn, scale)
+    if wheel.cone > CROWN:  # tooth spaces of a crown wheel are wide enough for teeth that pass obliquely
+        pitch = 2 * pi / wheel.teeth
+        middle = np.round(turn / pitch) * pitch
+        angle, off = turn - middle, np.sqrt(wheel.thickness / wheel.radius)
+        space = pitch / 2 - abs(angle) + off - np.sin(off) + (1 - scale) * off / 2
+        turn = middle + np.sign(angle) * np.maximum(_RIDGE * pitch, pitch / 2 - space / scale)
     z = height_on_cone(wheel.cone, wheel.radius, 0.0, scale) + depth * np.sin(wheel.cone) * scale
     return np.column_stack([r * np.cos(turn), r * np.sin(turn), z])
-
-
-def _flank_angles(wheel: SceneWheel, turn: Floats, scale: float) -> Floats:
-    """Return the angles of a crown wheel's flanks at `scale` times its radius [rad]. The tooth spaces are wide enough
-    for teeth that pass obliquely.
-    """
-    pitch = 2 * pi / wheel.teeth
-    middle = np.round(turn / pitch) * pitch
-    angle, off = turn - middle, np.sqrt(wheel.thickness / wheel.radius)
-    space = pitch / 2 - abs(angle) + off - np.sin(off) + (1 - scale) * off / 2
-    return np.asarray(middle + np.sign(angle) * np.maximum(_RIDGE * pitch, pitch / 2 - space / scale))
 
 
 def _at_bore(row: Floats, bore: float) -> Floats:

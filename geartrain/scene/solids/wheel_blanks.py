@@ -5,7 +5,7 @@ The openings between spokes leave a rim, spokes and a hub. All inner corners are
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import asin, cos, degrees, pi, sin, sqrt, tan
 from typing import TYPE_CHECKING
@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.scene.layout import Layout, WheelPlace
     from geartrain.teeth.outlines.wheel_requirement import LanternPins
-    from geartrain.train import Wheel
 
 RIM, HUB = 2.25, 1.125
 """Radial depth of the rim below the tooth roots [modules], and radius of the hub [diameters of the bore].
@@ -63,8 +62,7 @@ def spoke_windows(root: float, module: float, bore: float, spokes: int) -> tuple
 
 
 def _window(outer: float, inner: float, half: float, pitch: float, corner: float) -> Contour | None:
-    """Return the opening about the x axis between two spokes at +-pitch/2 with half width `half`; None if it is too
-    small.
+    """Return the opening about the x axis between spokes of half width `half` at +-pitch/2; None if it is too small.
 
     Corners are arcs about centres at the distance `corner` from a spoke, and from the rim or the hub.
     """
@@ -146,8 +144,7 @@ class Blank:
     arms: int = 0
     """Number of spokes; 0 for a solid web."""
     pins: LanternPins | None = None
-    """Pins of a pin ring [modules], which are separate parts in seats on the inside of the ring; None for other wheels.
-    """
+    """Pins of a pin ring [modules], which are separate parts in seats inside the ring; None for other wheels."""
 
     @property
     def twist(self) -> float:
@@ -163,16 +160,13 @@ class Blanks:
     notices: tuple[Problem, ...]
     backlashes: tuple[PairBacklash, ...]
     uncut: Mapping[str, tuple[Problem, ...]]
-    """Reasons why a wheel cannot be cut, by wheel. `flat` is the set of all wheels with planar teeth parallel to the
-    axis.
-    """
+    """Reasons why a wheel cannot be cut, by wheel."""
     flat: frozenset[str]
+    """Names of all wheels with planar teeth parallel to the axis."""
 
 
 def find_blanks(train: GearTrain, layout: Layout, making: ManufacturingSizes) -> Blanks:
-    """Return the flat shapes of all wheels that can be cut from sheet, at the sizes of a layout. The shapes have no
-    holes.
-    """
+    """Return the flat shapes, without holes, of all wheels that can be cut from sheet, at the sizes of a layout."""
     toothed = find_train_teeth(train.mechanics, layout.wheels, making.backlash, layout.apart)
     mated = {name for gear in train.declaration.gears for name in gear.pair}
     wheels, notices = {}, []
@@ -183,8 +177,13 @@ def find_blanks(train: GearTrain, layout: Layout, making: ManufacturingSizes) ->
         if name not in mated and blank.kind == "external":
             blank, notice = _without_mates(toothing, blank)
             notices.append(notice)
-        wheels[name] = replace(blank, helix=wheel.helix) if wheel.is_helical else blank
-        notices += _helix_notice(name, wheel)
+        wheels[name] = blank
+        if wheel.is_helical:
+            wheels[name] = replace(blank, helix=wheel.helix)
+            what = f"wheel '{name}' is drawn flat, but it has a helix angle of {abs(degrees(wheel.helix)):.6g} deg"
+            fix = "print it from the .stl, or have it hobbed"
+            why = "a flat drawing shows the transverse section, and the .step file extrudes it without twist"
+            notices.append(Problem(what, why, fix))
     return Blanks(wheels, tuple(notices), toothed.backlashes, toothed.problems, toothed.flat)
 
 
@@ -208,9 +207,7 @@ def _blank(toothing: WheelTeeth, place: WheelPlace) -> Blank:
 
 
 def _without_mates(toothing: WheelTeeth, blank: Blank) -> tuple[Blank, Problem]:
-    """Return the blank of a wheel without mates, and a notice. The blank is a disc, unless the wheel is an escape
-    wheel.
-    """
+    """Return the blank of a wheel without mates, which is a disc unless it is an escape wheel, and a notice."""
     if toothing.form == ESCAPEMENT:
         what = f"the teeth of escape wheel '{blank.wheel}' may not match its anchor"
         fix = "make an anchor to match the teeth, or recut them for another escapement"
@@ -221,15 +218,6 @@ def _without_mates(toothing: WheelTeeth, blank: Blank) -> tuple[Blank, Problem]:
     why, fix = "it has no mate, so its tooth form is not known", "cut its teeth to match the part that it engages"
     notice = Problem(what, why, fix)
     return replace(blank, form=form, contours=(Contour.circle(r),), tip_radius=r, root_radius=r), notice
-
-
-def _helix_notice(name: str, wheel: Wheel) -> Iterator[Problem]:
-    """Yield a notice if a wheel has helical teeth, which a flat drawing cannot show."""
-    if wheel.is_helical:
-        what = f"wheel '{name}' is drawn flat, but it has a helix angle of {abs(degrees(wheel.helix)):.6g} deg"
-        fix = "print it from the .stl, or have it hobbed"
-        why = "a flat drawing shows the transverse section, and the .step file extrudes it without twist"
-        yield Problem(what, why, fix)
 
 
 def with_seats(blank: Blank, wider: float) -> Blank:
@@ -243,30 +231,20 @@ def with_seats(blank: Blank, wider: float) -> Blank:
 
 
 def crossed_out(blank: Blank, arms: int) -> tuple[Blank, list[Problem]]:
-    """Return a blank and notices. A plain spur wheel with enough space gets openings between `arms` spokes; other
-    blanks are returned unchanged.
-    """
+    """Return a blank, with openings between spokes if it is a plain spur wheel with enough space, and notices."""
     own = 1 + (blank.bore > 0)
     if blank.kind != "external" or blank.helix:
         return blank, []
     windows = spoke_windows(min(blank.root_radius, blank.tip_radius), blank.module, blank.bore, arms)
     if windows and len(blank.contours) > own:
         what = f"wheel '{blank.wheel}' keeps its solid web"
-        return blank, [
-            Problem(
-                what,
-                "openings between its spokes could intersect holes for other parts",
-                "cut the openings by hand",
-                "--spokes",
-            )
-        ]
+        why = "openings between its spokes could intersect holes for other parts"
+        return blank, [Problem(what, why, "cut the openings by hand", "--spokes")]
     return replace(blank, contours=(*blank.contours, *windows), arms=arms if windows else 0), []
 
 
 def bored(blank: Blank, bore: float, holes: Sequence[Contour] = ()) -> tuple[Blank, list[Problem]]:
-    """Return the blank with holes for other parts and, if there is space, the hole for its arbor. The second item is a
-    list of notices.
-    """
+    """Return the blank with holes for other parts and, if there is space, for its arbor; and a list of notices."""
     inner = min(blank.root_radius, blank.tip_radius)
     blank = replace(blank, contours=(*blank.contours, *holes)) if holes else blank
     if not bore or blank.kind == "ring":

@@ -136,10 +136,7 @@ def find_components(
     node_link, node_carrier, edges, holding = _nodes(index, circuits)
     nodes_of: dict[int, list[int]] = {}
     for at, link in enumerate(node_link):
-        if link in nodes_of:
-            nodes_of[link].append(at)
-        else:
-            nodes_of[link] = [at]
+        nodes_of.setdefault(link, []).append(at)
     count = len(node_link)
     ratios = FactoredRatios(count)
     group, reached = [-1] * count, [-1] * count
@@ -160,9 +157,8 @@ def find_components(
             here = queue.popleft()
             entered = reached[here]
             for at, there, a, b in edges[here]:
-                if (
-                    at == entered
-                ):  # compare circuits, not nodes, because a second mesh between the same nodes closes a loop
+                # compare circuits, not nodes, because a second mesh between the same nodes closes a loop
+                if at == entered:
                     continue
                 if group[there] < 0:
                     group[there], reached[there] = this, at

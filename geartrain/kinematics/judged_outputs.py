@@ -11,7 +11,7 @@ from geartrain.kinematics.circuits import Circuit
 from geartrain.numerics.exact import as_float, decimal, fraction_text, pi_text, touches_pi
 from geartrain.numerics.quantity import Figure
 from geartrain.numerics.results import Key, Result
-from geartrain.train import Output, Published, StateCase, Train
+from geartrain.train import Output, StateCase, Train
 from geartrain.train.outputs import PrintedPeriod, Target, year_seconds
 from geartrain.train.periods import period_table
 
@@ -45,18 +45,12 @@ class RatioGoal:
         """Description of the required speed with its sense of rotation."""
         return f"{self.label} {self.sense}".rstrip() if self.signed else f"{self.label} in either sense"
 
-    def error(self, speed: SpeedValue) -> SpeedValue:
-        """Return the relative error speed / goal - 1, which is positive if the output is too fast; if the goal is 0,
-        return the speed itself.
-        """
-        return error_against(speed, self.speed, self.signed)
-
 
 def error_against(speed: SpeedValue, wanted: Fraction, signed: bool) -> SpeedValue:
     """Return the relative error speed / wanted - 1. If `signed` is False, magnitudes are compared. If `wanted` is 0,
     the speed itself is returned.
     """
-    own = speed if signed else magnitude(speed)
+    own = speed if signed else abs(speed)
     return own / wanted - 1 if wanted else own
 
 
@@ -236,7 +230,7 @@ class OutputResult(Result):
         """
         if self.slides or not self.unit_seconds or not self.speed:
             return None
-        return self.unit_seconds / magnitude(self.speed)
+        return self.unit_seconds / abs(self.speed)
 
     @property
     def found(self) -> SpeedValue | None:
@@ -244,8 +238,18 @@ class OutputResult(Result):
 
         A period is in seconds; it is negative if the output turns in the sense opposite to the declared `sense`.
         """
-        published = self.output.published
-        return None if published is None else _as_published(published, self.speed, self.ratio, self.unit_seconds)
+        published, speed, ratio, unit = self.output.published, self.speed, self.ratio, self.unit_seconds
+        if published is None:
+            return None
+        backwards = False
+        if published.as_ == "period":
+            found = published.turns.value * unit / speed if speed and unit else None
+            backwards = published.sense == "retrograde"
+        else:
+            found = {"speed": speed, "output/input": ratio, "input/output": 1 / ratio if ratio else None}[published.as_]
+        if found is None:
+            return None
+        return abs(found) if published.unsigned else -found if backwards else found
 
     @property
     def found_text(self) -> str | None:
@@ -322,11 +326,6 @@ def as_plain_product(value: SpeedValue, times: int) -> float | None:
     return None if size is None else size * times
 
 
-def magnitude(value: SpeedValue) -> SpeedValue:
-    """Return the absolute value, of the same type."""
-    return value if value >= 0 else -value
-
-
 def speed_figures(speed: SpeedValue | None, slides: bool = False) -> SpeedFigures:
     """Return a speed in the form of the JSON output. If it is beyond the range of float64, `value` is None and
     `decimal` is given. `slides` is True if the speed is a travel in mm.
@@ -389,25 +388,6 @@ def _expect_holds(output: Output, speed: SpeedValue | None) -> bool | None:
     return (not isinstance(speed, Fraction) and abs(exact - expect.value.value) <= slack) or expect.holds(exact)
 
 
-def _as_published(
-    published: Published, speed: SpeedValue | None, ratio: SpeedValue | None, unit: Fraction | None
-) -> SpeedValue | None:
-    """Return the speed of an output converted to the quantity that the source prints; None if it is undefined.
-
-    unit   time of one turn at a speed of 1 [s]; None if there is no unit of time
-    """
-    if published.as_ == "period":
-        found = published.turns.value * unit / speed if speed and unit else None
-        backwards = published.sense == "retrograde"
-    else:
-        inverse = 1 / ratio if ratio else None
-        found = {"speed": speed, "output/input": ratio, "input/output": inverse}[published.as_]
-        backwards = False
-    if found is None:
-        return None
-    return magnitude(found) if published.unsigned else -found if backwards else found
-
-
 def unit_seconds(train: Train) -> Fraction | None:
     """Return the time of one turn at a speed of 1 [s]; None if the train has no unit of time."""
     return 1 / train.unit_speed if train.unit_speed else None
@@ -441,16 +421,16 @@ def goal_of(train: Train, target: Target) -> RatioGoal:
 
 def _compare_with_target(train: Train, target: Target, speed: SpeedValue) -> TargetResult:
     goal = goal_of(train, target)
-    error = goal.error(speed)
+    error = error_against(speed, goal.speed, goal.signed)
     tolerance = target.tolerance.base if target.tolerance else None
-    ahead = (speed if goal.signed else magnitude(speed)) - goal.speed
+    ahead = (speed if goal.signed else abs(speed)) - goal.speed
     return TargetResult(
         goal,
         error,
         as_plain_product(error, DAYS_PER_CENTURY) if train.unit_days is not None and goal.speed else None,
         # a faster retrograde output has a smaller (more negative) speed; a gain is positive in both senses
         as_plain_product(-ahead if goal.speed < 0 else ahead, 360),
-        None if tolerance is None else magnitude(error) <= tolerance,
+        None if tolerance is None else abs(error) <= tolerance,
     )
 
 

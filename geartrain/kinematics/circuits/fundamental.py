@@ -110,6 +110,10 @@ class Circuit(NamedTuple):
         # b = 0 for a follower, and a + b = 0 for a pin in a slot: one link then drops out
         return terms if self.b and c else tuple(term for term in terms if term[1])
 
+    def with_ratio(self, ratio: Fraction) -> Circuit:
+        """Return the circuit with another speed ratio tau, which is not 0."""
+        return self._replace(a=ratio.denominator, b=-ratio.numerator)
+
     def with_counts(self, counts: Mapping[str, int]) -> Circuit:
         """Return the circuit of the same pair with other tooth counts; the senses of rotation are unchanged.
 

@@ -50,7 +50,7 @@ def error_against(speed: SpeedValue, wanted: Fraction, signed: bool) -> SpeedVal
     """Return the relative error speed / wanted - 1. If `signed` is False, magnitudes are compared. If `wanted` is 0,
     the speed itself is returned.
     """
-    own = speed if signed else abs(speed)
+    own = speed if signed else magnitude(speed)
     return own / wanted - 1 if wanted else own
 
 
@@ -230,7 +230,7 @@ class OutputResult(Result):
         """
         if self.slides or not self.unit_seconds or not self.speed:
             return None
-        return self.unit_seconds / abs(self.speed)
+        return self.unit_seconds / magnitude(self.speed)
 
     @property
     def found(self) -> SpeedValue | None:
@@ -249,7 +249,7 @@ class OutputResult(Result):
             found = {"speed": speed, "output/input": ratio, "input/output": 1 / ratio if ratio else None}[published.as_]
         if found is None:
             return None
-        return abs(found) if published.unsigned else -found if backwards else found
+        return magnitude(found) if published.unsigned else -found if backwards else found
 
     @property
     def found_text(self) -> str | None:
@@ -324,6 +324,11 @@ def as_plain_product(value: SpeedValue, times: int) -> float | None:
     """Return the product of `value` and `times` as a float; None if `value` is beyond the range of float64."""
     size = as_float(value)
     return None if size is None else size * times
+
+
+def magnitude(value: SpeedValue) -> SpeedValue:
+    """Return the absolute value, of the same type."""
+    return value if value >= 0 else -value
 
 
 def speed_figures(speed: SpeedValue | None, slides: bool = False) -> SpeedFigures:
@@ -423,14 +428,14 @@ def _compare_with_target(train: Train, target: Target, speed: SpeedValue) -> Tar
     goal = goal_of(train, target)
     error = error_against(speed, goal.speed, goal.signed)
     tolerance = target.tolerance.base if target.tolerance else None
-    ahead = (speed if goal.signed else abs(speed)) - goal.speed
+    ahead = (speed if goal.signed else magnitude(speed)) - goal.speed
     return TargetResult(
         goal,
         error,
         as_plain_product(error, DAYS_PER_CENTURY) if train.unit_days is not None and goal.speed else None,
         # a faster retrograde output has a smaller (more negative) speed; a gain is positive in both senses
         as_plain_product(-ahead if goal.speed < 0 else ahead, 360),
-        None if tolerance is None else abs(error) <= tolerance,
+        None if tolerance is None else magnitude(error) <= tolerance,
     )
 
 

@@ -20,6 +20,7 @@ from geartrain.kinematics.judged_outputs import (
     Sensitivity,
     SpeedValue,
     TargetResult,
+    magnitude,
 )
 from geartrain.numerics.exact import plural
 from geartrain.report.document import (
@@ -159,7 +160,7 @@ def _period(declared: Train, speed: SpeedValue | None) -> str:
     if not speed or declared.unit_days is None:
         return ""
     # short units, because the table has many columns
-    return _span(declared, 1 / abs(speed), 6).replace(" years", " y").replace(" year", " y")
+    return _span(declared, 1 / magnitude(speed), 6).replace(" years", " y").replace(" year", " y")
 
 
 def _error_text(error: float | None) -> str:
@@ -357,7 +358,7 @@ def _as_read(declared: Train, result: OutputResult) -> str:
         return ""
     flipped = looks_away(dial.face, declared.view.from_)
     clockwise = ((declared.view.positive == "clockwise") == (result.speed > 0)) != flipped
-    turn = 1 / abs(result.speed)
+    turn = 1 / magnitude(result.speed)
     words = ["clockwise" if clockwise else "counter-clockwise", f"a turn in {_span(declared, turn)}"]
     if dial.turns > 1:
         words.append(f"{dial.turns} turns in {_span(declared, turn * dial.turns)}")

@@ -364,9 +364,9 @@ class PitchDistances:
             ratio = self.sizes.ratio(first, second)
             if ratio is not None and ratio != 1:
                 sides = []
-                for wheel, own in zip(pair.wheels, pair.modules, strict=True):
+                for side, own in zip(pair.wheels, pair.modules, strict=True):
                     whose = "" if own is not None else " through its other mates"
-                    sides.append(f"'{wheel}' has module {_mm(self.module(wheel))}{whose}")
+                    sides.append(f"'{side}' has module {_mm(self.module(side))}{whose}")
                 what = f"the wheels of pair '{pair.name}' have different modules"
                 why = f"{sides[0]} and {sides[1]}, and teeth of different pitches cannot mesh"
                 fix = "give both wheels the same `module`"

@@ -119,7 +119,8 @@ def _ranges(
     count = prod(map(len, ranges))
     if count > _MOST_SETS:
         what = f"the search would examine {count:.2g} combinations of tooth numbers"
-        why = f"{len(kinds)} kinds of gear have up to {most} teeth, and at most {_MOST_SETS:.2g} combinations are examined"
+        why = f"{len(kinds)} kinds of gear have up to {most} teeth, "
+        why += f"and at most {_MOST_SETS:.2g} combinations are examined"
         fix = f"lower `most`, or fix the teeth of some kinds: fixed={{{kinds[0]!r}: 20}}"
         raise RangeError(Problem(what, why, fix))
     return ranges

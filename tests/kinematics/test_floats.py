@@ -154,9 +154,7 @@ def determined_sets(request: pytest.FixtureRequest) -> list[tuple[int, GearTrain
 
 @pytest.mark.parametrize("inverted", [400, 0], ids=["by the inverse", "by random signs"])
 def test_no_speed_is_farther_off_than_its_estimate(
-    inverted: int,
-    determined_sets: list[tuple[int, GearTrain, dict[str, Fraction]]],
-    monkeypatch: pytest.MonkeyPatch,
+    inverted: int, determined_sets: list[tuple[int, GearTrain, dict[str, Fraction]]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Also where a speed is 0 because great ones cancel, and what is left of it is nothing but rounding."""
     monkeypatch.setattr("geartrain.kinematics.speeds.float_speeds._INVERTED", inverted)

@@ -285,11 +285,7 @@ class TrainAssembly:
         return PlanetSet(carrier, self._planet(start, None, among, central), tuple(links))
 
     def _planet(
-        self,
-        link: str,
-        inward: AssemblyMesh | None,
-        among: list[AssemblyMesh],
-        central: Mapping[str, list[_Central]],
+        self, link: str, inward: AssemblyMesh | None, among: list[AssemblyMesh], central: Mapping[str, list[_Central]]
     ) -> Planet:
         rest = [mesh for mesh in among if link not in mesh.links]
         outward = []

@@ -16,12 +16,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from geartrain.kinematics.circuits import Circuit, Tree
 from geartrain.kinematics.components import find_components
-from geartrain.kinematics.phasing.azimuths import (
-    MOUNT,
-    UnplacedPair,
-    mount_frame_wheels,
-    place_pitch_points,
-)
+from geartrain.kinematics.phasing.azimuths import MOUNT, UnplacedPair, mount_frame_wheels, place_pitch_points
 from geartrain.kinematics.phasing.phase_system import (
     PhaseCondition,
     PhaseKind,

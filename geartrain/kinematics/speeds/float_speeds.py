@@ -187,9 +187,7 @@ def _with_frame(system: WillisSystem, matrix: PaddedRows, values: NDArray[Any]) 
     """Return an array with one row for each link in the order of the declaration; the row of the frame is 0."""
     at = next(at for at, link in enumerate(system.links) if link not in matrix.at)
     return labelled_array(
-        np.insert(values, at, 0, axis=0),
-        link=system.links,
-        case=[str(case) for case in range(values.shape[1])],
+        np.insert(values, at, 0, axis=0), link=system.links, case=[str(case) for case in range(values.shape[1])]
     )
 
 

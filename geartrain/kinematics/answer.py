@@ -235,9 +235,7 @@ class Answer(FrozenFields, Tabular, TrainResult):
         return f"{self.train}{state}: {', '.join([self.verdict.kind, *figures, *more])}"
 
     def _main_links(self, case: Any) -> Iterable[str]:
-        """Return the links of the requested or declared outputs; if none are declared, all links that are neither
-        inputs nor fixed.
-        """
+        """Return the links of the outputs; if none are declared, all links that are neither inputs nor fixed."""
         if case is None or self._output is not None:
             return self.speeds
         outputs = [output.links(name, self._declaration.frame) for name, output in case.outputs.items()]

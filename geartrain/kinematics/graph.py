@@ -65,9 +65,7 @@ this number.
 
 
 def edge_rows(graph: Graph) -> list[tuple[str, str, str, str]]:
-    """Return the edges in the order of the declaration. Each edge is given by its two links, its kind, and the name of
-    its axis or pair.
-    """
+    """Return the two links, the kind, and the axis or pair of each edge, in the order of the declaration."""
     return [(first, second, data["kind"], str(data["label"])) for first, second, data in graph.edges(data=True)]
 
 

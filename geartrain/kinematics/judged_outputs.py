@@ -27,9 +27,7 @@ is undetermined.
 
 @dataclass(frozen=True, slots=True)
 class RatioGoal:
-    """Speed that is required by a declared target of an output. It is compared including its sign, or only by its
-    magnitude.
-    """
+    """Speed that is required by a declared target of an output, with its sign or only as a magnitude."""
 
     label: str
     """Description of the required speed without its sense of rotation."""
@@ -47,8 +45,8 @@ class RatioGoal:
 
 
 def error_against(speed: SpeedValue, wanted: Fraction, signed: bool) -> SpeedValue:
-    """Return the relative error speed / wanted - 1. If `signed` is False, magnitudes are compared. If `wanted` is 0,
-    the speed itself is returned.
+    """Return the relative error speed / wanted - 1, of magnitudes if `signed` is False; the speed itself if `wanted` is
+    0.
     """
     own = speed if signed else magnitude(speed)
     return own / wanted - 1 if wanted else own
@@ -399,10 +397,8 @@ def unit_seconds(train: Train) -> Fraction | None:
 
 
 def in_plain_units(printed: Figure, unit: Fraction | None) -> Figure:
-    """Return a published value or its tolerance as a number in the unit of `OutputResult.found`; a period is in
-    seconds.
-
-    unit   time of one turn at a speed of 1 [s], which is the length of a printed year
+    """Return a published value or tolerance as a number in the unit of `OutputResult.found` (periods in seconds);
+    `unit` is the time of one turn at a speed of 1 [s], which is the length of a printed year.
     """
     return printed.in_seconds(year_seconds(unit)) if isinstance(printed, PrintedPeriod) else printed
 

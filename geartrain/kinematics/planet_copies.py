@@ -51,9 +51,7 @@ def originals(train: Train) -> dict[str, str]:
 
 
 def original(name: str, declared: Container[str]) -> str:
-    """Return the declared name of a part of the expanded train; `declared` contains all declared names of parts of its
-    kind.
-    """
+    """Return the declared name of a part of the expanded train; `declared` contains all declared names of its kind."""
     return name if name in declared else name.rpartition(".")[0]
 
 

@@ -164,16 +164,14 @@ class TrainKinematics(Shown):
 
     @cached_property
     def is_placed(self) -> bool:
-        """True if the assembly condition can be checked, because axes have positions or directions and gear pairs form
-        loops.
+        """True if gear pairs form loops and axes have positions or directions, so that the assembly condition can be
+        checked.
         """
         return self.declaration.has_placed_axes and bool(self.mobility.redundant or self.mobility.locked)
 
     @cached_property
     def gridlock(self) -> Gridlock:
-        """Locked parts of the train, and the meshes whose removal frees it. The computation is fast if no link is
-        locked.
-        """
+        """Locked parts of the train, and the meshes whose removal frees it; fast if no link is locked."""
         from geartrain.kinematics.gridlock import find_gridlock
 
         return find_gridlock(self.whole, self.mobility)
@@ -475,7 +473,7 @@ class TrainKinematics(Shown):
         """
         if not any(circuit.travels and touches_pi(circuit.ratio) for circuit in self.circuits):
             return {}
-        other = [each.with_ratio(with_other_pi(each.ratio)) if each.travels else each for each in self.circuits]
+        other = [_with_ratio(each, with_other_pi(each.ratio)) if each.travels else each for each in self.circuits]
         found, frame = self._solved_with(other, case), self.declaration.frame
         changes = {link: found(link, frame) != speed for link, speed in speeds.items()}
         for name, output in case.outputs.items():
@@ -494,7 +492,7 @@ class TrainKinematics(Shown):
         def changed(coupling: Coupling, mean: Fraction) -> Relative:
             circuits = list(self.circuits)
             at = next(at for at, each in enumerate(circuits) if each.id == coupling.name)
-            circuits[at] = circuits[at].with_ratio(circuits[at].ratio * mean / coupling.mean)
+            circuits[at] = _with_ratio(circuits[at], circuits[at].ratio * mean / coupling.mean)
             return self._solved_with(circuits, case)
 
         @cache
@@ -529,6 +527,10 @@ class TrainKinematics(Shown):
             return solve(self.whole, case, self.signs).verdict
         except TooDenseError:
             return exact_verdict(self.whole.reduced, case, self.signs)
+
+
+def _with_ratio(circuit: Circuit, ratio: Fraction) -> Circuit:
+    return circuit._replace(a=ratio.denominator, b=-ratio.numerator)
 
 
 def _nearest(speed: Fraction) -> float:

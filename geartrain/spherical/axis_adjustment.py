@@ -166,9 +166,7 @@ def equalise_pitch(
 
 
 def forecast_spread(axes: Floats, meshes: Meshes, teeth: Ints, corners: LoopCorners) -> float:
-    """Return the standard deviation of the logarithm of the pitch that is predicted for the axes after the first step
-    of `fit_phases`.
-    """
+    """Return the predicted standard deviation of the log pitch after the first step of `fit_phases` [1]."""
     z = np.asarray(teeth, dtype=float)
     sums, J = loop_sums(axes, corners, z)
     logs, A = pitch_rows(axes, meshes, z)

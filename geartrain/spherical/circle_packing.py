@@ -127,8 +127,8 @@ class PlanarPacking:
         return full, tuple(residuals)
 
     def layout(self, u: Floats) -> Floats:
-        """Return the vectors of all circles on the sphere. The circles are placed in the plane one after another by
-        breadth-first search.
+        """Return the vectors of all circles on the sphere, after placing the circles in the plane by breadth-first
+        search.
         """
         r = np.exp(u)
         # the layout starts at the largest finite circle
@@ -188,9 +188,7 @@ _LONGEST = 2.0
 
 
 def boost(v: Floats) -> Floats:
-    """Return the matrix of the Lorentz boost of (x, t) with rapidity |v| along v, which moves points on the sphere away
-    from v.
-    """
+    """Return the matrix of the Lorentz boost of (x, t) with rapidity |v|, which moves points away from v."""
     rapidity = float(np.linalg.norm(v))
     if rapidity == 0:
         return np.eye(4)

@@ -36,9 +36,8 @@ Edges = Iterable[tuple[Hashable, Hashable]]
 
 
 def separating_pair(regions: Sequence[Sequence[int]]) -> tuple[int, int] | None:
-    """Return two gears whose removal disconnects a 2-connected planar map; None if the map is 3-connected.
-
-    In a 3-connected map, two regions have in common no gear, one gear, or the two gears of one mesh.
+    """Return two gears whose removal disconnects a 2-connected planar map; None if the map is 3-connected: two regions
+    then have in common no gear, one gear, or the two gears of one mesh.
     """
     sides: dict[frozenset[int], list[int]] = {}
     beside: dict[int, list[int]] = {}
@@ -131,9 +130,7 @@ def _refused(what: str, why: str, fix: str) -> QuestionError:
 
 
 def regions_of(found: nx.Graph[Any]) -> list[list[int]]:
-    """Return the regions of a planar embedding, each as a closed walk of gear numbers; raise `QuestionError` for a
-    non-planar graph.
-    """
+    """Return the regions of a planar embedding as closed walks of gear numbers; raise `QuestionError` if none exists."""
     import networkx as nx
 
     drawn: Any
@@ -154,9 +151,8 @@ def regions_of(found: nx.Graph[Any]) -> list[list[int]]:
 def with_region_circles(
     gears: int, regions: Sequence[Sequence[int]], names: Sequence[Hashable]
 ) -> tuple[int, list[tuple[int, ...]]]:
-    """Return the map with an additional circle, tangent to the surrounding gears, in every region next to an idler.
-
-    Raises `QuestionError` if the resulting map is not 3-connected.
+    """Return the map with a circle tangent to the surrounding gears in every region next to an idler. Raises
+    `QuestionError` if the resulting map is not 3-connected.
     """
     meshes = Counter(gear for walk in regions for gear in walk)
     completed: list[tuple[int, ...]] = []

@@ -158,16 +158,14 @@ class Polyhedron(Shown):
         return found
 
     def permutations(self, points: Floats) -> Ints:
-        """Return the index of each point's image under each symmetry, shape (order, points).
-
-        points   set of points that all symmetries map to itself
+        """Return the index of the image of each point under each symmetry, shape (order, points). All symmetries must
+        map the set of points to itself.
         """
         return self._nearest(points, points @ self.symmetries.transpose(0, 2, 1))[1]
 
     def orbits(self, points: Floats) -> Ints:
-        """Return for each point the index of the first point in its orbit under the symmetries.
-
-        points   set of points that all symmetries map to itself
+        """Return for each point the index of the first point in its orbit under the symmetries, which map the points to
+        themselves.
         """
         first: Ints = self.permutations(points).min(axis=0)
         return first

@@ -265,9 +265,7 @@ TeethByKind = Mapping[str, int] | Mapping[int, int] | int
 
 
 def kinds_of(layout: PolyhedronPlaces) -> list[str]:
-    """Return the kind of each gear, which is its orbit, named by its class and by an additional letter if several
-    orbits have this class.
-    """
+    """Return the kind of each gear: the name of its class, and a letter if the class has several orbits."""
     orbits = layout.movement.orbits().tolist()
     size = {orbit: orbits.count(orbit) for orbit in set(orbits)}
     rank = np.argsort(from_the_top(layout.axes))

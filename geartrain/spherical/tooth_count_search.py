@@ -269,9 +269,7 @@ class _Search:
         return np.stack([column[close] for column in block], axis=1)
 
     def pitches(self, block: Sequence[NDArray[np.int64]]) -> Floats:
-        """Return the operating pitch [radii of the sphere] of each kind of mesh (rows) for each set of tooth numbers
-        (columns).
-        """
+        """Return the operating pitch [radii of the sphere] of each kind of mesh (rows) for each set of teeth."""
         return np.stack([operating_pitch(S, block[a], block[b]) for a, b, S in self.meshes])
 
     def mismatches(self, block: Sequence[NDArray[np.int64]]) -> Floats:

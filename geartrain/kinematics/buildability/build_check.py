@@ -121,9 +121,8 @@ _EQUAL = Fraction(1, 10**6)  # tolerance relative to the longest side, because t
 
 
 def check_triangles(sizes: PitchDistances) -> Iterator[BuildFinding]:
-    """Yield findings of rule P3: three axes whose distances violate the triangle inequality.
-
-    Only distances that are known multiples of a common length are compared; the length itself may be unknown.
+    """Yield findings of rule P3: three axes whose distances, as multiples of one length, violate the triangle
+    inequality.
     """
     sides = {node[1:]: pairs[0] for node, pairs in sizes.between.items()}
     near: dict[str, dict[str, PitchPair]] = {}
@@ -173,9 +172,7 @@ def _triangle(
 
 
 def check_clutches(train: Train, tree: Tree) -> Iterator[BuildFinding]:
-    """Yield findings of rules G1 (clutches) and G2 (brakes): the links are on different axes. A clutch or brake that is
-    engaged in several states is reported once.
-    """
+    """Yield findings of rules G1 (clutches) and G2 (brakes): the links are on different axes."""
     reported = set()
     for case in train.cases:
         for rigid in rigid_across_axes(train, tree, case):
@@ -264,8 +261,8 @@ def check_shared_wheels(pairs: Sequence[PitchPair], outlines: Outlines) -> Itera
 
 
 def check_skew(train: Train, tree: Tree, pairs: Sequence[PitchPair], sizes: PitchDistances) -> Iterator[BuildFinding]:
-    """Yield findings of rule K4: the distance between skew axes differs from the sum of the pitch radii m z/(2 cos(b)),
-    where m is the normal module, z the tooth count and b the helix angle.
+    """Yield findings of rule K4: skew axes are not at the sum of the pitch radii m z/(2 cos(b)), where m is the normal
+    module, z the tooth count and b the helix angle.
     """
     axes = Axes(train, tree)
     for pair in pairs:

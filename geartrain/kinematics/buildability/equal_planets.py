@@ -69,8 +69,8 @@ class AssemblyMesh:
 
     @property
     def terms(self) -> tuple[tuple[int, CountRef], tuple[int, CountRef]]:
-        """Two terms (sign, tooth count) whose sum is twice the centre distance [modules]: z1 + z2, or z_ring - z_mate,
-        where z are tooth counts.
+        """Two terms (sign, tooth count z) whose sum is twice the centre distance [modules]: z1 + z2, or z_ring -
+        z_mate.
         """
         first, second = self.parts
         return (-1 if self.ring == 1 else 1, first), (-1 if self.ring == 0 else 1, second)
@@ -78,9 +78,7 @@ class AssemblyMesh:
 
 @dataclass(frozen=True, slots=True)
 class Planet:
-    """Planet with its meshes, as a node in the tree of planets that mesh with each other. The first planet is
-    the root.
-    """
+    """Planet with its meshes, as a node in the tree of planets that mesh with each other (root: the first planet)."""
 
     link: str
     inward: AssemblyMesh | None
@@ -124,9 +122,7 @@ class Planet:
 
     @property
     def form(self) -> object:
-        """Canonical form of the planet's meshes, which is equal for two planets that mesh in the same way with the same
-        central wheels.
-        """
+        """Canonical form of the planet's meshes; equal for planets that mesh alike with the same central wheels."""
         wheels = self.wheels
         central = tuple((wheels.index(self.own(mesh)), self.mate(mesh)) for mesh in self.central)
         outward = tuple((wheels.index(self.own(mesh)), other.form) for mesh, other in self.outward)
@@ -135,9 +131,7 @@ class Planet:
 
 @dataclass(frozen=True, slots=True)
 class PlanetSet:
-    """Planets of one carrier that mesh with each other; usually a single planet. Equal planets are compared set
-    by set.
-    """
+    """Planets of one carrier that mesh with each other; usually one planet. Equal planets are compared set by set."""
 
     carrier: str
     planets: Planet | None
@@ -160,9 +154,7 @@ _Central = tuple[str, AssemblyMesh]  # central wheel, and its mesh with a planet
 
 @dataclass(frozen=True)
 class TrainAssembly:
-    """Train with the data that the assembly rules of planets require: fixed and variable tooth counts, meshes, and sets
-    of planets.
-    """
+    """Train with the data of the assembly rules of planets: fixed and variable tooth counts, meshes, planet sets."""
 
     train: Train
     free: frozenset[str]
@@ -178,9 +170,7 @@ class TrainAssembly:
         return cls(train, frozenset(free), tree, find_circuits(train, tree))
 
     def part(self, wheel: str) -> CountRef:
-        """Return the tooth count of a wheel as a term of an assembly rule: the name of the wheel if its tooth count is
-        variable, or its fixed tooth count.
-        """
+        """Return the tooth count of a wheel as a term of an assembly rule: the wheel's name if it is variable."""
         count = self.train.wheels[wheel][1].count
         return wheel if wheel in self.free or count is None else count
 
@@ -251,9 +241,7 @@ class TrainAssembly:
 
     @cached_property
     def sets(self) -> tuple[PlanetSet, ...]:
-        """Sets of planets on carriers other than the frame. Sets that are isomorphic to an earlier set are its
-        `copies`.
-        """
+        """Sets of planets on moving carriers; sets that are isomorphic to an earlier set are its `copies`."""
         found: list[PlanetSet] = []
         by_carrier: dict[str, list[AssemblyMesh]] = {}
         for mesh in self.meshes:
@@ -321,9 +309,7 @@ def mesh_counts(planet: Planet, mesh: AssemblyMesh, other: Planet | None = None)
 
 @dataclass(frozen=True, slots=True)
 class PhaseArithmetic:
-    """Integer arithmetic for the assembly rule, on numbers, or on integer arrays with one element for each candidate
-    set of tooth counts.
-    """
+    """Integer arithmetic for the assembly rule, on numbers or on arrays of candidate sets of tooth counts."""
 
     count: Callable[[CountRef], Any]
     """Function that returns the value of a tooth count term, as a number or an array."""
@@ -493,8 +479,8 @@ class _EqualPlanets:
     # -------------------------------------------------------------------------------------------------------- assembly
 
     def assembly(self) -> Iterator[BuildFinding]:
-        """Yield findings of the assembly rules: A1 for planets with one wheel that meshes only with central wheels, A2
-        for all others.
+        """Yield findings of the assembly rules: A1 for simple planets that mesh only with central wheels, A2 for
+        others.
         """
         if not self.step:
             return

@@ -90,8 +90,8 @@ def _involute(angle: float) -> float:
 
 
 def minimum_ring(planet: int) -> int:
-    """Return the tooth count, at least 34, of the smallest ring without trochoid interference with a planet of `planet`
-    teeth; both have standard teeth.
+    """Return the tooth count (34 or more) of the smallest ring in which a planet of standard teeth has no trochoid
+    interference.
     """
     # the tip circle of a ring with fewer than 34 teeth lies within its base circle
     first = max(planet + 1, 34)
@@ -99,9 +99,7 @@ def minimum_ring(planet: int) -> int:
 
 
 def check_rings(pairs: Sequence[PitchPair]) -> Iterator[BuildFinding]:
-    """Yield findings of rules R1 to R3: a ring is smaller than its mate, trochoid interference, or trimming
-    interference.
-    """
+    """Yield findings of rules R1 to R3: a ring smaller than its mate, trochoid interference, trimming interference."""
     for pair in pairs:
         if pair.ring is None or set(pair.kinds) != {"spur"}:
             continue
@@ -151,9 +149,7 @@ _LOOSE = Fraction(1, 20)  # relative difference of distance of teeth with their 
 
 
 class PairOutline(NamedTuple):
-    """Dimensions of a pair with declared teeth as cut: its centre distance and the tip radius of each wheel [transverse
-    modules].
-    """
+    """Dimensions of a pair with declared teeth: centre distance and tip radius of each wheel [transverse modules]."""
 
     distance: float
     tips: Mapping[str, float]
@@ -161,9 +157,7 @@ class PairOutline(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class PitchPair:
-    """Gear pair with its declared dimensions. If a field has two elements, they refer to the first and the second
-    wheel.
-    """
+    """Gear pair with its declared dimensions; fields with two elements refer to the first and the second wheel."""
 
     name: str
     place: str
@@ -376,9 +370,7 @@ class PitchDistances:
     # ------------------------------------------------------------------------------------------------------- distances
 
     def _offsets(self, tree: Tree, circuits: Sequence[Circuit]) -> Iterator[BuildFinding]:
-        """Record axis distances from declared positions, then from the offsets of pins in slots. Yield a finding for
-        each contradiction.
-        """
+        """Record axis distances from declared positions and pin offsets, and yield a finding for each contradiction."""
         offsets = {each.name: each.offset for each in self.train.pin_couplings if each.offset is not None}
         for pair in self.pairs:
             if pair.parallel:

@@ -110,10 +110,6 @@ class Circuit(NamedTuple):
         # b = 0 for a follower, and a + b = 0 for a pin in a slot: one link then drops out
         return terms if self.b and c else tuple(term for term in terms if term[1])
 
-    def with_ratio(self, ratio: Fraction) -> Circuit:
-        """Return the circuit with another speed ratio tau, which is not 0."""
-        return self._replace(a=ratio.denominator, b=-ratio.numerator)
-
     def with_counts(self, counts: Mapping[str, int]) -> Circuit:
         """Return the circuit of the same pair with other tooth counts; the senses of rotation are unchanged.
 
@@ -452,9 +448,7 @@ def bevels_on_one_side(
 
 
 def passing_distance(axes: Axes, labels: Sequence[str]) -> float | None:
-    """Return the distance between two non-parallel axes [m], which is 0 if they intersect; None if one of their
-    positions is not declared.
-    """
+    """Return the distance between two non-parallel axes [m], 0 if they intersect; None if a position is missing."""
     here, there = (axes.positions.get(label) for label in labels)
     if here is None or there is None:
         return None

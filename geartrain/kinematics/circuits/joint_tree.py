@@ -31,9 +31,7 @@ from geartrain.train.states import Escapement
 
 @dataclass(frozen=True, slots=True)
 class Tree(FrozenFields):
-    """Turning and sliding pairs of a train as a spanning tree rooted at the frame. The tree determines the carriers of
-    gear pairs and their axes.
-    """
+    """Turning and sliding pairs of a train as a spanning tree rooted at the frame, which determines the carriers."""
 
     frame: str
     parent: Mapping[str, tuple[str, str]]
@@ -397,9 +395,7 @@ class Axes:
 
     @property
     def joint_sums(self) -> frozenset[str]:
-        """Links that are connected to the frame by joints with non-parallel axes. Their speed is a sum of joint speeds,
-        and not the speed of a rotation.
-        """
+        """Links with non-parallel joints up to the frame, whose speed is a sum of joint speeds and not of a rotation."""
         if self.plain:
             return frozenset()
         sums: set[str] = set()
@@ -431,9 +427,7 @@ class Axes:
         return min(angle, pi - angle)
 
     def sense(self, labels: tuple[str, str]) -> int:
-        """Return 1 if the angle between the reference directions of two axes is less than 90 degrees, and -1 if it is
-        not.
-        """
+        """Return 1 if the angle between the reference directions of two axes is less than 90 degrees, else -1."""
         first, second = (self.direction(label) for label in labels)
         return self.sign(labels[0]) * self.sign(labels[1]) * (-1 if dot(first, second) < 0 else 1)
 
@@ -460,9 +454,8 @@ class Axes:
         return {at: part for at, part in enumerate(parts) if part}
 
     def crossing(self, one: str, other: str) -> tuple[float, int]:
-        """Return the angle between two axes, 0 to pi [rad], and its sign about the direction from `other` to `one`.
-
-        The sign is 0 if the positions do not determine it.
+        """Return the angle between two axes, 0 to pi [rad], and its sign about the direction from `other` to `one`,
+        which is 0 if the positions do not determine it.
         """
         first, second = self.direction(one), self.direction(other)
         upright = cross(first, second)
@@ -472,16 +465,14 @@ class Axes:
         return atan2(far, float(dot(first, second))), (side > 0) - (side < 0)
 
     def helix_angles(self, labels: tuple[str, str], wheels: tuple[Wheel, Wheel]) -> tuple[float, float] | None:
-        """Return the helix angles of two wheels on skew axes [rad]; None if the axes are parallel or the angles are not
-        declared.
+        """Return the helix angles of two wheels on skew axes [rad]; None if the axes are parallel or angles are
+        unknown.
         """
         return None if self.are_parallel(labels) else crossed_helix_angles(wheels, *self.crossing(*labels))
 
     def coefficients(self, i: str, j: str, carrier: str, wheel_i: Wheel, wheel_j: Wheel) -> tuple[int, int, str]:
-        """Return the coefficients a and b of the Willis equation, and a note, which is "" unless the sense of rotation
-        is only a convention.
-
-        Raises `GearTrainError` for wheels that cannot mesh on their axes.
+        """Return the coefficients a and b of the Willis equation, and a note if the sense of rotation is only a
+        convention (else ""). Raises `GearTrainError` for wheels that cannot mesh on their axes.
         """
         z_i, z_j = wheel_i.count or 0, wheel_j.count or 0
         if "worm" in (wheel_i.kind, wheel_j.kind):
@@ -629,8 +620,8 @@ def rigid_across_axes(train: Train, tree: Tree, case: StateCase) -> Iterator[Rig
 
 
 class _Bodies:
-    """Rigid bodies of a train in one state, as disjoint sets of links, with its brakes and locks. Locking a joint
-    merges two bodies. Collinear axes are treated as one axis.
+    """Rigid bodies of a train in one state, as disjoint sets of links. Locking a joint merges two bodies, and collinear
+    axes are treated as one axis.
     """
 
     def __init__(self, axes: Axes, case: StateCase) -> None:

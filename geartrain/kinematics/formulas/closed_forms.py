@@ -35,9 +35,7 @@ _VALUES = (2, 3, 5, 7, 11, 13)  # primes: sums of their products rarely vanish
 
 @dataclass(frozen=True, slots=True)
 class FactoredPolynomial:
-    """Factored polynomial: an integer, times powers of variables, times sums. No two of the sums have a variable in
-    common.
-    """
+    """Factored polynomial: an integer, times powers of variables, times sums that have no variable in common."""
 
     content: int
     """Integer factor; 0 for the zero polynomial."""

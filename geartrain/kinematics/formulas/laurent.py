@@ -23,9 +23,7 @@ use.
 
 
 class Term(NamedTuple):
-    """Term of a polynomial: an integer coefficient times a product of powers. The exponents are in the order of the
-    wheels or of their groups.
-    """
+    """Term of a polynomial: an integer coefficient times a product of powers of the variables."""
 
     coefficient: int
     exponents: Exponents
@@ -97,9 +95,7 @@ class Laurent:
 
     @property
     def is_definite(self) -> bool:
-        """True if all coefficients have the same sign, so that the polynomial cannot vanish for positive tooth
-        counts.
-        """
+        """True if all coefficients have the same sign, so that the polynomial has no zero at positive tooth counts."""
         return len({value > 0 for value in self.terms.values()}) == 1
 
     def inverse(self) -> Laurent:
@@ -119,9 +115,7 @@ class Laurent:
         return total % prime
 
     def lowest(self) -> Exponents:
-        """Return the minimum exponent of each variable. These are the exponents of the largest monomial that divides
-        all terms.
-        """
+        """Return the minimum exponent of each variable, as in the largest monomial that divides all terms."""
         return tuple(map(min, zip(*self.terms, strict=True))) if self.terms else (0,) * self.width
 
     def shifted(self, by: Exponents) -> Laurent:
@@ -235,10 +229,8 @@ def divide_exactly(p: Laurent, q: Laurent) -> Laurent:
 
 
 def common_divisor(p: Laurent, q: Laurent) -> Laurent:
-    """Return the primitive greatest common divisor of two Laurent polynomials; 1 if they are coprime.
-
-    The divisor is found by Euclid's algorithm with primitive remainders over the rationals, in one variable after
-    another.
+    """Return the primitive greatest common divisor of two Laurent polynomials; 1 if they are coprime. It is found by
+    Euclid's algorithm with primitive remainders over the rationals, in one variable after another.
     """
     p, q = p.primitive(), q.primitive()
     if not p or not q:

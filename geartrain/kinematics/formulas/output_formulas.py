@@ -184,9 +184,7 @@ def _combined(form: Mapping[int, Laurent], values: Mapping[int, Laurent], determ
 
 @dataclass(frozen=True, slots=True)
 class Chord:
-    """Circuit that closes a loop, with the product of the speed ratios around the loop and the component that contains
-    the loop.
-    """
+    """Circuit that closes a loop, with the ratio product and the component of the loop."""
 
     circuit: int
     product: Laurent

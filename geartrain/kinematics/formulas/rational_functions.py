@@ -27,9 +27,7 @@ class MonomialGrouping:
     """Polynomials in the new variables (the monomials of the groups), with non-negative exponents."""
 
     def back(self, p: Laurent, width: int) -> Laurent:
-        """Return a polynomial in the new variables (the monomials of the groups) as a polynomial in the `width`
-        original variables.
-        """
+        """Return a polynomial in the new variables as a polynomial in the `width` original variables."""
 
         def spread(exponents: Exponents) -> Exponents:
             full = [0] * width
@@ -208,9 +206,7 @@ class Formula:
         return " / ".join(f"({text})" if " " in text else text for text in (top, bottom))
 
     def bounded(self, columns: Mapping[str, Ints]) -> tuple[Floats, Floats]:
-        """Return the values as in `values`, and bounds on their absolute errors, which are infinite where no digit is
-        certain.
-        """
+        """Return the values as in `values`, and bounds on their absolute errors (infinite if no digit is certain)."""
         import numpy as np
 
         from geartrain.numerics.bounded_polynomials import bounded_quotient, in_range, products_of

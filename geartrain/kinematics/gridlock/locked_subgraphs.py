@@ -32,9 +32,7 @@ _TRIALS = 3000  # maximum number of sets that are tried
 
 
 class LockedNetwork(NamedTuple):
-    """Component as a gain graph, with its carrier, the link of each node, and the circuit of each edge (mesh) of the
-    graph.
-    """
+    """Gain graph of one component, with its carrier, the link of each node, and the circuit of each mesh (edge)."""
 
     carrier: str
     links: list[str]
@@ -58,9 +56,7 @@ def find_gridlock(part: SolvedPart, mobility: Mobility) -> Gridlock:
 
 
 def find_locked_networks(parts: Components) -> list[LockedNetwork]:
-    """Return the gain graph of each component with an inconsistent loop. The units of speed are chosen so that most
-    gains are 1.
-    """
+    """Return the gain graph of each component with an inconsistent loop, with gains of 1 along a spanning tree."""
     size = len(parts.links)
     nodes = zip(parts.node_link, parts.node_carrier, strict=True)
     at = {carrier * size + link: node for node, (link, carrier) in enumerate(nodes)}
@@ -133,9 +129,7 @@ def _without(part: SolvedPart, gone: Collection[str]) -> SolvedPart:
 
 
 def _locked_links(part: SolvedPart, gone: Collection[str]) -> tuple[str, ...]:
-    """Return the links that are locked after the meshes in `gone` are removed: those at rest for these speed ratios and
-    for random ones, because special ratios can keep a link at rest while the train moves.
-    """
+    """Return the links at rest after the meshes in `gone` are removed, for these and for random speed ratios."""
     less = _without(part, gone)
     still = _stationary_links(less)
     if not still:
@@ -411,10 +405,8 @@ def walk_gain_graph(network: GainGraph, without: Collection[int] = ()) -> GainWa
 
 
 def inconsistent_loops(network: GainGraph, without: Collection[int]) -> list[GainLoop]:
-    """Return a short inconsistent loop for each mesh that contradicts a spanning forest, without duplicates.
-
-    A shortest inconsistent loop of the whole network is among them, because every inconsistent loop contains one of
-    these meshes.
+    """Return a short inconsistent loop for each mesh that contradicts a spanning forest, without duplicates. A shortest
+    inconsistent loop of the network is among them, because each inconsistent loop contains one of these meshes.
     """
     breaking = [mesh for mesh in walk_gain_graph(network, without).breaking if mesh not in without]
     starts = dict.fromkeys(network.ends[mesh][0] for mesh in breaking)

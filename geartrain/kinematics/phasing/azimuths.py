@@ -27,9 +27,7 @@ EPS = 2 * UNIT_ROUNDOFF  # spacing of float64 numbers at 1: bounds the error of 
 
 @dataclass(frozen=True)
 class UnplacedPair:
-    """Gear pair or coupling that is excluded from the assembly conditions because its position is unknown, with the
-    reason.
-    """
+    """Gear pair or coupling without an assembly condition, with the reason why its position is unknown."""
 
     name: str
     """Name of the pair or coupling."""
@@ -39,8 +37,8 @@ class UnplacedPair:
 
 @dataclass(frozen=True)
 class PitchPoints:
-    """Pitch points of gear pairs with known positions. All arrays have one row for each pair, and one column for each
-    of its two wheels.
+    """Pitch points of gear pairs with known positions, in arrays with one row for each pair and one column for each
+    wheel.
     """
 
     circuits: tuple[Circuit, ...]
@@ -103,8 +101,8 @@ class PitchPoints:
 
 
 def contact_families(keys: Sequence[tuple[object, object]]) -> tuple[list[tuple[int, int]], Mapping[object, int]]:
-    """Return the family numbers of the two contacts of every pair, and the family number of each key. Contacts with
-    equal keys form a family.
+    """Return the family numbers of the two contacts of every pair, and of each key; contacts with equal keys are a
+    family.
     """
     number: dict[object, int] = {}
     for pair in keys:

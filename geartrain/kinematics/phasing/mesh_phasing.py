@@ -445,8 +445,8 @@ class MeshPhasing(Result):
 
     @cached_property
     def wheels(self) -> Mapping[str, float]:
-        """Angle of the first tooth of every wheel from its reference direction, from 0 to the angular pitch of the
-        wheel [rad].
+        """Angle of the first tooth of every wheel from its reference direction, in [0, angular pitch of the wheel)
+        [rad].
         """
         angles, found = self.angles, {}
         for circuit in self.problem.circuits:
@@ -467,8 +467,8 @@ class MeshPhasing(Result):
 
     @cached_property
     def last_errors(self) -> Mapping[str, float]:
-        """Phase error of every pair [pitch] if the pair assembled last in each loop takes up the entire phase error of
-        the loop.
+        """Phase error of every pair [pitch] if the last pair assembled in each loop takes up the loop's entire phase
+        error.
         """
         return self._errors(self.problem.tree_angles)
 

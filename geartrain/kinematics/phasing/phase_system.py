@@ -44,9 +44,7 @@ class SparseRows:
         return height * self.width <= _DENSE
 
     def least_squares(self, right: Floats) -> Floats:
-        """Return the vector x of minimum norm that minimises |A x - right|, where A is this matrix, by LSMR (Fong and
-        Saunders 2011).
-        """
+        """Return the vector x of minimum norm that minimises |A x - right|, by LSMR (Fong and Saunders 2011)."""
         from scipy.sparse import csr_array
         from scipy.sparse.linalg import lsmr
 
@@ -298,7 +296,7 @@ class PhaseSystem:
 
     @cached_property
     def coupled_rows(self) -> list[dict[int, int]]:
-        """Weights of the equations of meshes of several carriers for which the left-hand sides of these equations
+        """Weights of the equations of meshes of several carriers with which the left-hand sides of the equations
         cancel.
         """
         rows = []
@@ -353,9 +351,7 @@ class PhaseSystem:
 
     @cached_property
     def _unequal_rows(self) -> list[dict[int, int]]:
-        """Rows whose integer combinations may have common factors, which are all rows of components with weights other
-        than 1 and -1.
-        """
+        """Rows of components with weights other than 1 and -1, whose integer combinations may have common factors."""
         if not self.cycles:
             return self.coupled_rows
         group = self.parts.node_group
@@ -414,9 +410,7 @@ class PhaseSystem:
 
     @cached_property
     def _whole_pitches(self) -> dict[int, int]:
-        """Integers added to the constants of meshes [pitch], by mesh; loops of compound wheels then have small
-        residues.
-        """
+        """Integers added to the constants of meshes [pitch], by mesh, so that loops of compound wheels nearly close."""
         basis, dual, _ = self._saturated
         found: dict[int, int] = {}
         for row, column in zip(basis, dual, strict=True):
@@ -509,9 +503,7 @@ class PhaseSystem:
         return found
 
     def errors(self, angles: Sequence[float] | Floats) -> Floats:
-        """Return the phase error of every mesh [pitch] for given angles of the links [turn]. It is 0 for meshes in
-        loops that cannot turn.
-        """
+        """Return the phase error of every mesh for given angles of links [turn]; 0 in loops that cannot turn [pitch]."""
         return self._errors(self._link_rows, np.asarray(angles))
 
     def _errors(self, rows: SparseRows, angles: Floats) -> Floats:

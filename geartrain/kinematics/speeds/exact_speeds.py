@@ -386,10 +386,7 @@ class Solution:
 
     def relative(self, of: str, base: str) -> Fraction | None:
         """Return the speed of the link `of` relative to the link `base`, about the axis of `of`; None if it is not
-        determined.
-
-        The relative speed can be determined even if both links are free, if the difference of their speeds is in the
-        row space of the system.
+        determined. It can be determined although both links are free, if the difference of their speeds is.
         """
         found = relative_speed(of, base, self.speeds.get, self.signs)
         if found is not None or self.difference is None:
@@ -473,10 +470,8 @@ def elimination_budget(reduced: ReducedSystem, budget: int | None) -> int | None
 
 
 def eliminate_within(rows: Sequence[LinearForm], budget: int | None) -> Echelon:
-    """Eliminate exactly with at most `budget` operations. Raises `TooDenseError` immediately if the predicted fill-in
-    exceeds this number.
-
-    The fill-in is predicted by the same elimination modulo a prime, with short numbers and a separate limit.
+    """Eliminate exactly with at most `budget` operations. Raises `TooDenseError` if a limited elimination modulo a
+    prime, with short numbers, predicts too much fill-in.
     """
     if budget is not None and len(rows) > _FEW:
         eliminate(map(residues, rows), _PREDICTED + 10 * len(rows), PRIME)
@@ -484,9 +479,7 @@ def eliminate_within(rows: Sequence[LinearForm], budget: int | None) -> Echelon:
 
 
 def exact_verdict(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int]) -> Verdict:
-    """Return the verdict without speeds, by elimination modulo a prime. It is used for systems that are too dense for
-    exact numbers.
-    """
+    """Return the verdict without speeds, by elimination modulo a prime, for systems too dense for exact numbers."""
     held = [*reduced.equations, *held_rows(reduced, case)]
     if not any(case.inputs.values()) and rank_modulo(held) == reduced.unknowns:
         return stationary_verdict(reduced, case)

@@ -165,10 +165,8 @@ def _error_bound(lu: Any, error: Floats) -> Floats:
 
 
 def prepare(system: WillisSystem) -> tuple[PaddedRows, list[WillisEquation]]:
-    """Return the matrix for factorisation and the equations of its rows. The number of independent rows equals the
-    number of moving links.
-
-    Raises `RangeError` if the system is not square.
+    """Return the matrix for factorisation and the equations of its rows, as many as moving links. Raises `RangeError`
+    if the system is not square.
     """
     links, rows = independent_rows(system.links, system.equations, system.redundant)
     if len(rows) > len(links):

@@ -104,8 +104,8 @@ def _stationary_links(reduced: ReducedSystem, forms: Mapping[int, LinearForm]) -
 
 @collector_paused()
 def find_mobility(reduced: ReducedSystem, turning_pairs: int, sliding_pairs: int = 0) -> Mobility:
-    """Compute the mobility of the train from the exact rank of its equations, ignoring prescribed speeds; see (16) and
-    (17) of docs/theory.md.
+    """Return the mobility from the exact rank of the equations without prescribed speeds, (16) and (17) of
+    docs/theory.md.
     """
     parts = reduced.components
     gears = sum(circuit.kind == "gear" for circuit in parts.circuits)

@@ -88,10 +88,7 @@ class TrainKinematics(Shown):
         return find_circuits(self.declaration, self.tree)
 
     def circuits_without(self, names: Sequence[str]) -> tuple[Circuit, ...]:
-        """Return all circuits except the circuits of the given pairs.
-
-        names   names of the pairs to be omitted
-        """
+        """Return all circuits except the circuits of the pairs whose names are given."""
         known = [circuit.id for circuit in self.circuits]
         for name in (name for name in names if name not in known):
             what = f"'{self.declaration.name}' has no pair '{name}'"
@@ -115,10 +112,7 @@ class TrainKinematics(Shown):
         return self._axes.joint_sums
 
     def is_rotation(self, of: str, base: str) -> bool:
-        """Return True if all axes between two links are parallel, so that their relative motion is a rotation.
-
-        of, base   two links, in any order
-        """
+        """Return True if all axes between two links are parallel, so that their relative motion is a rotation."""
         # without sums all axes between links and the frame are parallel, so that no path is examined
         return not self.joint_sums or self._axes.is_rotation(of, base)
 

@@ -96,7 +96,8 @@ def _check_connected(found: nx.Graph[Any]) -> None:
 
     parts = [sorted(map(str, part)) for part in nx.connected_components(found)]
     if len(parts) > 1:
-        what = f"{', '.join(min(parts, key=len))} are not connected to the other gears"
+        minimum = min(parts, key=len)
+        what = f"{', '.join(minimum)} are not connected to the other gears"
         raise _refused(what, "meshes determine the axes", "pack one connected part at a time")
     cut = next(iter(nx.articulation_points(found)), None)
     if cut is None:
@@ -130,7 +131,7 @@ def _refused(what: str, why: str, fix: str) -> QuestionError:
 
 
 def regions_of(found: nx.Graph[Any]) -> list[list[int]]:
-    """Return the regions of a planar embedding as closed walks of gear numbers; raise `QuestionError` if none exists."""
+    """Return the regions of a planar embedding as closed walks of gears; raise `QuestionError` if none exists."""
     import networkx as nx
 
     drawn: Any

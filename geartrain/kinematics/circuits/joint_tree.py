@@ -395,7 +395,7 @@ class Axes:
 
     @property
     def joint_sums(self) -> frozenset[str]:
-        """Links with non-parallel joints up to the frame, whose speed is a sum of joint speeds and not of a rotation."""
+        """Links with non-parallel joints up to the frame; their speed is a sum of joint speeds, not of a rotation."""
         if self.plain:
             return frozenset()
         sums: set[str] = set()

@@ -503,7 +503,7 @@ class PhaseSystem:
         return found
 
     def errors(self, angles: Sequence[float] | Floats) -> Floats:
-        """Return the phase error of every mesh for given angles of links [turn]; 0 in loops that cannot turn [pitch]."""
+        """Return the phase error of every mesh [pitch] for given link angles [turn]; 0 in loops that cannot turn."""
         return self._errors(self._link_rows, np.asarray(angles))
 
     def _errors(self, rows: SparseRows, angles: Floats) -> Floats:

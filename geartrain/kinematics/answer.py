@@ -119,22 +119,17 @@ class SpeedAccuracy:
     """
 
 
-class ClutchActions(TypedDict, total=False):
-    """Keys that the JSON output contains only for a train with one-way clutches."""
+class OptionalKeys(TypedDict, total=False):
+    """Keys that the JSON output contains only for float speeds, or only for a train with one-way clutches."""
 
+    residual: Mapping[str, float]
+    """Relative residual of each row of the Willis system, by row label: magnitude of the residual divided by the sum of
+    the magnitudes of the terms of the row [1].
+    """
     one_way: Sequence[OneWayAction]
     """Active one-way clutches, each with the information whether it holds or overruns."""
     notes: Sequence[str]
     """Notes on the one-way clutches, such as their behaviour when the output drives the train."""
-
-
-class RowResiduals(TypedDict, total=False):
-    """Key that the JSON output contains only for float speeds: residual of each row of the Willis system."""
-
-    residual: Mapping[str, float]
-    """Relative residual of each row, by row label: magnitude of the residual divided by the sum of the magnitudes of
-    the terms of the row [1].
-    """
 
 
 @dataclass(frozen=True, slots=True)
@@ -166,10 +161,7 @@ class Answer(FrozenFields, Tabular, TrainResult):
         "exact": "Speed of the link as a fraction; empty for floats.",
     }
 
-    KEYS = (
-        *("state", "verdict", "method", Key("speeds", "speed_figures"), "outputs"),
-        *(Key("", "row_residuals"), Key("", "clutch_actions")),
-    )
+    KEYS = ("state", "verdict", "method", Key("speeds", "speed_figures"), "outputs", Key("", "optional_keys"))
 
     train: str
     """Name of the train."""
@@ -229,32 +221,27 @@ class Answer(FrozenFields, Tabular, TrainResult):
         case = None if self._declaration is None else self._declaration.case(self.state)
         inputs = {} if case is None else {link: self.speeds.get(link) for link in case.inputs}
         turning = [link for link, speed in inputs.items() if speed]
+        driver = turning[0] if len(turning) == 1 else None
         shown = [link for link in self._main_links(case) if link in self.speeds]
-        figures = [f"{link} = {self._figure(link, turning, inputs)}" for link in shown[:_MAIN]]
+        figures = []
+        for link in shown[:_MAIN]:
+            speed = self.speeds[link]
+            if driver is None or driver == link or not isinstance(speed, Fraction):
+                figures.append(f"{link} = {brief(speed) or speed}")
+            else:  # an exact speed is given as a multiple of the speed of the only input that turns
+                figures.append(f"{link} = {brief(speed / self.speeds[driver])} of {driver}")
         more = [f"{len(shown) - _MAIN} more"] if len(shown) > _MAIN else []
         state = "" if self.state is None else f" state {self.state}"
         return f"{self.train}{state}: {', '.join([self.verdict.kind, *figures, *more])}"
 
     def _main_links(self, case: Any) -> Iterable[str]:
-        """Return the links of the requested or declared outputs; if none are declared, all links that are neither
-        inputs nor fixed.
-        """
+        """Return the links of the outputs; if none are declared, all links that are neither inputs nor fixed."""
         if case is None or self._output is not None:
             return self.speeds
         outputs = [output.links(name, self._declaration.frame) for name, output in case.outputs.items()]
         known = {*case.inputs, *case.fixed, self._declaration.frame}
         shown = [of for of, base in outputs if base == self._declaration.frame and of not in known]
         return dict.fromkeys(shown or (link for link in self.speeds if link not in known))
-
-    def _figure(self, link: str, turning: Sequence[str], inputs: Mapping[str, SpeedValue | None]) -> str:
-        """Return the speed of a link as text. It is given as a multiple of the input speed if exactly one input turns
-        and both speeds are exact.
-        """
-        speed = self.speeds[link]
-        own = inputs.get(turning[0]) if len(turning) == 1 else None
-        if own is None or not isinstance(speed, Fraction) or not isinstance(own, Fraction) or link == turning[0]:
-            return brief(speed) or str(speed)
-        return f"{brief(speed / own)} of {turning[0]}"
 
     def __getitem__(self, name: str) -> SpeedValue:
         """Return the speed of an output or a link [`unit`]; raise `KeyError` if it is not determined."""
@@ -309,13 +296,7 @@ class Answer(FrozenFields, Tabular, TrainResult):
         return found
 
     @property
-    def clutch_actions(self) -> ClutchActions:
-        """One-way clutches and notes on them, in the form of the JSON output; empty if the train has no one-way
-        clutches.
-        """
-        return {"one_way": self.one_way, "notes": self.notes} if self.one_way else {}
-
-    @property
-    def row_residuals(self) -> RowResiduals:
-        """Residuals of the rows of the Willis system, in the form of the JSON output; empty for exact speeds."""
-        return {"residual": self.residual} if self.residual else {}
+    def optional_keys(self) -> OptionalKeys:
+        """Residuals of float speeds, and one-way clutches with notes on them, in the form of the JSON output."""
+        found: OptionalKeys = {"residual": self.residual} if self.residual else {}
+        return found | {"one_way": self.one_way, "notes": self.notes} if self.one_way else found

@@ -25,8 +25,8 @@ from geartrain.numerics.graphs import chain_to_root, ways_to_common_ancestor
 
 @dataclass(frozen=True, slots=True)
 class Components:
-    """Components (ordinary trains relative to one carrier) as parallel arrays over nodes. A node is a link relative to
-    a carrier.
+    """Components (ordinary trains relative to one carrier) as arrays over nodes; a node is a link relative to a
+    carrier.
     """
 
     links: tuple[str, ...]
@@ -62,9 +62,7 @@ class Components:
         return self.ratios.parent
 
     def relative(self, node: int) -> Fraction:
-        """Return the speed of a node's link relative to the node's carrier, divided by the unknown speed of the
-        component.
-        """
+        """Return the relative speed of a node's link, divided by the unknown speed of its component."""
         return self.ratios.value(node)
 
     def node(self, link: int, carrier: int) -> int:
@@ -136,10 +134,7 @@ def find_components(
     node_link, node_carrier, edges, holding = _nodes(index, circuits)
     nodes_of: dict[int, list[int]] = {}
     for at, link in enumerate(node_link):
-        if link in nodes_of:
-            nodes_of[link].append(at)
-        else:
-            nodes_of[link] = [at]
+        nodes_of.setdefault(link, []).append(at)
     count = len(node_link)
     ratios = FactoredRatios(count)
     group, reached = [-1] * count, [-1] * count
@@ -160,9 +155,8 @@ def find_components(
             here = queue.popleft()
             entered = reached[here]
             for at, there, a, b in edges[here]:
-                if (
-                    at == entered
-                ):  # compare circuits, not nodes, because a second mesh between the same nodes closes a loop
+                # compare circuits, not nodes, because a second mesh between the same nodes closes a loop
+                if at == entered:
                     continue
                 if group[there] < 0:
                     group[there], reached[there] = this, at
@@ -184,9 +178,8 @@ def _nodes(
     index: Mapping[str, int], circuits: Sequence[Circuit]
 ) -> tuple[list[int], list[int], list[list[_Edge]], list[int]]:
     """Return the link, the carrier and the edges of each node, and the indices of the couplings with winding number 0.
-
-    An edge (circuit, other node, a, b) means that the relative speed of the other node is a/b times the relative speed
-    of this node.
+    An edge (circuit, other node, a, b) means that the other node's relative speed is a/b times the relative speed of
+    this node.
     """
     size = len(index)
     node_of: dict[int, int] = {}
@@ -246,9 +239,7 @@ class ReducedSystem:
         return self.seen_from(parts.nodes_of[link][0])
 
     def unknowns_of(self, link: int) -> tuple[int, ...]:
-        """Return the unknowns on which a link's speed depends. Their coefficients, which may have many digits, are not
-        computed.
-        """
+        """Return the unknowns on which a link's speed depends, without their coefficients (possibly many digits)."""
         parts = self.components
         if link == parts.frame:
             return ()
@@ -260,9 +251,7 @@ class ReducedSystem:
         return (parts.node_group[node], *(() if carrier == parts.frame else (self.own[carrier],)))
 
     def seen_from(self, node: int) -> LinearForm:
-        """Return the speed of a node's link as a linear form: the speed of the node's carrier plus the relative
-        speed.
-        """
+        """Return the speed of a node's link, the sum of its carrier's and its relative speed, as a linear form."""
         parts = self.components
         row: LinearForm = {parts.node_group[node]: parts.relative(node)}
         carrier = parts.node_carrier[node]

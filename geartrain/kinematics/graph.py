@@ -58,7 +58,6 @@ def _edges(train: Train) -> Iterator[tuple[tuple[str, str], str, str, str, Any]]
 
 
 _JOINTS = {"revolute": "R", "prismatic": "P"}
-_DOT_STYLES = {"revolute": "penwidth=1", "prismatic": "style=dotted, penwidth=1", "gear": "penwidth=3"}
 MOST_SQUARE = 48
 """Maximum number of links for which the adjacency matrix is shown by default. The size of the matrix is quadratic in
 this number.
@@ -66,9 +65,7 @@ this number.
 
 
 def edge_rows(graph: Graph) -> list[tuple[str, str, str, str]]:
-    """Return the edges in the order of the declaration. Each edge is given by its two links, its kind, and the name of
-    its axis or pair.
-    """
+    """Return the two links, the kind, and the axis or pair of each edge, in the order of the declaration."""
     return [(first, second, data["kind"], str(data["label"])) for first, second, data in graph.edges(data=True)]
 
 
@@ -155,18 +152,13 @@ def _plain(graph: Graph) -> Graph:
         wheels = " ".join(f"{name}:{wheel.count}" for name, wheel in data["declared"].wheels.items())
         plain.add_node(link, frame=data["frame"], wheels=wheels)
     for first, second, key, data in graph.edges(keys=True, data=True):
-        plain.add_edge(first, second, key=key, **_edge_text(data))
+        text, declared = {"kind": data["kind"], "label": data["label"]}, data["declared"]
+        if data["kind"] == "gear":
+            text |= dict(zip(("first_wheel", "second_wheel"), declared.pair, strict=True))
+        elif data["kind"] not in _JOINTS and len(declared.ENDS) == 2:
+            text |= dict(zip(declared.ENDS, declared.ends, strict=True))
+        plain.add_edge(first, second, key=key, **text)
     return plain
-
-
-def _edge_text(data: dict[str, Any]) -> dict[str, str]:
-    text = {"kind": data["kind"], "label": data["label"]}
-    declared = data["declared"]
-    if data["kind"] == "gear":
-        text |= {"first_wheel": declared.pair[0], "second_wheel": declared.pair[1]}
-    elif data["kind"] not in _JOINTS:
-        text |= dict(zip(declared.ENDS, declared.ends, strict=True)) if len(declared.ENDS) == 2 else {}
-    return text
 
 
 def _quoted(text: str) -> str:

@@ -11,7 +11,7 @@ from geartrain.kinematics.circuits import Circuit
 from geartrain.numerics.exact import as_float, decimal, fraction_text, pi_text, touches_pi
 from geartrain.numerics.quantity import Figure
 from geartrain.numerics.results import Key, Result
-from geartrain.train import Output, Published, StateCase, Train
+from geartrain.train import Output, StateCase, Train
 from geartrain.train.outputs import PrintedPeriod, Target, year_seconds
 from geartrain.train.periods import period_table
 
@@ -27,9 +27,7 @@ is undetermined.
 
 @dataclass(frozen=True, slots=True)
 class RatioGoal:
-    """Speed that is required by a declared target of an output. It is compared including its sign, or only by its
-    magnitude.
-    """
+    """Speed that is required by a declared target of an output, with its sign or only as a magnitude."""
 
     label: str
     """Description of the required speed without its sense of rotation."""
@@ -45,16 +43,10 @@ class RatioGoal:
         """Description of the required speed with its sense of rotation."""
         return f"{self.label} {self.sense}".rstrip() if self.signed else f"{self.label} in either sense"
 
-    def error(self, speed: SpeedValue) -> SpeedValue:
-        """Return the relative error speed / goal - 1, which is positive if the output is too fast; if the goal is 0,
-        return the speed itself.
-        """
-        return error_against(speed, self.speed, self.signed)
-
 
 def error_against(speed: SpeedValue, wanted: Fraction, signed: bool) -> SpeedValue:
-    """Return the relative error speed / wanted - 1. If `signed` is False, magnitudes are compared. If `wanted` is 0,
-    the speed itself is returned.
+    """Return the relative error speed / wanted - 1, of magnitudes if `signed` is False; the speed itself if `wanted` is
+    0.
     """
     own = speed if signed else magnitude(speed)
     return own / wanted - 1 if wanted else own
@@ -244,8 +236,18 @@ class OutputResult(Result):
 
         A period is in seconds; it is negative if the output turns in the sense opposite to the declared `sense`.
         """
-        published = self.output.published
-        return None if published is None else _as_published(published, self.speed, self.ratio, self.unit_seconds)
+        published, speed, ratio, unit = self.output.published, self.speed, self.ratio, self.unit_seconds
+        if published is None:
+            return None
+        backwards = False
+        if published.as_ == "period":
+            found = published.turns.value * unit / speed if speed and unit else None
+            backwards = published.sense == "retrograde"
+        else:
+            found = {"speed": speed, "output/input": ratio, "input/output": 1 / ratio if ratio else None}[published.as_]
+        if found is None:
+            return None
+        return magnitude(found) if published.unsigned else -found if backwards else found
 
     @property
     def found_text(self) -> str | None:
@@ -389,35 +391,14 @@ def _expect_holds(output: Output, speed: SpeedValue | None) -> bool | None:
     return (not isinstance(speed, Fraction) and abs(exact - expect.value.value) <= slack) or expect.holds(exact)
 
 
-def _as_published(
-    published: Published, speed: SpeedValue | None, ratio: SpeedValue | None, unit: Fraction | None
-) -> SpeedValue | None:
-    """Return the speed of an output converted to the quantity that the source prints; None if it is undefined.
-
-    unit   time of one turn at a speed of 1 [s]; None if there is no unit of time
-    """
-    if published.as_ == "period":
-        found = published.turns.value * unit / speed if speed and unit else None
-        backwards = published.sense == "retrograde"
-    else:
-        inverse = 1 / ratio if ratio else None
-        found = {"speed": speed, "output/input": ratio, "input/output": inverse}[published.as_]
-        backwards = False
-    if found is None:
-        return None
-    return magnitude(found) if published.unsigned else -found if backwards else found
-
-
 def unit_seconds(train: Train) -> Fraction | None:
     """Return the time of one turn at a speed of 1 [s]; None if the train has no unit of time."""
     return 1 / train.unit_speed if train.unit_speed else None
 
 
 def in_plain_units(printed: Figure, unit: Fraction | None) -> Figure:
-    """Return a published value or its tolerance as a number in the unit of `OutputResult.found`; a period is in
-    seconds.
-
-    unit   time of one turn at a speed of 1 [s], which is the length of a printed year
+    """Return a published value or tolerance as a number in the unit of `OutputResult.found` (periods in seconds);
+    `unit` is the time of one turn at a speed of 1 [s], which is the length of a printed year.
     """
     return printed.in_seconds(year_seconds(unit)) if isinstance(printed, PrintedPeriod) else printed
 
@@ -441,7 +422,7 @@ def goal_of(train: Train, target: Target) -> RatioGoal:
 
 def _compare_with_target(train: Train, target: Target, speed: SpeedValue) -> TargetResult:
     goal = goal_of(train, target)
-    error = goal.error(speed)
+    error = error_against(speed, goal.speed, goal.signed)
     tolerance = target.tolerance.base if target.tolerance else None
     ahead = (speed if goal.signed else magnitude(speed)) - goal.speed
     return TargetResult(

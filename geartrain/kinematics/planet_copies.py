@@ -10,7 +10,7 @@ from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Se
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import tau
-from typing import TypeVar
+from typing import TypeVar, overload
 
 from geartrain.errors import DeclarationError, Loc, Problem
 from geartrain.kinematics.circuits import Tree
@@ -51,9 +51,7 @@ def originals(train: Train) -> dict[str, str]:
 
 
 def original(name: str, declared: Container[str]) -> str:
-    """Return the declared name of a part of the expanded train; `declared` contains all declared names of parts of its
-    kind.
-    """
+    """Return the declared name of a part of the expanded train; `declared` contains all declared names of its kind."""
     return name if name in declared else name.rpartition(".")[0]
 
 
@@ -79,18 +77,17 @@ def _with_total_inertia(train: Train, part: Link) -> Link:
     wheels = {}
     for name, wheel in part.wheels.items():
         # mass of wheels follows from their density, so it is multiplied too
-        density = wheel.density or train.density
-        wheels[name] = wheel if density is None else wheel.changed(density=_multiplied(density, number))
+        wheels[name] = wheel.changed(density=_multiplied(wheel.density or train.density, number))
     bearing = part.bearing
     if bearing is not None:
-        static = None if bearing.static is None else _multiplied(bearing.static, number)
-        bearing = bearing.changed(sliding=_multiplied(bearing.sliding, number), static=static)
+        sliding, static = _multiplied(bearing.sliding, number), _multiplied(bearing.static, number)
+        bearing = bearing.changed(sliding=sliding, static=static)
     return part.changed(
         copies=1,
         wheels=FrozenDict(wheels),
-        inertia=None if part.inertia is None else _multiplied(part.inertia, number),
-        mass=None if part.mass is None else _multiplied(part.mass, number),
-        drag=None if part.drag is None else _multiplied(part.drag, number),
+        inertia=_multiplied(part.inertia, number),
+        mass=_multiplied(part.mass, number),
+        drag=_multiplied(part.drag, number),
         bearing=bearing,
     )
 
@@ -105,10 +102,7 @@ def _with_total_stiffness(train: Train, gear: GearPair) -> GearPair:
     if number == 1:
         return gear
     stiffness, damping = train.stiffness_of(gear), train.damping_of(gear)
-    return gear.changed(
-        stiffness=None if stiffness is None else _multiplied(stiffness, number),
-        damping=None if damping is None else _multiplied(damping, number),
-    )
+    return gear.changed(stiffness=_multiplied(stiffness, number), damping=_multiplied(damping, number))
 
 
 def _total_loads(train: Train, loads: Mapping[str, Quantity] | None) -> Mapping[str, Quantity] | None:
@@ -117,24 +111,32 @@ def _total_loads(train: Train, loads: Mapping[str, Quantity] | None) -> Mapping[
     return FrozenDict({link: _multiplied(torque, train.links[link].copies) for link, torque in loads.items()})
 
 
-def _multiplied(quantity: Quantity, number: int) -> Quantity:
-    return (
-        replace(quantity, value=quantity.value * number, text=f"{number} x {quantity.text}") if number > 1 else quantity
-    )
+@overload
+def _multiplied(quantity: Quantity, number: int) -> Quantity: ...
+
+
+@overload
+def _multiplied(quantity: Quantity | None, number: int) -> Quantity | None: ...
+
+
+def _multiplied(quantity: Quantity | None, number: int) -> Quantity | None:
+    if quantity is None or number == 1:
+        return quantity
+    return replace(quantity, value=quantity.value * number, text=f"{number} x {quantity.text}")
 
 
 def _problems(train: Train, tree: Tree) -> Iterator[Problem]:
     for link, part in train.links.items():
         bearer = tree.top.get(link)
         if part.copies == 1:
-            if bearer in train.links and train.links[bearer].copies > 1:
-                what = f"'{link}' is declared once, but turns on '{bearer}' with `copies: {train.links[bearer].copies}`"
+            if bearer in train.links and (number := train.links[bearer].copies) > 1:
+                what = f"'{link}' is declared once, but turns on '{bearer}' with `copies: {number}`"
                 fix = (
-                    f"declare `copies: {train.links[bearer].copies}` for this link too; or, if all copies share "
-                    f"one '{link}', add a link coaxial with the carrier on which it turns, with the coupling "
+                    f"declare `copies: {number}` for this link too; or, if all copies share one '{link}', add a link "
+                    "coaxial with the carrier on which it turns, with the coupling "
                     f"`{{kind: parallel, pin: {bearer}, slot: added}}` (see `rv-reducer`)"
                 )
-                why = f"each of the {train.links[bearer].copies} links '{bearer}' would need its own '{link}'"
+                why = f"each of the {number} links '{bearer}' would need its own '{link}'"
                 yield Problem(what, why, fix, train.place("links", link))
             continue
         if bearer is None or bearer == train.frame:
@@ -164,12 +166,10 @@ def _name_conflicts(train: Train) -> Iterator[Problem]:
                 ("gear pair", pairs, ids),
             ):
                 for name in own:
-                    if _copy_name(name, at) in all_of:
-                        what = (
-                            f"{kind} '{_copy_name(name, at)}' is declared, but copy {at} of '{name}' has the same name"
-                        )
+                    if (taken := _copy_name(name, at)) in all_of:
+                        what = f"{kind} '{taken}' is declared, but copy {at} of '{name}' has the same name"
                         why = f"copies of link '{link}' and of its parts have generated names, numbered from 2"
-                        yield Problem(what, why, f"rename '{_copy_name(name, at)}'", train.place("links", link))
+                        yield Problem(what, why, f"rename '{taken}'", train.place("links", link))
 
 
 def _unequal_mates(train: Train) -> Iterator[Problem]:
@@ -180,18 +180,15 @@ def _unequal_mates(train: Train) -> Iterator[Problem]:
         if len(counts) > 1 and 1 not in counts:
             yield _unequal(train, first, second, "gears", at)
     for at, coupling in enumerate(train.couplings):
-        for link in coupling.links(train.wheels):
-            if train.links[link].copies > 1 and not _allows_copies(train, coupling):
+        links = coupling.links(train.wheels)
+        # some kinds keep several equal links parallel to a single link
+        allowed = coupling.FOR_COPIES and any(train.links[link].copies == 1 for link in links)
+        for link in links:
+            if train.links[link].copies > 1 and not allowed:
                 what = f"coupling '{coupling.name}' cannot connect {train.links[link].copies} equal links '{link}'"
                 fix = "declare these links one by one, each with its coupling"
                 why = "copies have equal motions and equal pairs, but this coupling connects each one differently"
                 yield Problem(what, why, fix, train.place("couplings", at))
-
-
-def _allows_copies(train: Train, coupling: Coupling) -> bool:
-    """Return True if the coupling is of a kind that can keep several equal links parallel to another link."""
-    counts = {train.links[link].copies for link in coupling.links(train.wheels)}
-    return coupling.FOR_COPIES and 1 in counts
 
 
 def _unequal(train: Train, first: str, second: str, *loc: str | int) -> Problem:
@@ -202,9 +199,7 @@ def _unequal(train: Train, first: str, second: str, *loc: str | int) -> Problem:
 
 @dataclass(frozen=True)
 class _Expansion:
-    """Expansion of a train in which every copy of a link, joint, pair or coupling becomes a separate part. The copy
-    with the number 1 is the declared part.
-    """
+    """Expansion of a train in which every copy of a part becomes a separate part; copy 1 is the declared part."""
 
     declared: Train
     tree: Tree
@@ -221,19 +216,23 @@ class _Expansion:
                 if joint.axis in self.declared.axes:
                     axes[_copy_name(joint.axis, at)] = self._axis(joint.axis, at)
         joints = self._all_copies(self.declared.revolutes, lambda joint: joint.pair, self._joint)
+        wheels = self.declared.wheels
         gears = self._all_copies(
-            self.declared.gears, lambda gear: [self.declared.wheels[wheel][0] for wheel in gear.pair], self._gear
+            self.declared.gears, lambda gear: [wheels[wheel][0] for wheel in gear.pair], self._gear
         )
-        couplings = self._all_copies(
-            self.declared.couplings, lambda each: each.links(self.declared.wheels), self._coupling
-        )
-        counts = [_pair_count(self.declared, gear) for gear in self.declared.gears]
+        couplings = self._all_copies(self.declared.couplings, lambda each: each.links(wheels), self._coupling)
+        # a declared load share is the total for all copies
+        shared = []
+        for at, gear in gears:
+            number = _pair_count(self.declared, self.declared.gears[at])
+            divided = None if gear.share is None or number == 1 else Figure.parse(str(gear.share.value / number))
+            shared.append(gear if divided is None else gear.changed(share=divided))
         states = self.declared.states
         made = self.declared.changed(
             links=FrozenDict(links),
             axes=FrozenDict(axes),
             revolutes=tuple(joint for _, joint in joints),
-            gears=tuple(_with_divided_share(gear, counts[at]) for at, gear in gears),
+            gears=tuple(shared),
             couplings=tuple(coupling for _, coupling in couplings),
             loads=self._loads(self.declared.loads),
             states=FrozenDict({name: state.changed(loads=self._loads(state.loads)) for name, state in states.items()}),
@@ -248,15 +247,13 @@ class _Expansion:
     # ------------------------------------------------------------------------------------------------------- one part
 
     def _further_copies(self, *links: str) -> range:
-        """Return the numbers of the further copies, from 2, of a joint or pair between the given links."""
+        """Return the numbers, from 2, of the further copies of a joint or pair between the given links."""
         return range(2, 1 + max(self.declared.links[link].copies for link in links))
 
     def _all_copies(
         self, parts: Sequence[_Part], links_of: Callable[[_Part], Iterable[str]], copy: Callable[[_Part, int], _Part]
     ) -> list[tuple[int, _Part]]:
-        """Return all joints or pairs, each followed by its further copies. Each part is preceded by the index of the
-        declared part.
-        """
+        """Return each joint, pair or coupling and its further copies, with the index of the declared part."""
         found = []
         for index, part in enumerate(parts):
             copies = [copy(part, at) for at in self._further_copies(*links_of(part))]
@@ -273,13 +270,14 @@ class _Expansion:
         return part.changed(copies=1, wheels=FrozenDict(wheels), angle=None)
 
     def _joint(self, joint: Revolute, at: int) -> Revolute:
-        first, second = joint.pair
-        return joint.changed(
-            pair=(self._copied_link(first, at), self._copied_link(second, at)), axis=_copy_name(joint.axis, at)
-        )
+        first, second = (self._copied_link(link, at) for link in joint.pair)
+        return joint.changed(pair=(first, second), axis=_copy_name(joint.axis, at))
 
     def _gear(self, gear: GearPair, at: int) -> GearPair:
-        own = {wheel: self._wheel(wheel, at) for wheel in gear.pair}
+        own = {}
+        for wheel in gear.pair:
+            copied = self.declared.links[self.declared.wheels[wheel][0]].copies > 1
+            own[wheel] = _copy_name(wheel, at) if copied else wheel
         driver = None if gear.driver is None else own[gear.driver]
         # without `phase`, because the phase of a copy follows from its position
         return gear.changed(pair=tuple(own.values()), driver=driver, phase=None, id=gear.id and _copy_name(gear.id, at))
@@ -287,9 +285,6 @@ class _Expansion:
     def _coupling(self, coupling: Coupling, at: int) -> Coupling:
         links = {link: self._copied_link(link, at) for link in coupling.ends}
         return coupling.renamed(links, coupling.id and _copy_name(coupling.id, at))
-
-    def _wheel(self, wheel: str, at: int) -> str:
-        return _copy_name(wheel, at) if self.declared.links[self.declared.wheels[wheel][0]].copies > 1 else wheel
 
     def _loads(self, loads: Mapping[str, Quantity] | None) -> Mapping[str, Quantity] | None:
         """Return the loads of the expanded train, in which a torque on a planet acts on each of its copies."""
@@ -359,15 +354,6 @@ class _Places:
 
 def _copy_name(name: str, at: int) -> str:
     return f"{name}.{at}"
-
-
-def _with_divided_share(gear: GearPair, number: int) -> GearPair:
-    """Return the pair with the declared load share divided by `number`, because the declared share is the total for all
-    copies.
-    """
-    if gear.share is None or number == 1:
-        return gear
-    return gear.changed(share=Figure.parse(str(gear.share.value / number)))
 
 
 def _decimal(part: float) -> str:

@@ -29,6 +29,7 @@ from geartrain.kinematics.circuits import (
     find_circuits,
     find_tree,
 )
+from geartrain.kinematics.circuits.fundamental import bevels_on_one_side
 from geartrain.kinematics.components import SolvedPart, relevant_circuits
 from geartrain.kinematics.judged_outputs import (
     OutputResult,
@@ -39,18 +40,13 @@ from geartrain.kinematics.judged_outputs import (
     sensitivity,
 )
 from geartrain.kinematics.planet_copies import check_copies, has_copies
-from geartrain.kinematics.speeds import (
-    EXACT_BUDGET,
-    Solution,
-    exact_verdict,
-    solve,
-)
+from geartrain.kinematics.speeds import EXACT_BUDGET, Solution, exact_verdict, solve
 from geartrain.kinematics.willis_system import WillisSystem, assemble_willis_system, relative_speed
 from geartrain.numerics.containers import LazyMapping
 from geartrain.numerics.elimination import TooDenseError
 from geartrain.numerics.exact import as_float, touches_pi, with_other_pi
 from geartrain.numerics.results import Shown
-from geartrain.train import GearPair, StateCase, Train
+from geartrain.train import StateCase, Train
 
 if TYPE_CHECKING:
     from geartrain.kinematics.gridlock.removal import Gridlock
@@ -58,47 +54,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.coupling import Coupling
 
 
-# ----------------------------------------------------------------------------------------------------------------- lint
-
-
 _CONTINUOUS = 20  # teeth of a mate with which a wheel of two teeth may still drive continuously
-
-
-def lint_train(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> Iterator[Problem]:
-    """Yield a note for each pair whose sense of rotation is only a convention, for each drive with intermittent motion,
-    and for each coupling with non-uniform motion.
-    """
-    places: dict[str, Loc] = {gear.name: ("gears", at) for at, gear in enumerate(train.gears)}
-    places |= {name: ("couplings", at) for at, each in enumerate(train.couplings) for name in each.row_names}
-    for circuit in circuits:
-        if circuit.note:
-            yield Problem(f"'{circuit.id}': {circuit.note}", "", "", train.place(*places[circuit.id]))
-    why = "the mean ratio is exact; the motion is intermittent: a finger drives in steps; declare it as `kind: step`"
-    for position, gear in enumerate(train.gears):
-        for name, mate in permutations(gear.pair):
-            if _is_finger(train, gear, name, mate):
-                teeth = "one tooth" if train.wheels[name][1].count == 1 else "two teeth"
-                what = f"wheel '{name}' has {teeth}, which cannot drive continuously"
-                yield Problem(what, why, "", train.place("gears", position))
-    for position, coupling in enumerate(couplings_on_axes(train, tree)):
-        # a page in a browser has no numpy, and then only exact results
-        with suppress(ModuleNotFoundError):
-            if remark := coupling.remark:
-                yield Problem(f"'{coupling.name}' {remark}", "", "", train.place("couplings", position))
-
-
-def _is_finger(train: Train, gear: GearPair, name: str, mate: str) -> bool:
-    """Return True if a spur wheel has too few teeth to drive its mate continuously. This is the case for one tooth, and
-    for two teeth if the mate has more than 20.
-    """
-    wheel, other = train.wheels[name][1], train.wheels[mate][1]
-    # teeth of helical wheels overlap
-    straight = wheel.kind == "spur" and wheel.helix_angle is None and train.form_of(gear) is None
-    return straight and (wheel.count == 1 or (wheel.count == 2 and (other.count or 0) > _CONTINUOUS))
-
-
-# ----------------------------------------------------------------------------------------------------- train kinematics
-
 
 Method = Literal["auto", "exact", "sparse", "floats"]
 """Method of solution; "floats" is an older name for "sparse"."""
@@ -132,10 +88,7 @@ class TrainKinematics(Shown):
         return find_circuits(self.declaration, self.tree)
 
     def circuits_without(self, names: Sequence[str]) -> tuple[Circuit, ...]:
-        """Return all circuits except the circuits of the given pairs.
-
-        names   names of the pairs to be omitted
-        """
+        """Return all circuits except the circuits of the pairs whose names are given."""
         known = [circuit.id for circuit in self.circuits]
         for name in (name for name in names if name not in known):
             what = f"'{self.declaration.name}' has no pair '{name}'"
@@ -159,10 +112,7 @@ class TrainKinematics(Shown):
         return self._axes.joint_sums
 
     def is_rotation(self, of: str, base: str) -> bool:
-        """Return True if all axes between two links are parallel, so that their relative motion is a rotation.
-
-        of, base   two links, in any order
-        """
+        """Return True if all axes between two links are parallel, so that their relative motion is a rotation."""
         # without sums all axes between links and the frame are parallel, so that no path is examined
         return not self.joint_sums or self._axes.is_rotation(of, base)
 
@@ -208,16 +158,14 @@ class TrainKinematics(Shown):
 
     @cached_property
     def is_placed(self) -> bool:
-        """True if the assembly condition can be checked, because axes have positions or directions and gear pairs form
-        loops.
+        """True if gear pairs form loops and axes have positions or directions, so that the assembly condition can be
+        checked.
         """
         return self.declaration.has_placed_axes and bool(self.mobility.redundant or self.mobility.locked)
 
     @cached_property
     def gridlock(self) -> Gridlock:
-        """Locked parts of the train, and the meshes whose removal frees it. The computation is fast if no link is
-        locked.
-        """
+        """Locked parts of the train, and the meshes whose removal frees it; fast if no link is locked."""
         from geartrain.kinematics.gridlock import find_gridlock
 
         return find_gridlock(self.whole, self.mobility)
@@ -225,8 +173,33 @@ class TrainKinematics(Shown):
     @cached_property
     def remarks(self) -> tuple[Problem, ...]:
         """Notes on conventions and mean values used in the results of a valid declaration; they are not errors."""
+        return tuple(self._find_remarks())
 
-        return tuple(lint_train(self.declaration, self.tree, self.circuits))
+    def _find_remarks(self) -> Iterator[Problem]:
+        """Yield notes on senses of rotation by convention, on intermittent drives, and on non-uniform couplings."""
+        train = self.declaration
+        places: dict[str, Loc] = {gear.name: ("gears", at) for at, gear in enumerate(train.gears)}
+        places |= {name: ("couplings", at) for at, each in enumerate(train.couplings) for name in each.row_names}
+        for circuit in self.circuits:
+            if circuit.note:
+                yield Problem(f"'{circuit.id}': {circuit.note}", "", "", train.place(*places[circuit.id]))
+        why = (
+            "the mean ratio is exact; the motion is intermittent: a finger drives in steps; declare it as `kind: step`"
+        )
+        for at, gear in enumerate(train.gears):
+            for name, mate in permutations(gear.pair):
+                wheel, other = train.wheels[name][1], train.wheels[mate][1]
+                few = wheel.count == 1 or (wheel.count == 2 and (other.count or 0) > _CONTINUOUS)
+                # teeth of helical wheels overlap
+                if few and wheel.kind == "spur" and wheel.helix_angle is None and train.form_of(gear) is None:
+                    teeth = "one tooth" if wheel.count == 1 else "two teeth"
+                    what = f"wheel '{name}' has {teeth}, which cannot drive continuously"
+                    yield Problem(what, why, "", train.place("gears", at))
+        for at, coupling in enumerate(couplings_on_axes(train, self.tree)):
+            # a page in a browser has no numpy, and then only exact results
+            with suppress(ModuleNotFoundError):
+                if remark := coupling.remark:
+                    yield Problem(f"'{coupling.name}' {remark}", "", "", train.place("couplings", at))
 
     def solution(self, case: StateCase) -> Solution:
         """Return the exact speeds and the verdict for one state, without a limit on the computing time.
@@ -293,11 +266,7 @@ class TrainKinematics(Shown):
 
         return sensitivity(self.declaration, list(answer.outputs.values()), solve_with, self.circuits)
 
-    def floats(
-        self,
-        state: str | None = None,
-        inputs: Mapping[str, Sequence[float]] | None = None,
-    ) -> FloatSpeeds:
+    def floats(self, state: str | None = None, inputs: Mapping[str, Sequence[float]] | None = None) -> FloatSpeeds:
         """Return float64 speeds with error estimates, computed by one sparse LU factorisation for all input speeds.
 
         state    name of a declared state; None only for a train without states
@@ -435,7 +404,7 @@ class TrainKinematics(Shown):
             # two bevel wheels on one side of a third are a likely cause of a lock or contradiction
             advice = (
                 f"; '{one}' and '{other}' meet '{shared}' from the same side: give one of them `facing: -1`"
-                for one, other, shared in self._bevels_on_one_side
+                for one, other, shared in bevels_on_one_side(declared, self.circuits, self.is_rotation)
             )
             verdict = replace(verdict, text=verdict.text + "".join(advice))
         if wanted is not None:
@@ -444,7 +413,9 @@ class TrainKinematics(Shown):
             shown = wanted if case.outputs else wanted[:1]
             # other links were solved only as far as the output needs them
             speeds = {link: speeds[link] for link in shown if link in speeds}
-            accuracy = None if accuracy is None else _restricted(accuracy, shown)
+            if accuracy is not None:
+                every = accuracy
+                accuracy = LazyMapping(lambda: {link: every[link] for link in shown if link in every})
 
         seen = self._seen(relative)
         deviation = self._ratio_tolerance(case, seen)
@@ -496,7 +467,7 @@ class TrainKinematics(Shown):
         """
         if not any(circuit.travels and touches_pi(circuit.ratio) for circuit in self.circuits):
             return {}
-        other = [_with_other_pi(circuit) if circuit.travels else circuit for circuit in self.circuits]
+        other = [_with_ratio(each, with_other_pi(each.ratio)) if each.travels else each for each in self.circuits]
         found, frame = self._solved_with(other, case), self.declaration.frame
         changes = {link: found(link, frame) != speed for link, speed in speeds.items()}
         for name, output in case.outputs.items():
@@ -515,8 +486,7 @@ class TrainKinematics(Shown):
         def changed(coupling: Coupling, mean: Fraction) -> Relative:
             circuits = list(self.circuits)
             at = next(at for at, each in enumerate(circuits) if each.id == coupling.name)
-            ratio = circuits[at].ratio * mean / coupling.mean
-            circuits[at] = circuits[at]._replace(a=ratio.denominator, b=-ratio.numerator)
+            circuits[at] = _with_ratio(circuits[at], circuits[at].ratio * mean / coupling.mean)
             return self._solved_with(circuits, case)
 
         @cache
@@ -532,18 +502,11 @@ class TrainKinematics(Shown):
 
         return deviation
 
-    @cached_property
-    def _bevels_on_one_side(self) -> Sequence[tuple[str, str, str]]:
-        from geartrain.kinematics.circuits.fundamental import bevels_on_one_side
-
-        return tuple(bevels_on_one_side(self.declaration, self.circuits, self.is_rotation))
-
     # -------------------------------------------------------------------------------------------- the verdict on a part
 
     def _output_verdict(self, case: StateCase, verdict: Verdict, known: bool, wanted: Sequence[str]) -> Verdict:
-        """Return the verdict on one output, which may be determined or at rest although other links are free.
-
-        known   True if the output's speed is determined
+        """Return the verdict on one output, which may be determined or at rest although other links are free. `known`
+        is True if the output's speed is determined.
         """
         if not known:
             return verdict
@@ -560,13 +523,8 @@ class TrainKinematics(Shown):
             return exact_verdict(self.whole.reduced, case, self.signs)
 
 
-def _with_other_pi(circuit: Circuit) -> Circuit:
-    ratio = with_other_pi(circuit.ratio)
+def _with_ratio(circuit: Circuit, ratio: Fraction) -> Circuit:
     return circuit._replace(a=ratio.denominator, b=-ratio.numerator)
-
-
-def _restricted(accuracy: Mapping[str, SpeedAccuracy], links: Sequence[str]) -> Mapping[str, SpeedAccuracy]:
-    return LazyMapping(lambda: {link: accuracy[link] for link in links if link in accuracy})
 
 
 def _nearest(speed: Fraction) -> float:

@@ -151,9 +151,14 @@ def build_matrix(
     """
     columns, rows = (links, equations) if whole else independent_rows(links, equations, redundant)
     kept = {row.label for row in rows}
+    right = [as_float(row.right) for row in rows]
+    if None in right:
+        what = f"the right-hand side of '{rows[right.index(None)].label}' is beyond the range of float64"
+        fix = "use `train.equations().equations`, whose numbers are fractions"
+        raise RangeError(Problem(what, "float64 covers 1e-308 to 1e308", fix))
     return WillisMatrix(
         PaddedRows(columns, rows).matrix(),
-        np.array([_nearest(row) for row in rows]),
+        np.array(right),
         tuple(rows),
         tuple(columns),
         tuple(row.label for row in equations if row.label not in kept),
@@ -186,15 +191,3 @@ def independent_rows(
         follow = set(eliminate(forms, modulus=PRIME).redundant)
         rows = [row for position, row in enumerate(rows) if position not in follow]
     return links, rows
-
-
-def _nearest(row: WillisEquation) -> float:
-    value = as_float(row.right)
-    if value is None:
-        what = f"the right-hand side of '{row.label}' is beyond the range of float64"
-        raise RangeError(
-            Problem(
-                what, "float64 covers 1e-308 to 1e308", "use `train.equations().equations`, whose numbers are fractions"
-            )
-        )
-    return value

@@ -200,18 +200,14 @@ def loop_rules(configuration: Configuration) -> tuple[tuple[Fraction | float, ..
         total: dict[str, Fraction | float] = dict.fromkeys(kinds_in_order(configuration), Fraction(0))
         for gear, share in (loop.inside or {}).items():
             total[kind_of[gear]] += share
-        shares = _canonical(list(total.values()))
+        shares: tuple[Fraction | float, ...]
+        # factors modulo integers, in a form that does not depend on the sense in which the loop is traversed
+        if all(isinstance(share, Fraction) for share in total.values()):
+            shares = min(tuple(share % 1 for share in total.values()), tuple(-share % 1 for share in total.values()))
+        else:
+            # kinds outside a float loop stay 0; rounding to 1e-13 merges equal loops into one rule
+            around = [round(float(wrapped(np.asarray(share, dtype=float))), 13) for share in total.values()]
+            shares = max(tuple(around), tuple(-share if share else 0.0 for share in around))
         if any(shares):
             found[shares] = None
     return tuple(found)
-
-
-def _canonical(shares: Sequence[Fraction | float]) -> tuple[Fraction | float, ...]:
-    """Return the factors of an assembly condition modulo integers, in a form that does not depend on the sense in which
-    the loop is traversed.
-    """
-    if all(isinstance(share, Fraction) for share in shares):
-        return min(tuple(share % 1 for share in shares), tuple(-share % 1 for share in shares))
-    # kinds outside a float loop stay 0; rounding to 1e-13 merges equal loops into one rule
-    around = [round(float(wrapped(np.asarray(share, dtype=float))), 13) for share in shares]
-    return max(tuple(around), tuple(-share if share else 0.0 for share in around))

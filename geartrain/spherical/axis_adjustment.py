@@ -34,10 +34,8 @@ _LONGEST = 0.1
 
 def loop_sums(axes: Floats, corners: LoopCorners, teeth: Floats) -> tuple[Floats, csr_array]:
     """Return the sum of (-1)^k z_k alpha_k / (2 pi) over the gears k of every loop [pitch], and its derivative with
-    respect to displacements of the axes.
-
-    Here z_k is the tooth number, and alpha_k the angle at gear k from its next to its previous contact,
-    counterclockwise, from 0 to 2 pi [rad].
+    respect to displacements of the axes. Here z_k is the tooth number, and alpha_k the angle at gear k from its next to
+    its previous contact, counterclockwise, from 0 to 2 pi [rad].
     """
     from scipy.sparse import coo_array
 
@@ -67,9 +65,8 @@ def pitch_rows(axes: Floats, meshes: Meshes, teeth: Floats) -> tuple[Floats, csr
 
 
 def minimum_step(J: csr_array, error: Floats, damping: float) -> Floats:
-    """Return the step x that minimises |x|^2 + |error + J x|^2 / damping, where J is the Jacobian of `error`.
-
-    As `damping` tends to 0, the step tends to the minimum-norm solution of J x = -error.
+    """Return the step x that minimises |x|^2 + |error + J x|^2 / damping, where J is the Jacobian of `error`. As
+    `damping` tends to 0, the step tends to the minimum-norm solution of J x = -error.
     """
     from scipy.sparse import block_array, eye_array
     from scipy.sparse.linalg import splu
@@ -169,13 +166,11 @@ def equalise_pitch(
 
 
 def forecast_spread(axes: Floats, meshes: Meshes, teeth: Ints, corners: LoopCorners) -> float:
-    """Return the standard deviation of the logarithm of the pitch that is predicted for the axes after the first step
-    of `fit_phases`.
-    """
+    """Return the predicted standard deviation of the log pitch after the first step of `fit_phases` [1]."""
     z = np.asarray(teeth, dtype=float)
     sums, J = loop_sums(axes, corners, z)
     logs, A = pitch_rows(axes, meshes, z)
-    return float(np.std(logs + A @ phase_step(J, sums - np.round(sums), A, logs - logs.mean(), _PHASE_DAMPING)))
+    return float(np.std(logs + A @ phase_step(J, sums - np.round(sums), A, logs - logs.mean())))
 
 
 def fit_phases(axes: Floats, meshes: Meshes, teeth: Ints, corners: LoopCorners) -> tuple[Floats, list[float]]:
@@ -192,7 +187,7 @@ def fit_phases(axes: Floats, meshes: Meshes, teeth: Ints, corners: LoopCorners) 
     previous = np.inf
     for _ in range(_MOST_STEPS):
         logs, A = pitch_rows(axes, meshes, z)
-        step = phase_step(J, sums - target, A, logs - logs.mean(), _PHASE_DAMPING)
+        step = phase_step(J, sums - target, A, logs - logs.mean())
         longest = float(np.abs(step).max())
         step *= min(1.0, _LONGEST / max(longest, 1e-300))
         axes = moved(axes, step.reshape(-1, 2))
@@ -205,12 +200,10 @@ def fit_phases(axes: Floats, meshes: Meshes, teeth: Ints, corners: LoopCorners) 
     return axes, residuals
 
 
-def phase_step(J: csr_array, error: Floats, A: csr_array, logs: Floats, damping: float) -> Floats:
-    """Return the step of a least squares problem with equality constraints, by one sparse Karush-Kuhn-Tucker system.
-
-    The step x satisfies J x = -error and minimises |logs + A x - s|^2 + damping |x|^2 over all x and s. The vector
-    `error` contains the closing errors of the loops, and `logs` the logarithms of the pitches; J and A are their
-    Jacobians.
+def phase_step(J: csr_array, error: Floats, A: csr_array, logs: Floats) -> Floats:
+    """Return the step x that satisfies J x = -error and minimises |logs + A x - s|^2 + 1e-4 |x|^2 over all x and s, by
+    one sparse Karush-Kuhn-Tucker system. The vector `error` contains the closing errors of the loops, and `logs` the
+    logarithms of the pitches; J and A are their Jacobians.
     """
     from scipy.sparse import block_array, csc_array, eye_array
     from scipy.sparse.linalg import splu
@@ -219,13 +212,10 @@ def phase_step(J: csr_array, error: Floats, A: csr_array, logs: Floats, damping:
     ones = csc_array(np.ones((A.shape[0], 1)))
     system = block_array(
         [
-            [A.T @ A + damping * eye_array(n), -A.T @ ones, J.T],
+            [A.T @ A + _PHASE_DAMPING * eye_array(n), -A.T @ ones, J.T],
             [-ones.T @ A, ones.T @ ones, None],
-            [
-                J,
-                None,
-                -1e-14 * eye_array(loops),
-            ],  # loops may depend on each other: a small entry keeps the matrix regular
+            # loops may depend on each other: a small entry keeps the matrix regular
+            [J, None, -1e-14 * eye_array(loops)],
         ]
     ).tocsc()
     right = np.concatenate([-(A.T @ logs), [float(logs.sum())], -error])
@@ -254,11 +244,6 @@ class SymmetricFreedom:
         pairs = np.sort(self.images[:, np.array(meshes, dtype=np.int64).reshape(-1, 2)], axis=2)
         code: Ints = (pairs[..., 0] * self.images.shape[1] + pairs[..., 1]).min(axis=0)
         return code
-
-    def symmetrised(self, axes: Floats) -> Floats:
-        """Return the mean of the axes over all symmetries, without the rounding errors that break them."""
-        mean = np.einsum("sgi,sij->gj", axes[self.images], self.matrices) / len(self.matrices)
-        return np.asarray(mean / np.linalg.norm(mean, axis=1)[:, None])
 
     def freedom(self, gear: int, axis: Floats) -> Floats:
         """Return an orthonormal basis of the directions in which a gear's axis may move if all its images move too.
@@ -290,22 +275,21 @@ def equal_pitch(
     axes.
     """
     z = np.asarray(teeth, dtype=float)
-    found = movement.symmetrised(equalise_pitch(axes, meshes, z, movable)[0])
+    moved_axes, _ = equalise_pitch(axes, meshes, z, movable)
+    # the mean over all symmetries has no rounding errors that break them
+    mean = np.einsum("sgi,sij->gj", moved_axes[movement.images], movement.matrices) / len(movement.matrices)
+    found = np.asarray(mean / np.linalg.norm(mean, axis=1)[:, None])
     logs, _ = pitch_rows(found, meshes, z)
     left = float(np.abs(logs - logs.mean()).max())
     if left > _SOLVED:
         kinds = len(np.unique(movement.mesh_orbits(meshes)))
         first = [int(gear) for gear in np.unique(movement.orbits()) if int(gear) in movable]
-        raise _refused(kinds, sum(len(movement.freedom(gear, axes[gear])) for gear in first), left)
-    return found
-
-
-def _refused(kinds: int, free: int, left: float) -> GearTrainError:
-    why = f"{kinds} kinds of mesh must have the same pitch, and the symmetries leave {free} free parameters of the axes"
-    return GearTrainError(
-        Problem(
-            "no axes with the same pitch for all meshes were found near the axes of the solid",
-            f"{why}; the best approximation deviates by up to {100 * left:.3g} %",
-            "change the tooth numbers, or omit exact=True to keep the axes of faces and vertices",
+        free = sum(len(movement.freedom(gear, axes[gear])) for gear in first)
+        what = "no axes with the same pitch for all meshes were found near the axes of the solid"
+        why = (
+            f"{kinds} kinds of mesh must have the same pitch, and the symmetries leave {free} free parameters of the "
+            f"axes; the best approximation deviates by up to {100 * left:.3g} %"
         )
-    )
+        fix = "change the tooth numbers, or omit exact=True to keep the axes of faces and vertices"
+        raise GearTrainError(Problem(what, why, fix))
+    return found

@@ -49,16 +49,6 @@ def circle_vector(centre: complex, radius: float) -> Floats:
     return np.array([centre.real, centre.imag, (k - 1) / 2, (k + 1) / 2]) / radius
 
 
-def _no_packing(residual: float) -> RangeError:
-    return RangeError(
-        Problem(
-            f"no circle packing was found: the residual of the angles is {residual:.2g} rad",
-            "the range of radii is too large for double precision, or the graph is not 3-connected",
-            "split the graph into smaller graphs",
-        )
-    )
-
-
 class PlanarPacking:
     """Circle packing in the plane, in which the pitch point of one mesh is at infinity."""
 
@@ -70,13 +60,14 @@ class PlanarPacking:
         self.meshes = tuple(sorted((u, v) for u, v in self.left if u < v))
         self.count = gears + len(self.regions)
         self.around = self._around()
-        a, b = self._far_mesh()
+        # the mesh with the most neighbours is placed at infinity, so that many circles touch lines
+        sizes = [len(beside) for beside in self.around]
+        beside = {m: [*m, *(gears + self.left[e] for e in (m, m[::-1]))] for m in self.meshes}
+        a, b = max(self.meshes, key=lambda m: sum(sizes[node] for node in beside[m]))
         self.far = (a, b, gears + self.left[a, b], gears + self.left[b, a])
 
     def _around(self) -> list[list[int]]:
-        """Return the regions around each gear and the gears around each region, counterclockwise, as node numbers, in
-        which gears precede regions.
-        """
+        """Return the nodes around each gear (regions) and each region (gears), counterclockwise; gears come first."""
         before = {}
         for walk in self.regions:
             for at, gear in enumerate(walk):
@@ -89,14 +80,6 @@ class PlanarPacking:
                     around[first].append(self.gears + self.left[first, other])
                     other = before[first, other]
         return around + [list(walk) for walk in self.regions]
-
-    def _far_mesh(self) -> tuple[int, int]:
-        """Return the mesh with the most neighbours; it is placed at infinity, so that many circles touch lines."""
-        size = [len(beside) for beside in self.around]
-        return max(
-            self.meshes,
-            key=lambda m: size[m[0]] + size[m[1]] + sum(size[self.gears + self.left[e]] for e in (m, m[::-1])),
-        )
 
     def radii(self, on_step: Callable[[], None] = lambda: None) -> tuple[Floats, tuple[float, ...]]:
         """Return the logarithms of all radii, found by Newton's method on a convex function, and the maximum residual
@@ -132,19 +115,20 @@ class PlanarPacking:
             residuals.append(float(np.abs(excess).max()))
             on_step()
             # stop also when the residual no longer falls: what is left is the rounding of many angles
-            if np.abs(step).max() < 1e-13 or (
-                residuals[-1] < 1e-11 and len(residuals) > 1 and 4 * residuals[-1] > residuals[-2]
-            ):
+            stalled = residuals[-1] < 1e-11 and len(residuals) > 1 and 4 * residuals[-1] > residuals[-2]
+            if stalled or np.abs(step).max() < 1e-13:
                 break
         else:
-            raise _no_packing(residuals[-1])
+            what = f"no circle packing was found: the residual of the angles is {residuals[-1]:.2g} rad"
+            why = "the range of radii is too large for double precision, or the graph is not 3-connected"
+            raise RangeError(Problem(what, why, "split the graph into smaller graphs"))
         full = np.full(self.count, inf)
         full[near] = u - u.max()
         return full, tuple(residuals)
 
     def layout(self, u: Floats) -> Floats:
-        """Return the vectors of all circles on the sphere. The circles are placed in the plane one after another by
-        breadth-first search.
+        """Return the vectors of all circles on the sphere, after placing the circles in the plane by breadth-first
+        search.
         """
         r = np.exp(u)
         # the layout starts at the largest finite circle
@@ -204,9 +188,7 @@ _LONGEST = 2.0
 
 
 def boost(v: Floats) -> Floats:
-    """Return the matrix of the Lorentz boost of (x, t) with rapidity |v| along v, which moves points on the sphere away
-    from v.
-    """
+    """Return the matrix of the Lorentz boost of (x, t) with rapidity |v|, which moves points away from v."""
     rapidity = float(np.linalg.norm(v))
     if rapidity == 0:
         return np.eye(4)
@@ -225,8 +207,15 @@ def pack_circles(gears: int, regions: Sequence[Sequence[int]]) -> SpherePacking:
     """
     plane = PlanarPacking(gears, regions)
     u, residuals = plane.radii()
-    vectors = _upright(_centred(plane.layout(u), plane.meshes), plane.meshes[0])
-    return _polished(vectors, gears, plane, residuals)
+    vectors = _centred(plane.layout(u), plane.meshes)
+    # rotation that puts the first gear of the first mesh at the top, and the second next to it in the direction of x
+    axes, _ = _circles(vectors)
+    top, side = (axes[gear] for gear in plane.meshes[0])
+    x = side - top * (top @ side)
+    x /= np.linalg.norm(x)
+    turn = np.stack([x, np.cross(top, x), top])
+    upright = np.concatenate([vectors[:, :3] @ turn.T, vectors[:, 3:]], axis=1)
+    return _polished(upright, gears, plane, residuals)
 
 
 def _circles(vectors: Floats) -> tuple[Floats, Floats]:
@@ -257,23 +246,9 @@ def _centred(vectors: Floats, meshes: Sequence[tuple[int, int]]) -> Floats:
     return vectors
 
 
-def _upright(vectors: Floats, mesh: tuple[int, int]) -> Floats:
-    """Return the packing rotated so that the first gear of a mesh is at the top, and the second is next to it in the
-    direction of x.
-    """
-    axes, _ = _circles(vectors)
-    top, side = axes[mesh[0]], axes[mesh[1]]
-    x = side - top * (top @ side)
-    x /= np.linalg.norm(x)
-    turn = np.stack([x, np.cross(top, x), top])
-    return np.concatenate([vectors[:, :3] @ turn.T, vectors[:, 3:]], axis=1)
-
-
 def _descent_fraction(points: Floats, v: Floats) -> float:
-    """Return the fraction of the step v, found by halving, for which the convex function sum log(-<x, (p, 1)>)
-    decreases.
-
-    The points p are the pitch points, and the minimum of this function over x corresponds to the centred frame.
+    """Return the fraction of the step v, found by halving, for which the convex function sum log(-<x, (p, 1)>) of the
+    pitch points p decreases; its minimum over x corresponds to the centred frame.
     """
     share = 1.0
     # backtracking: the function is convex, so a short step always descends
@@ -309,10 +284,8 @@ def _polished(vectors: Floats, gears: int, plane: PlanarPacking, residuals: tupl
 
 def _newton(axes: Floats, cones: Floats, pairs: Sequence[tuple[int, int]], tangent: int) -> tuple[float, Floats]:
     """Return the maximum error of the angles between circles [rad], and the minimum-norm correction of axes and
-    half-angles.
-
-    The first `tangent` pairs of circles i, j are tangent: the angle S between their axes is the sum rho_i + rho_j
-    of their half-angles. The other pairs are orthogonal: cos S = cos rho_i cos rho_j.
+    half-angles rho. The first `tangent` pairs of circles i, j are tangent: the angle S between their axes is rho_i +
+    rho_j. The other pairs are orthogonal: cos S = cos rho_i cos rho_j.
     """
     from scipy.sparse import coo_array, eye_array, hstack
     from scipy.sparse.linalg import splu

@@ -114,9 +114,8 @@ def kinds_in_order(configuration: Configuration) -> tuple[str, ...]:
 def require_tooth_numbers(
     names: Iterable[Hashable], teeth: Mapping[Any, int], why: str, fix: str = "give the tooth number of every gear"
 ) -> None:
-    """Raise `QuestionError` with the given cause and fix if one of the names has no tooth number in `teeth`.
-
-    In `fix`, {} is replaced by the first of these names.
+    """Raise `QuestionError` with the given cause and fix if one of the names has no tooth number in `teeth`. In `fix`,
+    {} is replaced by the first of these names.
     """
     missing = [name for name in names if name not in teeth]
     if missing:
@@ -232,7 +231,8 @@ def to_train(configuration: Configuration, name: str = "") -> dict[str, Any]:
         "title": configuration.title or f"{len(gears)} gears on a sphere",
         "note": _NOTE,
         "frame": "frame",
-        "links": {"frame": {}} | {gear: _link(gear, configuration.teeth[kind]) for gear, kind, _ in gears},
+        "links": {"frame": {}}
+        | {gear: {"wheels": {gear: {"teeth": configuration.teeth[kind], "kind": "bevel"}}} for gear, kind, _ in gears},
         "axes": {
             gear: {"direction": _direction(axis), "position": ["0 mm", "0 mm", "0 mm"]} for gear, _, axis in gears
         },
@@ -243,12 +243,7 @@ def to_train(configuration: Configuration, name: str = "") -> dict[str, Any]:
 
 
 def _direction(axis: list[float]) -> list[str]:
-    """Return the coordinates of an axis as text: fractions if they are short, else floats with all digits. A decimal
-    would be regarded as accurate only to its last digit.
-    """
+    """Return the coordinates of an axis as text: fractions if they are short, else floats with all digits."""
+    # a decimal would be regarded as accurate only to its last digit
     exact = [Fraction(part) for part in axis]
     return [str(part) if part.denominator < _SHORT else f"{float(part):.17g}" for part in exact]
-
-
-def _link(gear: str, teeth: int) -> dict[str, Any]:
-    return {"wheels": {gear: {"teeth": teeth, "kind": "bevel"}}}

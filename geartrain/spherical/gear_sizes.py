@@ -178,7 +178,7 @@ class SphereSizing(Result):
     """
 
     def _summary(self) -> str:
-        return f"{self.configuration._summary()}"
+        return self.configuration._summary()
 
     @property
     def exact(self) -> bool:
@@ -287,17 +287,7 @@ class SphereSizing(Result):
 
 def impossibility_theorem(configuration: Configuration) -> str:
     """Return the proof that no tooth numbers give equal pitches on the fixed axes of a set; return an empty string if
-    no proof is known.
-    """
-    name = _solid_with_proof(configuration)
-    return f"{name}: {_THEOREMS[name]}" if name else ""
-
-
-def _solid_with_proof(configuration: Configuration) -> str:
-    """Return the name of the solid on whose faces the gears are, if it is proved that no tooth numbers give equal
-    pitches on it; else return an empty string.
-
-    The solid is recognised by its numbers of gears and meshes, and by the angles of its meshes.
+    no proof is known. The solid is recognised by its numbers of gears and meshes, and by the angles of its meshes.
     """
     counts = len(configuration.axes), len(configuration.meshes)
     phi = (1 + sqrt(5)) / 2
@@ -309,8 +299,9 @@ def _solid_with_proof(configuration: Configuration) -> str:
     near = [np.abs(seen - angle) < 1e-9 for angle in angles]
     if sum(int(hit.sum()) for hit in near) < len(seen) or not all(int(hit.sum()) == len(seen) // 2 for hit in near):
         return ""
-    if counts == (62, 120):
-        return "rhombicosidodecahedron"
-    # with the twisted cap of J37, not every face has an opposite face
-    across = np.abs(separations(configuration.axes) - pi) < 1e-9
-    return "rhombicuboctahedron" if across.any(axis=1).all() else "pseudo-rhombicuboctahedron"
+    name = "rhombicosidodecahedron"
+    if counts == (26, 48):
+        # with the twisted cap of J37, not every face has an opposite face
+        across = np.abs(separations(configuration.axes) - pi) < 1e-9
+        name = "rhombicuboctahedron" if across.any(axis=1).all() else "pseudo-rhombicuboctahedron"
+    return f"{name}: {_THEOREMS[name]}"

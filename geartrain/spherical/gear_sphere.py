@@ -105,13 +105,8 @@ class GearSphere(Result):
         """
         sizing = self.sizing
         if sizing is None:
-            raise QuestionError(
-                Problem(
-                    "the sphere cannot be drawn",
-                    "its gears have no tooth numbers",
-                    "give tooth numbers, such as --teeth 5=20,3=12",
-                )
-            )
+            fix = "give tooth numbers, such as --teeth 5=20,3=12"
+            raise QuestionError(Problem("the sphere cannot be drawn", "its gears have no tooth numbers", fix))
         angles = {} if self.closure is None else self.closure.angles
         # phases are fractions of a pitch, which need the tooth numbers
         counts = zip(self.configuration.names, sizing.teeth.tolist(), strict=True)

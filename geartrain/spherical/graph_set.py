@@ -18,14 +18,7 @@ import numpy as np
 
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.results import Key, Result
-from geartrain.spherical.axis_adjustment import (
-    LoopCorners,
-    corners_of,
-    fit_phases,
-    fit_pitch,
-    forecast_spread,
-    loop_sums,
-)
+from geartrain.spherical.axis_adjustment import corners_of, fit_phases, fit_pitch, forecast_spread, loop_sums
 from geartrain.spherical.circle_packing import SpherePacking, pack_circles
 from geartrain.spherical.configuration import Configuration, require_tooth_numbers
 from geartrain.spherical.gear_sizes import SphereSizing, size_gears
@@ -43,9 +36,8 @@ Edges = Iterable[tuple[Hashable, Hashable]]
 
 
 def separating_pair(regions: Sequence[Sequence[int]]) -> tuple[int, int] | None:
-    """Return two gears whose removal disconnects a 2-connected planar map; None if the map is 3-connected.
-
-    In a 3-connected map, two regions have in common no gear, one gear, or the two gears of one mesh.
+    """Return two gears whose removal disconnects a 2-connected planar map; None if the map is 3-connected: two regions
+    then have in common no gear, one gear, or the two gears of one mesh.
     """
     sides: dict[frozenset[int], list[int]] = {}
     beside: dict[int, list[int]] = {}
@@ -76,20 +68,16 @@ def checked_graph(graph: nx.Graph[Any] | Edges) -> nx.Graph[Any]:
         raise _refused(f"{', '.join(loose)} mesh with no other gear", "meshes determine the axes", "remove these gears")
     found: nx.Graph[Any] = nx.Graph(pairs)
     if found.number_of_nodes() < 4:
-        raise _refused(
-            f"it has {found.number_of_nodes()} gears",
-            "a circle packing needs a loop of four or more gears",
-            "add gears until loops close",
-        )
+        why = "a circle packing needs a loop of four or more gears"
+        raise _refused(f"it has {found.number_of_nodes()} gears", why, "add gears until loops close")
     _check_bipartite(found)
     _check_connected(found)
     return found
 
 
 def _check_simple(pairs: Sequence[tuple[Hashable, Hashable]], both_ways: bool) -> None:
-    """Raise `QuestionError` if a gear meshes with itself, or if a mesh is listed twice.
-
-    If `both_ways`, opposite edges are regarded as one mesh, as in a directed graph.
+    """Raise `QuestionError` if a gear meshes with itself, or if a mesh is listed twice. If `both_ways`, opposite edges
+    are regarded as one mesh, as in a directed graph.
     """
     alone = [str(i) for i, j in pairs if i == j]
     if alone:
@@ -109,12 +97,8 @@ def _check_connected(found: nx.Graph[Any]) -> None:
     parts = [sorted(map(str, part)) for part in nx.connected_components(found)]
     if len(parts) > 1:
         minimum = min(parts, key=len)
-        apart = ", ".join(minimum)
-        raise _refused(
-            f"{apart} are not connected to the other gears",
-            "meshes determine the axes",
-            "pack one connected part at a time",
-        )
+        what = f"{', '.join(minimum)} are not connected to the other gears"
+        raise _refused(what, "meshes determine the axes", "pack one connected part at a time")
     cut = next(iter(nx.articulation_points(found)), None)
     if cut is None:
         return
@@ -147,9 +131,7 @@ def _refused(what: str, why: str, fix: str) -> QuestionError:
 
 
 def regions_of(found: nx.Graph[Any]) -> list[list[int]]:
-    """Return the regions of a planar embedding, each as a closed walk of gear numbers; raise `QuestionError` for a
-    non-planar graph.
-    """
+    """Return the regions of a planar embedding as closed walks of gears; raise `QuestionError` if none exists."""
     import networkx as nx
 
     drawn: Any
@@ -157,16 +139,11 @@ def regions_of(found: nx.Graph[Any]) -> list[list[int]]:
     if not planar:
         # branch vertices of a subdivided K5 or K3,3
         corners = sorted((str(node) for node, degree in drawn.degree() if degree > 2))
-        why = (
-            "each of these gears is connected to every other one"
-            if len(corners) == 5
-            else "each of three of these gears is connected to each of the other three"
-        )
-        raise _refused(
-            f"it is not planar: {', '.join(corners)}",
-            f"{why}, by meshes or disjoint chains of gears (Kuratowski)",
-            "remove a mesh of these chains",
-        )
+        why = "each of these gears is connected to every other one"
+        if len(corners) == 6:
+            why = "each of three of these gears is connected to each of the other three"
+        why += ", by meshes or disjoint chains of gears (Kuratowski)"
+        raise _refused(f"it is not planar: {', '.join(corners)}", why, "remove a mesh of these chains")
     at = {name: k for k, name in enumerate(found)}
     seen: set[tuple[Hashable, Hashable]] = set()
     return [[at[node] for node in drawn.traverse_face(*e, seen)] for e in drawn.edges() if e not in seen]
@@ -175,9 +152,8 @@ def regions_of(found: nx.Graph[Any]) -> list[list[int]]:
 def with_region_circles(
     gears: int, regions: Sequence[Sequence[int]], names: Sequence[Hashable]
 ) -> tuple[int, list[tuple[int, ...]]]:
-    """Return the map with an additional circle, tangent to the surrounding gears, in every region next to an idler.
-
-    Raises `QuestionError` if the resulting map is not 3-connected.
+    """Return the map with a circle tangent to the surrounding gears in every region next to an idler. Raises
+    `QuestionError` if the resulting map is not 3-connected.
     """
     meshes = Counter(gear for walk in regions for gear in walk)
     completed: list[tuple[int, ...]] = []
@@ -278,11 +254,11 @@ def from_graph(
     (('pitch', 'phases'), {12})
     """
     import networkx as nx
+    from scipy.spatial.transform import Rotation
 
     if aim not in ("pitch", "phases"):
-        raise QuestionError(
-            Problem(f"unknown aim {aim!r}", "`aim` is 'pitch' or 'phases'", "pass aim='pitch' or aim='phases'")
-        )
+        what, why = f"unknown aim {aim!r}", "`aim` is 'pitch' or 'phases'"
+        raise QuestionError(Problem(what, why, "pass aim='pitch' or aim='phases'"))
     named = checked_graph(graph)
     names = list(named)
     gears, regions = len(names), regions_of(named)
@@ -292,48 +268,31 @@ def from_graph(
     packing = pack_circles(*with_region_circles(gears, regions, names))
     axes, cones = packing.axes[:gears], packing.cones[:gears]
     meshes = tuple(mesh for mesh in packing.meshes if mesh[1] < gears)
-    choices = [_teeth(names, teeth)] if teeth is not None else rounded_teeth(cones, minimum_teeth, upto)
+    if teeth is not None:
+        require_tooth_numbers(names, teeth, "if `teeth` is given, no tooth numbers are derived from the circle packing")
+        choices = [np.array([teeth[name] for name in names], dtype=np.int64)]
+    else:
+        choices = rounded_teeth(cones, minimum_teeth, upto)
     # over the whole sphere every tooth is counted once, so the loops of all regions but one imply the last
     largest = max(range(len(regions)), key=lambda at: len(regions[at]))
     corners = corners_of([walk for at, walk in enumerate(regions) if at != largest], side)
     if aim == "pitch":
         z = choices[0]
-        fit = fit_pitch(axes, meshes, z)
+        fitted, residuals = fit_pitch(axes, meshes, z)
     else:
         # the rounding whose pitches remain most uniform when loops are closed
         z = min(choices[:_MOST_CHOICES], key=lambda z: forecast_spread(axes, meshes, z, corners))
-        fit = fit_phases(axes, meshes, z, corners)
-    return _answer(names, meshes, z, aim, packing, fit, corners_of(regions, side))
-
-
-def _answer(
-    names: Sequence[Hashable],
-    meshes: tuple[tuple[int, int], ...],
-    z: Ints,
-    aim: Aim,
-    packing: SpherePacking,
-    fit: tuple[Floats, list[float]],
-    corners: LoopCorners,
-) -> GraphSet:
-    labels = tuple(str(name) for name in names)
-    from scipy.spatial.transform import Rotation
-
+        fitted, residuals = fit_phases(axes, meshes, z, corners)
     # a common rotation is removed, so that displacements are meaningful (Kabsch's algorithm)
-    axes = Rotation.align_vectors(packing.axes[: len(names)], fit[0])[0].apply(fit[0])
+    placed = Rotation.align_vectors(axes, fitted)[0].apply(fitted)
+    labels = tuple(str(name) for name in names)
     chosen = dict(zip(labels, z.tolist(), strict=True))
-    title = f"{len(names)} gears on a planar graph"
-    configuration = Configuration(labels, axes, meshes, labels, (0,) * len(names), chosen, title)
-    sums, _ = loop_sums(axes, corners, z.astype(float))
+    title = f"{gears} gears on a planar graph"
+    configuration = Configuration(labels, placed, meshes, labels, (0,) * gears, chosen, title)
+    sums, _ = loop_sums(placed, corners_of(regions, side), z.astype(float))
     residue = float(np.abs(sums - np.round(sums)).max(initial=0.0))
-    apart = np.linalg.norm(axes - packing.axes[: len(names)], axis=1)
-    return GraphSet(
-        configuration, aim, packing, size_gears(configuration), residue, 2 * np.arcsin(apart / 2), tuple(fit[1])
-    )
-
-
-def _teeth(names: Sequence[Hashable], teeth: Mapping[Hashable, int]) -> Ints:
-    require_tooth_numbers(names, teeth, "if `teeth` is given, no tooth numbers are derived from the circle packing")
-    return np.array([teeth[name] for name in names], dtype=np.int64)
+    moved = 2 * np.arcsin(np.linalg.norm(placed - axes, axis=1) / 2)
+    return GraphSet(configuration, aim, packing, size_gears(configuration), residue, moved, tuple(residuals))
 
 
 @dataclass(frozen=True)

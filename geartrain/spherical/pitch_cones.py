@@ -159,8 +159,7 @@ def angle_rows(axes: Floats, pairs: Sequence[tuple[int, int]]) -> tuple[Floats, 
 
 
 def azimuth_rows(axes: Floats, at: Ints, to: Ints) -> csr_array:
-    """Return the derivative of the azimuth psi of axis `to` about axis `at` with respect to the displacements in
-    `moved`.
+    """Return the derivative of the azimuth psi of axis `to` about axis `at` for the displacements in `moved`.
 
     The derivative is d psi = (dn_j / sin S - dn_i cot S) . t with t = n_i x n_j / sin S. Here n_i and n_j are the axes
     `at` and `to`, dn their displacements, and S is the angle between them. The frame at i is moved by parallel
@@ -180,13 +179,11 @@ def vector_rows(axes: Floats, gears: tuple[Ints, Ints], vectors: tuple[Floats, F
     """
     from scipy.sparse import coo_array
 
-    across = frames(axes)
-    count = len(gears[0])
-    rows, columns, values = [], [], []
+    across, count = frames(axes), len(gears[0])
+    columns, values = [], []
     for gear, vector in zip(gears, vectors, strict=True):
         for k in (0, 1):
-            rows.append(np.arange(count))
             columns.append(2 * gear + k)
             values.append(np.einsum("px,px->p", vector, across[gear, k]))
-    at = (np.concatenate(rows), np.concatenate(columns))
+    at = (np.tile(np.arange(count), 4), np.concatenate(columns))
     return coo_array((np.concatenate(values), at), shape=(count, 2 * len(axes))).tocsr()

@@ -158,16 +158,14 @@ class Polyhedron(Shown):
         return found
 
     def permutations(self, points: Floats) -> Ints:
-        """Return the index of each point's image under each symmetry, shape (order, points).
-
-        points   set of points that all symmetries map to itself
+        """Return the index of the image of each point under each symmetry, shape (order, points). All symmetries must
+        map the set of points to itself.
         """
         return self._nearest(points, points @ self.symmetries.transpose(0, 2, 1))[1]
 
     def orbits(self, points: Floats) -> Ints:
-        """Return for each point the index of the first point in its orbit under the symmetries.
-
-        points   set of points that all symmetries map to itself
+        """Return for each point the index of the first point in its orbit under the symmetries, which map the points to
+        themselves.
         """
         first: Ints = self.permutations(points).min(axis=0)
         return first
@@ -233,7 +231,12 @@ def polyhedron(points: ArrayLike, *, recentre: bool = False, name: str = "") -> 
     found = [_face(vertices, face, scale) for face in _flats(vertices, scale)]
     normals = np.array([normal for _, normal, _ in found])
     heights = np.array([height for _, _, height in found])
-    _check_origin(heights, scale)
+    if heights.min() <= NEAR * scale:
+        raise _refused(
+            "the origin is not inside the solid",
+            "the origin is the centre of the sphere, through which all axes of gears pass",
+            "move the vertices around the origin, or pass recentre=True to move their mean to the origin",
+        )
     order = from_the_top(normals)
     arrays = vertices, normals[order], heights[order]
     for array in arrays:
@@ -263,34 +266,27 @@ def _corners(face: tuple[int, ...]) -> Iterator[tuple[int, int, int]]:
 
 def _checked(points: ArrayLike) -> Floats:
     """Return the points as an array; raise `GearTrainError` if they cannot be vertices of a solid."""
+    from scipy.spatial import cKDTree
+
     try:
         vertices = np.array(points, dtype=np.float64)
     except (TypeError, ValueError):
         vertices = np.empty(0)
     if vertices.ndim != 2 or vertices.shape[1] != 3 or not np.isfinite(vertices).all():
-        raise _refused(
-            "the vertices are not a list of points", "a point has three finite coordinates", "give [x, y, z] each"
-        )
+        why = "a point has three finite coordinates"
+        raise _refused("the vertices are not a list of points", why, "give [x, y, z] each")
     if len(vertices) < 4:
-        raise _refused(
-            f"{len(vertices)} points do not make a solid", "a polyhedron has at least four vertices", "add vertices"
-        )
+        what = f"{len(vertices)} points do not make a solid"
+        raise _refused(what, "a polyhedron has at least four vertices", "add vertices")
     spread = np.linalg.svd(vertices - vertices.mean(axis=0), compute_uv=False)
     if spread[2] <= NEAR * spread[0]:
         raise _refused("the points are in one plane", "a polyhedron has a positive volume", "add a vertex outside it")
-    _check_apart(vertices, NEAR * float(spread[0]) / len(vertices) ** 0.5)
+    repeated = cKDTree(vertices).query_pairs(NEAR * float(spread[0]) / len(vertices) ** 0.5)
+    if repeated:
+        first, second = min(repeated)
+        what = f"vertices[{second}] repeats vertices[{first}] {_coordinates(vertices[first])}"
+        raise _refused(what, "the vertices of a polyhedron must be distinct", "remove one of them")
     return vertices
-
-
-def _check_apart(vertices: Floats, near: float) -> None:
-    from scipy.spatial import cKDTree
-
-    for first, second in sorted(cKDTree(vertices).query_pairs(near)):
-        raise _refused(
-            f"vertices[{second}] repeats vertices[{first}] {_coordinates(vertices[first])}",
-            "the vertices of a polyhedron must be distinct",
-            "remove one of them",
-        )
 
 
 def _flats(vertices: Floats, scale: float) -> list[frozenset[int]]:
@@ -335,15 +331,6 @@ def _face(vertices: Floats, members: frozenset[int], scale: float) -> tuple[tupl
     if turns.min() < NEAR:
         raise _not_a_corner(vertices, int(index[turns.argmin()]))
     return tuple(np.roll(index, -int(index.argmin())).tolist()), normal, float(centre @ normal)
-
-
-def _check_origin(heights: Floats, scale: float) -> None:
-    if heights.min() <= NEAR * scale:
-        raise _refused(
-            "the origin is not inside the solid",
-            "the origin is the centre of the sphere, through which all axes of gears pass",
-            "move the vertices around the origin, or pass recentre=True to move their mean to the origin",
-        )
 
 
 def _check_closed(solid: Polyhedron) -> None:
@@ -433,24 +420,16 @@ def solid(name: str) -> Polyhedron:
     elif key == "j37":
         key, points = "J37", _j37_vertices()
     else:
-        raise _unknown(name)
+        known = [*_UNIFORM, *_DUALS, *_ALIASES, *(f"{n}-{family}" for n in range(3, 13) for family in _FAMILIES)]
+        fix = suggest(name.lower(), known)
+        if not fix.startswith("did"):
+            fix = f"use a name such as 'icosidodecahedron' or '6-antiprism', one of: {', '.join(solid_names())}"
+        raise _refused(f"unknown solid '{name}'", "a solid is given by a known name or by its vertices", fix)
     return polyhedron(points[from_the_top(points)], name=key)
 
 
-def _unknown(name: str) -> GearTrainError:
-    known = [*_UNIFORM, *_DUALS, *_ALIASES, *(f"{n}-{family}" for n in range(3, 13) for family in _FAMILIES)]
-    fix = suggest(name.lower(), known)
-    if not fix.startswith("did"):
-        fix = f"use a name such as 'icosidodecahedron' or '6-antiprism', one of: {', '.join(solid_names())}"
-    return GearTrainError(
-        Problem(f"unknown solid '{name}'", "a solid is given by a known name or by its vertices", fix)
-    )
-
-
 def _wythoff(p: int, distances: tuple[int, ...]) -> Floats:
-    """Return the images of a point under the reflection group [p, 3]. The point has the given distances from the three
-    mirrors.
-
+    """Return the images of a point with the given distances from the three mirrors under the reflection group [p, 3].
     If no distances are given, the solid is a snub solid, and only rotations are applied.
     """
     mirrors = np.array(_MIRRORS[p], dtype=np.float64)
@@ -469,9 +448,7 @@ def _wythoff(p: int, distances: tuple[int, ...]) -> Floats:
 
 @cache
 def _group(p: int) -> Floats:
-    """Return all products of the mirrors of the reflection group [p, 3], shape (24, 48 or 120, 3, 3); their entries are
-    rounded to the exact values.
-    """
+    """Return the matrices of the reflection group [p, 3], shape (24, 48 or 120, 3, 3), correctly rounded."""
     entries = np.array([sign * x for x in (0, 0.5, 1, PHI / 2, (PHI - 1) / 2) for sign in (1, -1)])
     mirrors = np.array(_MIRRORS[p], dtype=np.float64)
     reflections = [np.eye(3) - 2 * np.outer(m, m) / (m @ m) for m in mirrors]
@@ -487,12 +464,9 @@ def _group(p: int) -> Floats:
 
 
 def _snub(p: int) -> Floats:
-    """Return the distances (a, b, c) between the generating point of a snub solid and the mirrors of [p, 3], for edges
-    of length 2.
-
-    The product of two mirrors at an angle g is a rotation, which moves a point at distances a and b from them by 2
-    sqrt(a^2 + b^2 + 2 a b cos g). All three rotations move the point by the same distance. Newton's method solves the
-    two equations together with a^2 + c^2 = 1.
+    """Return the distances (a, b, c) of the generating point of a snub solid from the mirrors of [p, 3], for edges of
+    length 2. Reflection at two mirrors at an angle g moves it by 2 sqrt(a^2 + b^2 + 2 a b cos g), which is 2 for all
+    three pairs of mirrors; the equations are solved by Newton's method.
     """
     s, t = np.cos(np.pi / p), 0.5
     a, b, c = 0.6, 0.5, 0.8
@@ -510,13 +484,8 @@ def _snub(p: int) -> Floats:
 def _family_member(n: int, family: str) -> Polyhedron:
     """Return the uniform prism or antiprism whose caps are regular n-gons with edge length 2, or its dual."""
     if not 3 <= n <= MOST_SIDES:
-        raise GearTrainError(
-            Problem(
-                f"the solid '{n}-{family}' is not available",
-                f"the number of sides must be 3 to {MOST_SIDES}",
-                f"choose a number in this range, such as '6-{family}'",
-            )
-        )
+        what, why = f"the solid '{n}-{family}' is not available", f"the number of sides must be 3 to {MOST_SIDES}"
+        raise _refused(what, why, f"choose a number in this range, such as '6-{family}'")
     dual = {"bipyramid": "prism", "trapezohedron": "antiprism"}.get(family)
     if dual:
         return _family_member(n, dual).dual(f"{n}-{family}")

@@ -96,14 +96,21 @@ def from_polyhedron(
     >>> len(found.names), len(found.meshes), found.names[0], dict(found.teeth)
     (32, 60, '5-1', {'5': 20, '3': 12})
     """
-    base = _solid(shape, recentre)
+    if isinstance(shape, str):
+        base = solid(shape)
+    else:
+        base = shape if isinstance(shape, Polyhedron) else polyhedron(shape, recentre=recentre)
     plan = places_on_polyhedron(base, gears)
     kinds = kinds_of(plan)
     counts = teeth_of(teeth, kinds)
-    names = names_of(plan, kinds)
+    ordered, count = in_order(plan, kinds), dict.fromkeys(kinds, 0)
+    names = [""] * len(kinds)
+    for at in ordered:
+        count[kinds[at]] += 1
+        names[at] = f"{kinds[at]}-{count[kinds[at]]}"
     kept, meshes = without_gears(names, kinds, plan.meshes, [drop] if isinstance(drop, str) else drop)
     axes = _placed(plan, kinds, meshes, counts, exact)
-    order = [at for at in in_order(plan, kinds) if at in kept]
+    order = [at for at in ordered if at in kept]
     axes = axes[order]
     # configurations are immutable
     axes.flags.writeable = False
@@ -118,12 +125,13 @@ def from_polyhedron(
         kinds=tuple(kinds[at] for at in order),
         regular=(0,) * len(order),
         teeth={kind: counts[kind] for kind in dict.fromkeys(kinds[at] for at in order) if kind in counts},
-        title=_title(base, gears, len(order), len(meshes)),
+        title=f"Gears on the {gears.replace('+', ' and ')} of the {base.name or 'given solid'}: {len(order)}, "
+        f"{len(meshes)} meshes",
     )
     return regular(result, max(_MOST_PARTS, 2 * int(contacts.max())))
 
 
-def regular(configuration: Configuration, most: int = _MOST_PARTS) -> Configuration:
+def regular(configuration: Configuration, most: int) -> Configuration:
     """Return the configuration with the field `regular`: the minimum p up to `most` for which the contacts of a gear
     are at multiples of 1/p of a revolution.
 
@@ -134,25 +142,13 @@ def regular(configuration: Configuration, most: int = _MOST_PARTS) -> Configurat
     for i, j in configuration.meshes:
         contacts[i].append(configuration.azimuth(i, j))
         contacts[j].append(configuration.azimuth(j, i))
-    parts = (_parts(np.array(contacts[gear]), most) for gear in range(len(configuration.names)))
+    parts = []
+    for gear in range(len(configuration.names)):
+        azimuths = np.array(contacts[gear])
+        turns = (azimuths - azimuths[:1]) / (2 * np.pi)
+        off = ((p, np.abs(p * turns - np.round(p * turns)).max(initial=0.0)) for p in range(1, most + 1))
+        parts.append(next((p for p, miss in off if miss < p * _EQUAL), 0))
     return replace(configuration, regular=tuple(parts))
-
-
-def _parts(azimuths: Floats, most: int) -> int:
-    """Return the minimum p for which all differences between the azimuths are multiples of 1/p of a revolution; 0 if
-    there is none up to `most`.
-    """
-    turns = (azimuths - azimuths[0]) / (2 * np.pi) if len(azimuths) else azimuths
-    for p in range(1, most + 1):
-        if np.abs(p * turns - np.round(p * turns)).max(initial=0.0) < p * _EQUAL:
-            return p
-    return 0
-
-
-def _solid(shape: str | Polyhedron | ArrayLike, recentre: bool) -> Polyhedron:
-    if isinstance(shape, str):
-        return solid(shape)
-    return shape if isinstance(shape, Polyhedron) else polyhedron(shape, recentre=recentre)
 
 
 def _placed(
@@ -162,9 +158,7 @@ def _placed(
     counts: Mapping[str, int],
     exact: bool,
 ) -> Floats:
-    """Return the axes of the gears. They are moved to equal pitches if `exact` is True, and gears on edges are placed
-    if their tooth numbers are known.
-    """
+    """Return the axes, moved to equal pitches if `exact` is True; else only gears on edges with teeth are moved."""
     teeth = [counts.get(kind, 0) for kind in kinds]
     if exact:
         require_tooth_numbers(
@@ -182,10 +176,6 @@ def _placed(
             # only the idlers move
             axes = equal_pitch(plan.movement, axes, touching, teeth, own)
     return axes
-
-
-def _title(base: Polyhedron, gears: str, count: int, meshes: int) -> str:
-    return f"Gears on the {gears.replace('+', ' and ')} of the {base.name or 'given solid'}: {count}, {meshes} meshes"
 
 
 # ----------------------------------------------------------------------------------------------------- places for gears
@@ -208,13 +198,8 @@ class PolyhedronPlaces:
 def places_on_polyhedron(base: Polyhedron, gears: str) -> PolyhedronPlaces:
     """Return the positions for an arrangement of gears on a solid; raise `GearTrainError` if it is impossible."""
     if gears not in get_args(Gears):
-        raise QuestionError(
-            Problem(
-                f"unknown arrangement '{gears}'",
-                "an arrangement names the parts of a solid that carry gears",
-                suggest(gears, get_args(Gears)),
-            )
-        )
+        why = "an arrangement names the parts of a solid that carry gears"
+        raise QuestionError(Problem(f"unknown arrangement '{gears}'", why, suggest(gears, get_args(Gears))))
     faces = (base.normals, [str(len(face)) for face in base.faces])
     corners = base.vertices / np.linalg.norm(base.vertices, axis=1)[:, None]
     vertices = (corners, ["v"] * len(corners))
@@ -240,13 +225,9 @@ def _two_per_edge(
     middles = _between(vertices[0], base.edges)
     # one orbit each means that the solid is Platonic
     if any(base.orbits(points).any() for points in (faces[0], vertices[0], middles)):
-        raise GearTrainError(
-            Problem(
-                f"the {base.name or 'solid'} cannot have two gears on each edge",
-                "that arrangement requires that all faces, all vertices and all edges are equivalent by symmetry",
-                "use one of the five Platonic solids, or gears='faces+edges'",
-            )
-        )
+        what = f"the {base.name or 'solid'} cannot have two gears on each edge"
+        why = "that arrangement requires that all faces, all vertices and all edges are equivalent by symmetry"
+        raise GearTrainError(Problem(what, why, "use one of the five Platonic solids, or gears='faces+edges'"))
     count, total = len(base.faces), len(base.faces) + len(base.vertices)
     ends: list[Floats] = []
     meshes: list[tuple[int, int]] = []
@@ -284,9 +265,7 @@ TeethByKind = Mapping[str, int] | Mapping[int, int] | int
 
 
 def kinds_of(layout: PolyhedronPlaces) -> list[str]:
-    """Return the kind of each gear, which is its orbit, named by its class and by an additional letter if several
-    orbits have this class.
-    """
+    """Return the kind of each gear: the name of its class, and a letter if the class has several orbits."""
     orbits = layout.movement.orbits().tolist()
     size = {orbit: orbits.count(orbit) for orbit in set(orbits)}
     rank = np.argsort(from_the_top(layout.axes))
@@ -337,15 +316,6 @@ def in_order(layout: PolyhedronPlaces, kinds: Sequence[str]) -> list[int]:
     return sorted(range(len(kinds)), key=key)
 
 
-def names_of(layout: PolyhedronPlaces, kinds: Sequence[str]) -> list[str]:
-    """Return the names of the gears, which consist of the kind and a number, such as `5-1`."""
-    names, count = [""] * len(kinds), dict.fromkeys(kinds, 0)
-    for at in in_order(layout, kinds):
-        count[kinds[at]] += 1
-        names[at] = f"{kinds[at]}-{count[kinds[at]]}"
-    return names
-
-
 def teeth_of(teeth: TeethByKind | None, kinds: Sequence[str]) -> dict[str, int]:
     """Return the tooth number of each kind. A number of sides as key refers to all kinds with this number."""
     known = list(dict.fromkeys(kinds))
@@ -356,12 +326,9 @@ def teeth_of(teeth: TeethByKind | None, kinds: Sequence[str]) -> dict[str, int]:
         if not _matching_kinds(kind, known):
             raise _unknown("kind of gear", kind, known)
         if isinstance(count, bool) or not isinstance(count, int | np.integer) or count < 1:
+            what = f"{count} is not a valid tooth count for gears of kind '{kind}'"
             raise QuestionError(
-                Problem(
-                    f"{count} is not a valid tooth count for gears of kind '{kind}'",
-                    "tooth counts are integers of 1 or more",
-                    "give a tooth count such as 20",
-                )
+                Problem(what, "tooth counts are integers of 1 or more", "give a tooth count such as 20")
             )
     wide = {kind: int(given[name]) for name in given for kind in _matching_kinds(name, known)}
     # a full name such as 4a takes precedence over a number of sides
@@ -394,13 +361,8 @@ def without_gears(
         a, b = sets
         rest = [(i, j) for i, j in left if not ((i in a and j in b) or (j in a and i in b))]
         if len(rest) == len(left):
-            raise QuestionError(
-                Problem(
-                    f"unknown mesh '{word}'",
-                    f"{first} and {second} do not mesh",
-                    "give the names of two gears that mesh",
-                )
-            )
+            why = f"{first} and {second} do not mesh"
+            raise QuestionError(Problem(f"unknown mesh '{word}'", why, "give the names of two gears that mesh"))
         left = rest
     kept = set(range(len(names))) - gone
     return kept, [(i, j) for i, j in left if i in kept and j in kept]

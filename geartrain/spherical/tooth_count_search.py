@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
-from math import ceil, degrees, inf, pi
+from math import ceil, degrees, inf, pi, prod
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -18,13 +18,7 @@ import numpy as np
 from geartrain.errors import Problem, QuestionError, RangeError
 from geartrain.numerics.results import Key, Result, Shown
 from geartrain.spherical.assembly import closes, divisors, loop_rules, residue
-from geartrain.spherical.configuration import (
-    Configuration,
-    MeshKind,
-    kinds_in_order,
-    mesh_kinds,
-    nearest_unmeshed,
-)
+from geartrain.spherical.configuration import Configuration, MeshKind, kinds_in_order, mesh_kinds, nearest_unmeshed
 from geartrain.spherical.gear_sizes import TIP_ROOM
 from geartrain.spherical.pitch_cones import base_pitch, operating_pitch, overlap_limit, pitch_cone, pressure_angle
 
@@ -116,33 +110,24 @@ def suggest_tooth_counts(
 def _ranges(
     kinds: Sequence[str], rules: Sequence[Sequence[Fraction | float]], minimum: int, most: int, fixed: Mapping[str, int]
 ) -> list[NDArray[np.int64]]:
-    """Return the tooth numbers of each kind with which the exact rules can be satisfied; raise `RangeError` if there
-    are too many sets.
-    """
+    """Return the tooth numbers of each kind that can satisfy the exact rules; raise `RangeError` for too many sets."""
     ranges = []
     for kind, divisor in zip(kinds, divisors(rules, len(kinds)), strict=True):
         first, last = (fixed[kind], fixed[kind]) if kind in fixed else (max(minimum, 1), most)
         # only multiples of the divisor can satisfy the exact rules
         ranges.append(np.arange(divisor * ceil(first / divisor), last + 1, divisor, dtype=np.int64))
-    count = 1
-    for numbers in ranges:
-        count *= len(numbers)
+    count = prod(map(len, ranges))
     if count > _MOST_SETS:
-        raise RangeError(
-            Problem(
-                f"the search would examine {count:.2g} combinations of tooth numbers",
-                f"{len(kinds)} kinds of gear have up to {most} teeth, and at most {_MOST_SETS:.2g} combinations "
-                "are examined",
-                f"lower `most`, or fix the teeth of some kinds: fixed={{{kinds[0]!r}: 20}}",
-            )
-        )
+        what = f"the search would examine {count:.2g} combinations of tooth numbers"
+        why = f"{len(kinds)} kinds of gear have up to {most} teeth, "
+        why += f"and at most {_MOST_SETS:.2g} combinations are examined"
+        fix = f"lower `most`, or fix the teeth of some kinds: fixed={{{kinds[0]!r}: 20}}"
+        raise RangeError(Problem(what, why, fix))
     return ranges
 
 
 def _blocks(ranges: Sequence[NDArray[np.int64]]) -> Iterator[list[NDArray[np.int64]]]:
-    """Yield all combinations of tooth numbers as flat columns. There is one block for each combination of all kinds
-    except the last two.
-    """
+    """Yield all combinations of tooth numbers as flat columns, in blocks in which only the last two kinds vary."""
     # blocks of two kinds bound the memory: all sets at once may be 2e8
     tail = [column.ravel() for column in np.meshgrid(*ranges[-2:], indexing="ij")]
     if not tail[0].size:
@@ -284,9 +269,7 @@ class _Search:
         return np.stack([column[close] for column in block], axis=1)
 
     def pitches(self, block: Sequence[NDArray[np.int64]]) -> Floats:
-        """Return the operating pitch [radii of the sphere] of each kind of mesh (rows) for each set of tooth numbers
-        (columns).
-        """
+        """Return the operating pitch [radii of the sphere] of each kind of mesh (rows) for each set of teeth."""
         return np.stack([operating_pitch(S, block[a], block[b]) for a, b, S in self.meshes])
 
     def mismatches(self, block: Sequence[NDArray[np.int64]]) -> Floats:

@@ -17,10 +17,7 @@ links:
   <in>: {wheels: {p: 20}}
   out_1: {wheels: {w: 60}}
   idle: {}
-revolutes:
-  - {pair: [frame, <in>], axis: A}
-  - {pair: [frame, out_1], axis: B}
-  - {pair: [frame, idle], axis: C}
+revolutes: {A: [frame, <in>], B: [frame, out_1], C: [frame, idle]}
 gears: [{pair: [p, w]}]
 inputs: {<in>: 1/2}
 outputs: {<result>: {of: out_1, expect: -1/6}}

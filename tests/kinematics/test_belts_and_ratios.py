@@ -196,8 +196,7 @@ def test_r1_a_reducer_by_its_ratio() -> None:
 
 
 @pytest.mark.parametrize(
-    "joints",
-    ["{H: [frame, h], M: [h, a, b]}", "{H: [frame, h], A: [h, a], B: [h, b]}", "{H: [frame, h, a, b]}"],
+    "joints", ["{H: [frame, h], M: [h, a, b]}", "{H: [frame, h], A: [h, a], B: [h, b]}", "{H: [frame, h, a, b]}"]
 )
 def test_r2_a_reducer_in_a_turning_housing(joints: str) -> None:
     carrier = ", carrier: h" if "h, a, b" in joints and "M" not in joints else ""

@@ -36,10 +36,7 @@ links:
   sun: {{wheels: {{s: {sun}}}}}
   planet: {{wheels: {{p: {planet}}}}}
   carrier: {{}}
-revolutes:
-  - {{pair: [frame, sun], axis: main}}
-  - {{pair: [frame, carrier], axis: main}}
-  - {{pair: [carrier, planet], axis: P}}
+revolutes: {{main: [frame, sun, carrier], P: [carrier, planet]}}
 gears: [{{pair: [s, p]}}, {{pair: [p, ring]}}]
 inputs: {{sun: 1}}
 {more}

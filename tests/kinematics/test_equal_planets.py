@@ -4,11 +4,26 @@ from __future__ import annotations
 
 import random
 from fractions import Fraction
-from math import acos, asin, atan, ceil, cos, floor, hypot, pi, radians, sin, sqrt, tan
+from math import acos, asin, ceil, cos, floor, hypot, pi, radians, sin, sqrt
 
 import pytest
+from test_buildability import distance_of
 
 from geartrain import GearTrain, load
+
+MESHING = """
+links:
+  frame: {{wheels: {{ring: {{teeth: {ring}, internal: true}}}}}}
+  sun: {{wheels: {{s: {sun}}}}}
+  arm: {{}}
+{links}
+revolutes:
+  - {{pair: [frame, sun], axis: main}}
+  - {{pair: [frame, arm], axis: main}}
+{joints}
+gears: [{gears}]
+inputs: {{sun: 1}}
+"""
 
 
 def planets(
@@ -21,25 +36,9 @@ def planets(
         second = f", q{at}: {{teeth: {outer}}}" if outer is not None else ""
         links.append(f"  P{at}: {{wheels: {{p{at}: {{teeth: {inner}}}{second}}}}}")
         joints.append(f"  - {{pair: [arm, P{at}], axis: P{at}}}")
-        gears += [f"  - {{pair: [s, p{at}]}}", f"  - {{pair: [{'p' if outer is None else 'q'}{at}, ring]}}"]
-    text = "\n".join(
-        [
-            "links:",
-            f"  frame: {{wheels: {{ring: {{teeth: {ring}, internal: true}}}}}}",
-            f"  sun: {{wheels: {{s: {{teeth: {sun}{size}}}}}}}",
-            "  arm: {}",
-            *links,
-            "revolutes:",
-            "  - {pair: [frame, sun], axis: main}",
-            "  - {pair: [frame, arm], axis: main}",
-            *joints,
-            "gears:",
-            *gears,
-            "inputs: {sun: 1}",
-            more,
-        ]
-    )
-    return load(text + "\n")
+        gears += [f"{{pair: [s, p{at}]}}", f"{{pair: [{'p' if outer is None else 'q'}{at}, ring]}}"]
+    parts = {"links": "\n".join(links), "joints": "\n".join(joints), "gears": ", ".join(gears)}
+    return load(MESHING.format(ring=ring, sun=f"{{teeth: {sun}{size}}}", **parts) + more + "\n")
 
 
 def found(train: GearTrain) -> list[tuple[str, str]]:
@@ -149,17 +148,6 @@ def cycloidal_tip(z: int, mate: int, arc: float) -> float:
     return sqrt(R**2 + 4 * rho * (R + rho) * sin(arc * pi / (2 * rho)) ** 2)
 
 
-def involute_distance(teeth: int, shifts: float, helix: float = 0.0) -> float:
-    """Distance (transverse modules) without backlash, by bisection of inv a_w = inv a_t + 2 tan a_n x/z."""
-    across = atan(tan(radians(20)) / cos(helix))
-    wanted = tan(across) - across + 2 * tan(radians(20)) * shifts / teeth
-    low, high = 0.0, pi / 2
-    for _ in range(100):
-        middle = (low + high) / 2
-        low, high = (middle, high) if tan(middle) - middle < wanted else (low, middle)
-    return teeth / 2 * cos(across) / cos(low)
-
-
 LEAN = radians(20)
 
 
@@ -173,8 +161,8 @@ LEAN = radians(20)
         ("{form: involute, addendum: [1, 1.2]}", "s, p", 10.2, 17.5),
         ("{form: involute, addendum: [1.4, 1]}", "p, s", 10.4, 17.5),
         ("{form: involute, shift: [-0.3, 0.3]}", "s, p", 10.3, 17.5),
-        ("{form: involute, shift: [0, 0.5]}", "s, p", 10.5, involute_distance(35, 0.5)),
-        ("{form: involute, shift: [0.6, -0.4]}", "s, p", 9.6, involute_distance(35, 0.2)),
+        ("{form: involute, shift: [0, 0.5]}", "s, p", 10.5, distance_of(0.5, 35)),
+        ("{form: involute, shift: [0.6, -0.4]}", "s, p", 9.6, distance_of(0.2, 35)),
         ("{form: lantern, pin_diameter: 2.8}", "s, p", 10.4, 17.5),  # pins of the planet
         ("{form: lantern, pin_diameter: 1.5, addendum: 1.3}", "p, s", 10.3, 17.5),  # the mate of the sun's pins
         ("{form: circular_arc, addendum: [1, 1.25], radius: 2, thickness: 1}", "s, p", 10.25, 17.5),
@@ -228,21 +216,6 @@ def test_planets_with_shorter_teeth_have_room_elsewhere() -> None:
     assert found(declared) == [("A1", "error"), ("A3", "error")]
 
 
-MESHING = """
-links:
-  frame: {{wheels: {{ring: {{teeth: {ring}, internal: true}}}}}}
-  sun: {{wheels: {{s: {sun}}}}}
-  arm: {{}}
-{links}
-revolutes:
-  - {{pair: [frame, sun], axis: main}}
-  - {{pair: [frame, arm], axis: main}}
-{joints}
-gears: [{gears}]
-inputs: {{sun: 1}}
-"""
-
-
 def test_planets_that_mesh_clear_those_of_the_next_set() -> None:
     """Inner planets meet the sun, outer ones the ring and the inner one of their set; places by the triangle."""
     draw = random.Random(22)
@@ -272,13 +245,8 @@ def test_planets_that_mesh_clear_those_of_the_next_set() -> None:
             ),
         )
         seen.add(gap < 0)
-        assert (f"of neighbouring planet sets collide ({number} sets)" in words(load(text))) == (gap < 0), (
-            number,
-            sun,
-            p,
-            q,
-            ring,
-        )
+        told = f"of neighbouring planet sets collide ({number} sets)" in words(load(text))
+        assert told == (gap < 0), (number, sun, p, q, ring)
 
 
 def placed(number: int, turns: list[float]) -> str:

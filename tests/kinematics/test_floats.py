@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 from test_large_trains import ten_thousand_cascade
+from test_states import FREE_SET
 
 from geartrain import GearTrain, GearTrainError, load
 from geartrain.errors import RangeError
@@ -79,21 +80,7 @@ def test_condition_numbers_are_those_printed(name: str, condition: float) -> Non
     assert train.kinematics.floats().condition[link] == pytest.approx(condition, rel=digits)
 
 
-TWO_INPUTS = """
-links:
-  frame: {}
-  sun: {wheels: {s: 24}}
-  ring: {wheels: {r: {teeth: 60, internal: true}}}
-  planet: {wheels: {p: 18}}
-  arm: {}
-revolutes:
-  - {pair: [frame, sun], axis: main}
-  - {pair: [frame, ring], axis: main}
-  - {pair: [frame, arm], axis: main}
-  - {pair: [arm, planet], axis: planet}
-gears: [{pair: [s, p]}, {pair: [p, r]}]
-inputs: {sun: 1, ring: 0}
-"""
+TWO_INPUTS = FREE_SET.format(rest="inputs: {sun: 1, ring: 0}")
 
 
 def test_many_inputs_at_once_are_each_solved() -> None:
@@ -167,9 +154,7 @@ def determined_sets(request: pytest.FixtureRequest) -> list[tuple[int, GearTrain
 
 @pytest.mark.parametrize("inverted", [400, 0], ids=["by the inverse", "by random signs"])
 def test_no_speed_is_farther_off_than_its_estimate(
-    inverted: int,
-    determined_sets: list[tuple[int, GearTrain, dict[str, Fraction]]],
-    monkeypatch: pytest.MonkeyPatch,
+    inverted: int, determined_sets: list[tuple[int, GearTrain, dict[str, Fraction]]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Also where a speed is 0 because great ones cancel, and what is left of it is nothing but rounding."""
     monkeypatch.setattr("geartrain.kinematics.speeds.float_speeds._INVERTED", inverted)

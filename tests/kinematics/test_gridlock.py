@@ -391,10 +391,7 @@ links:
   a: {wheels: {a20: 20}}
   b: {wheels: {b30: 30}}
   c: {wheels: {c40: 40}}
-revolutes:
-  - {pair: [frame, a], axis: A}
-  - {pair: [frame, b], axis: B}
-  - {pair: [frame, c], axis: C}
+revolutes: {A: [frame, a], B: [frame, b], C: [frame, c]}
 gears: [{pair: [a20, b30]}, {pair: [b30, c40]}, {pair: [c40, a20]}]
 inputs: {a: 1}
 """

@@ -18,15 +18,8 @@ def train(first: dict[str, Any], second: dict[str, Any], **also: Any) -> GearTra
     links = {"frame": {}, "a": {"wheels": {"a1": first}}, "b": {"wheels": {"b1": second}}}
     revolutes = [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "B"}]
     gears = [{"pair": ["a1", "b1"], **also.pop("pair", {})}]
-    given = {
-        "name": "pair",
-        "links": links,
-        "revolutes": revolutes,
-        "gears": gears,
-        "inputs": {"a": 1},
-        "outputs": {"b": {}},
-    }
-    return GearTrain.declare({**given, **also})
+    given = {"name": "pair", "links": links, "revolutes": revolutes, "gears": gears}
+    return GearTrain.declare({**given, "inputs": {"a": 1}, "outputs": {"b": {}}, **also})
 
 
 def helical(teeth: int, angle: float, hand: str | None = None, **also: Any) -> dict[str, Any]:
@@ -41,11 +34,15 @@ def axes(first: list[Any], second: list[Any], place: list[Any] | None) -> dict[s
 
 
 def cross(a: list[float], b: list[float]) -> list[float]:
-    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    return np.cross(a, b).tolist()
 
 
 def dot(a: list[float], b: list[float]) -> float:
-    return sum(x * y for x, y in zip(a, b, strict=True))
+    return float(np.dot(a, b))
+
+
+def unit(vector: list[float]) -> list[float]:
+    return [x / hypot(*vector) for x in vector]
 
 
 def test_a_worm_is_a_helical_wheel_near_a_right_angle() -> None:
@@ -68,13 +65,12 @@ def rolled(beta: tuple[float, float], first: list[float], second: list[float], p
 
     Of threads drawn as curves about both axes: their directions and where they are a moment later at the contact.
     """
-    unit = [[x / hypot(*way) for x in way] for way in (first, second)]
-    normal = cross(unit[0], unit[1])
-    normal = [x / hypot(*normal) for x in normal]
+    ways = unit(first), unit(second)
+    normal = unit(cross(*ways))
     if dot(normal, place) < 0:
         normal = [-x for x in normal]
     threads, moved = [], []
-    for way, outward, lean in ((unit[0], normal, beta[0]), (unit[1], [-x for x in normal], beta[1])):
+    for way, outward, lean in ((ways[0], normal, beta[0]), (ways[1], [-x for x in normal], beta[1])):
         side = cross(way, outward)
 
         def point(turn: float, along: float, way: Any = way, outward: Any = outward, side: Any = side) -> list[float]:
@@ -166,9 +162,8 @@ def test_involutes_are_those_of_the_transverse_section() -> None:
     assert figures["pressure_angle"] == pytest.approx(transverse, rel=1e-12)
     place = lay_out(found).wheels
     assert place["a1"].radius == pytest.approx(r[0])
-    assert abs(place["a1"].centre[0] - place["b1"].centre[0]) ** 2 + (
-        place["a1"].centre[1] - place["b1"].centre[1]
-    ) ** 2 == pytest.approx(sum(r) ** 2)
+    apart = np.subtract(place["a1"].centre, place["b1"].centre)
+    assert hypot(apart[0], apart[1]) == pytest.approx(sum(r))
     straight = train({"teeth": 21}, {"teeth": 50}, tooth_form={"form": "involute"}, pair={"friction": 0.05})
     losses = [1 - each.meshes[0].efficiency("a1").mean for each in (found, straight)]
     assert losses[0] < losses[1]
@@ -209,10 +204,6 @@ def share_of_vectors(g1: list[float], g2: list[float], place: list[float], beta:
     slip = dot(first, tooth) - dot(second, tooth)
     force = [n + (rough if slip > 0 else -rough) * t for n, t in zip(across, tooth, strict=True)]
     return dot(force, second) / dot(force, first)
-
-
-def unit(vector: list[float]) -> list[float]:
-    return [x / hypot(*vector) for x in vector]
 
 
 @pytest.mark.parametrize("worm_first", [True, False])

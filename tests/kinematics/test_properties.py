@@ -10,13 +10,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from reference_solver import solve_naively, willis_rows
 from sampling import few_or_many
-from strategies import (
-    Data,
-    driven_trains,
-    overdriven_trains,
-    planetary_sets,
-    requested_trains,
-)
+from strategies import Data, driven_trains, overdriven_trains, planetary_sets, requested_trains
 
 from geartrain import Answer, GearTrain
 

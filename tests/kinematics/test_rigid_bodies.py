@@ -9,28 +9,11 @@ from typing import Any
 
 import pytest
 from commands import call
+from test_buildability import SPIDER
 
 from geartrain import GearTrain, GearTrainError, load
 
-DIFFERENTIAL = """
-frame: case
-axes:
-  axle: {direction: [1, 0, 0]}
-  spider: {direction: [0, 1, 0]}
-links:
-  case: {}
-  crown: {}
-  left: {wheels: {l: {teeth: 16, kind: bevel}}}
-  right: {wheels: {r: {teeth: 16, kind: bevel, facing: -1}}}
-  spider: {wheels: {p: {teeth: 10, kind: bevel}}}
-revolutes:
-  - {pair: [case, crown], axis: axle}
-  - {pair: [case, left], axis: axle}
-  - {pair: [case, right], axis: axle}
-  - {pair: [crown, spider], axis: spider}
-gears: [{pair: [l, p]}, {pair: [r, p]}]
-"""
-
+DIFFERENTIAL = SPIDER.replace("inputs: {left: 1, right: 3}\n", "")
 SHAFTS = """
 links: {frame: {}, a: {}, b: {}}
 revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]

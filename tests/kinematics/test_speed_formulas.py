@@ -11,50 +11,28 @@ import pytest
 from sampling import first_few
 from shipped import every_train
 from shipped import train as load
+from test_states import FREE_SET
 
+import geartrain
 from geartrain import GearTrain
 from geartrain.errors import GearTrainError
 from geartrain.numerics.exact import PI
 
-PLANETARY = """
-name: set
-frame: frame
-links:
-  frame: {}
-  sun: {wheels: {s: 24}}
-  planet: {wheels: {p: 18}}
-  ring: {wheels: {r: {teeth: 60, internal: true}}}
-  carrier: {}
-revolutes:
-  - {pair: [frame, sun], axis: main}
-  - {pair: [frame, ring], axis: main}
-  - {pair: [frame, carrier], axis: main}
-  - {pair: [carrier, planet], axis: P}
-gears:
-  - {pair: [s, p]}
-  - {pair: [p, r]}
-"""
-
-
-def declared(text: str) -> GearTrain:
-    import yaml
-
-    return GearTrain.declare(yaml.safe_load(text))
-
 
 def planetary(inputs: str, fixed: str, output: str) -> GearTrain:
-    return declared(f"{PLANETARY}inputs: {{{inputs}: 1}}\nfixed: [{fixed}]\noutputs: {{{output}: {{}}}}\n")
+    rest = f"inputs: {{{inputs}: 1}}\nfixed: [{fixed}]\noutputs: {{{output}: {{}}}}\n"
+    return geartrain.load(FREE_SET.format(rest=rest))
 
 
 @pytest.mark.parametrize(
     ("driven", "held", "requested", "written"),
     [
-        ("sun", "ring", "carrier", "z_s/(z_s + z_r)"),
-        ("carrier", "ring", "sun", "1 + z_r/z_s"),
-        ("ring", "sun", "carrier", "z_r/(z_s + z_r)"),
-        ("carrier", "sun", "ring", "1 + z_s/z_r"),
-        ("sun", "carrier", "ring", "-z_s/z_r"),
-        ("ring", "carrier", "sun", "-z_r/z_s"),
+        ("sun", "ring", "arm", "z_s/(z_s + z_r)"),
+        ("arm", "ring", "sun", "1 + z_r/z_s"),
+        ("ring", "sun", "arm", "z_r/(z_s + z_r)"),
+        ("arm", "sun", "ring", "1 + z_s/z_r"),
+        ("sun", "arm", "ring", "-z_s/z_r"),
+        ("ring", "arm", "sun", "-z_r/z_s"),
     ],
 )
 def test_the_six_gears_of_a_planetary_set_are_those_of_textbooks(
@@ -65,10 +43,11 @@ def test_the_six_gears_of_a_planetary_set_are_those_of_textbooks(
 
 def wolfrom() -> GearTrain:
     """A set with sun s, ring r1, planets p1 and p2, ring r2."""
-    text = PLANETARY.replace("p: 18", "p1: 18, p2: 17").replace("r: {teeth", "r2: {teeth").replace("ring:", "out:")
-    text = text.replace("[p, r]", "[p2, r2]").replace("[s, p]", "[s, p1]").replace("frame, ring", "frame, out")
-    text = text.replace("frame: {}", "frame: {wheels: {r1: {teeth: 60, internal: true}}}")
-    return declared(text + "  - {pair: [p1, r1]}\ninputs: {sun: 1}\noutputs: {out: {}}\n")
+    text = FREE_SET.format(rest="inputs: {sun: 1}\noutputs: {out: {}}")
+    text = text.replace("p: 18", "p1: 18, p2: 17").replace("r: {teeth", "r2: {teeth").replace("ring:", "out:")
+    text = text.replace("[p, r]}", "[p2, r2]}, {pair: [p1, r1]}").replace("[s, p]", "[s, p1]")
+    text = text.replace("sun, ring", "sun, out")
+    return geartrain.load(text.replace("frame: {}", "frame: {wheels: {r1: {teeth: 60, internal: true}}}"))
 
 
 @pytest.mark.needs("sympy")
@@ -190,6 +169,6 @@ def test_a_loop_says_what_it_needs() -> None:
 def test_an_output_that_is_not_there_or_not_determined_is_refused_in_words() -> None:
     with pytest.raises(GearTrainError, match="unknown output 'carier'"):
         load("planetary-24-18-60").formula("carier")
-    free = declared(PLANETARY + "inputs: {sun: 1}\noutputs: {carrier: {}}\n")
+    free = geartrain.load(FREE_SET.format(rest="inputs: {sun: 1}\noutputs: {arm: {}}"))
     with pytest.raises(GearTrainError, match="inputs do not determine"):
-        free.formula("carrier")
+        free.formula("arm")

@@ -16,11 +16,7 @@ links:
   ring: {{wheels: {{r: {{teeth: 60, internal: true}}}}}}
   planet: {{wheels: {{p: 18}}}}
   arm: {{}}
-revolutes:
-  - {{pair: [frame, sun], axis: main}}
-  - {{pair: [frame, ring], axis: main}}
-  - {{pair: [frame, arm], axis: main}}
-  - {{pair: [arm, planet], axis: planet}}
+revolutes: {{main: [frame, sun, ring, arm], planet: [arm, planet]}}
 gears: [{{pair: [s, p]}}, {{pair: [p, r]}}]
 {rest}
 """

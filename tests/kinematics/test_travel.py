@@ -351,11 +351,7 @@ MISTAKES = {
         "unit_ {pinion: 1}\noutputs: {carriage: {targets: [{period: 1 d}]}}\nunit: {per: 1 d}".replace("unit_ ", ""),
         "slides and has no period",
     ),
-    "torque on a slide": (
-        "{pinion: 1}",
-        "{pinion: 1}\nloads: {carriage: -2 N m}",
-        "the load of a slide is a force",
-    ),
+    "torque on a slide": ("{pinion: 1}", "{pinion: 1}\nloads: {carriage: -2 N m}", "the load of a slide is a force"),
     "force on an arbor": ("{pinion: 1}", "{pinion: 1}\nloads: {pinion: 2 N}", "the load of a turning link is a torque"),
     "inertia of a slide": ("carriage: {}}", "carriage: {inertia: 1 kg m2}}", "give its `mass`"),
     "angle of a slide": ("carriage: {}}", "carriage: {angle: 1 deg}}", "slides and has no `angle`"),

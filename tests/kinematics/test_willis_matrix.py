@@ -107,10 +107,7 @@ def test_the_maximum_counts_are_held_exactly() -> None:
 
 LOOPED = """
 links: {frame: {}, a: {wheels: {p: 20}}, b: {wheels: {q: 30, r: 40}}, c: {wheels: {s: 25}}}
-revolutes:
-  - {pair: [frame, a], axis: A}
-  - {pair: [frame, b], axis: B}
-  - {pair: [frame, c], axis: C}
+revolutes: {A: [frame, a], B: [frame, b], C: [frame, c]}
 gears: [{id: one, pair: [p, q]}, {id: two, pair: [r, s]}, {id: three, pair: [s, p]}]
 inputs: {INPUTS}
 """

@@ -432,12 +432,7 @@ def icosahedral_pitch(z_1: int, z_2: int, z_3: int) -> tuple[float, float]:
     ],
 )
 def test_moved_antiprisms(
-    n: int,
-    cap: int,
-    side: int,
-    cones: tuple[float, float] | None,
-    latitude: float | None,
-    misses: float,
+    n: int, cap: int, side: int, cones: tuple[float, float] | None, latitude: float | None, misses: float
 ) -> None:
     configuration = moved_antiprism(n, cap, side)
     assert (len(configuration.axes), len(configuration.meshes)) == (2 * n + 2, 4 * n)
@@ -457,11 +452,7 @@ def test_moved_antiprisms(
     ],
 )
 def test_idler_spheres(
-    solid: str,
-    teeth: dict[str, int],
-    gears: int,
-    meshes: int,
-    cones: tuple[float, float, float],
+    solid: str, teeth: dict[str, int], gears: int, meshes: int, cones: tuple[float, float, float]
 ) -> None:
     configuration = with_idlers(solid, teeth, 8)
     assert (len(configuration.axes), len(configuration.meshes)) == (gears, meshes)
@@ -489,11 +480,7 @@ def test_idlers_are_free_and_faces_are_not(idler: int) -> None:
     ],
 )
 def test_the_icosahedral_set_of_92(
-    teeth: tuple[int, int, int],
-    pitch: float,
-    t: float,
-    cones: tuple[float, ...],
-    misses: float,
+    teeth: tuple[int, int, int], pitch: float, t: float, cones: tuple[float, ...], misses: float
 ) -> None:
     found, place = icosahedral_pitch(*teeth)
     assert found == pytest.approx(pitch, abs=6e-13)

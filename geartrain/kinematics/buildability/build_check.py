@@ -30,8 +30,7 @@ from geartrain.kinematics.planet_copies import has_copies, with_copies
 
 if TYPE_CHECKING:
     from geartrain.kinematics.circuits import Circuit, Tree
-    from geartrain.kinematics.circuits.joint_tree import Rigid
-    from geartrain.train import StateCase, Train
+    from geartrain.train import Train
 
 
 # ----------------------------------------------------------------------------------------------------------- axis kinds
@@ -54,58 +53,48 @@ def check_kinds(
     """
     axes = Axes(train, tree)
     for one, other, shared in bevels_on_one_side(train, circuits, axes.is_rotation):
-        yield BuildFinding("K5", "error", _on_one_side(train, one, other, shared))
+        problem = Problem(
+            f"bevel wheels '{one}' and '{other}' on one axis mesh with '{shared}' from the same side",
+            "their pitch cones have the same apex and axis, so the wheels would overlap",
+            f"declare `facing: -1` for the wheel on the negative side of the axis, such as '{other}'",
+            train.place("links", train.wheels[other][0], "wheels", other),
+        )
+        yield BuildFinding("K5", "error", problem)
     for pair in pairs:
         shape = next((kind for kind in pair.kinds if kind != "spur"), "helical" if pair.is_crossed else "spur")
         if set(pair.kinds) not in _MATES:
-            yield BuildFinding("K2", "error", _incompatible_kinds(pair))
+            first, second = (f"{kind} wheel '{wheel}'" for kind, wheel in zip(pair.kinds, pair.wheels, strict=True))
+            problem = Problem(
+                f"pair '{pair.name}': {first} meshes with {second}",
+                "bevel wheels mesh with bevel wheels; contrate wheels and worms mesh with spur wheels",
+                "declare `kind: bevel` for both wheels, or `kind: contrate` or `kind: worm` for only one of them",
+                pair.place,
+            )
+            yield BuildFinding("K2", "error", problem)
         elif pair.parallel and shape != "spur":
             # undeclared directions may only be missing, so the finding is then a note
             declared = all(label in train.axes for label in pair.axes)
             yield BuildFinding("K1", "error" if declared else "note", _parallel_axes_problem(pair, shape, declared))
         elif not pair.parallel:
-            problem = _crossing_axes_problem(pair, shape, passing_distance(axes, pair.axes))
-            if problem is not None:
-                yield BuildFinding("K1", "error", problem)
-
-
-def _incompatible_kinds(pair: PitchPair) -> Problem:
-    first, second = (f"{kind} wheel '{wheel}'" for kind, wheel in zip(pair.kinds, pair.wheels, strict=True))
-    return Problem(
-        f"pair '{pair.name}': {first} meshes with {second}",
-        "bevel wheels mesh with bevel wheels; contrate wheels and worms mesh with spur wheels",
-        "declare `kind: bevel` for both wheels, or `kind: contrate` or `kind: worm` for only one of them",
-        pair.place,
-    )
-
-
-def _on_one_side(train: Train, one: str, other: str, shared: str) -> Problem:
-    return Problem(
-        f"bevel wheels '{one}' and '{other}' on one axis mesh with '{shared}' from the same side",
-        "their pitch cones have the same apex and axis, so the wheels would overlap",
-        f"declare `facing: -1` for the wheel on the negative side of the axis, such as '{other}'",
-        train.place("links", train.wheels[other][0], "wheels", other),
-    )
+            crossing = _crossing_axes_problem(pair, shape, passing_distance(axes, pair.axes))
+            if crossing is not None:
+                yield BuildFinding("K1", "error", crossing)
 
 
 def _parallel_axes_problem(pair: PitchPair, shape: str, declared: bool) -> Problem:
-    first, second = pair.axes
+    (first, second), why = pair.axes, _NEEDS[shape]
     if declared:
         what = f"the axes '{first}' and '{second}' of the {shape} pair '{pair.name}' are parallel"
         fix = f"correct the directions under `axes`, or remove `kind: {shape}`"
     else:
         what = f"no directions are declared for the axes of the {shape} pair '{pair.name}'"
+        why += ", and axes without a direction count as parallel, so its wheels are drawn as spur wheels"
         fix = f"declare the directions of '{first}' and '{second}' under `axes`, or remove `kind: {shape}`"
-    why = _NEEDS[shape] + (
-        "" if declared else ", and axes without a direction count as parallel, so its wheels are drawn as spur wheels"
-    )
     return Problem(what, why, fix, pair.place)
 
 
 def _crossing_axes_problem(pair: PitchPair, shape: str, offset: float | None) -> Problem | None:
-    """Return the problem of a gear pair on non-parallel axes that are at the distance `offset` [m]; None if the pair is
-    valid.
-    """
+    """Return the problem of a pair on non-parallel axes at the distance `offset` [m]; None if the pair is valid."""
     first, second = pair.axes
     if shape == "spur":
         return Problem(
@@ -118,13 +107,11 @@ def _crossing_axes_problem(pair: PitchPair, shape: str, offset: float | None) ->
     # worms and crossed helical wheels need skew axes, bevel and crown wheels intersecting axes
     if offset is None or (shape in ("worm", "helical")) == (offset > 0):
         return None
-    far = f"pass each other at a distance of {offset * 1000:.6g} mm" if offset else "intersect"
-    fix = "move one of the axes" + (
-        ", or declare one wheel `kind: worm`" if offset else ", or declare both wheels `kind: bevel`"
-    )
-    return Problem(
-        f"{shape} pair '{pair.name}': the axes '{first}' and '{second}' {far}", _NEEDS[shape], fix, pair.place
-    )
+    far, remedy = "intersect", "both wheels `kind: bevel`"
+    if offset:
+        far, remedy = f"pass each other at a distance of {offset * 1000:.6g} mm", "one wheel `kind: worm`"
+    what = f"{shape} pair '{pair.name}': the axes '{first}' and '{second}' {far}"
+    return Problem(what, _NEEDS[shape], f"move one of the axes, or declare {remedy}", pair.place)
 
 
 # ------------------------------------------------------------------------------------------------------- axis triangles
@@ -134,9 +121,8 @@ _EQUAL = Fraction(1, 10**6)  # tolerance relative to the longest side, because t
 
 
 def check_triangles(sizes: PitchDistances) -> Iterator[BuildFinding]:
-    """Yield findings of rule P3: three axes whose distances violate the triangle inequality.
-
-    Only distances that are known multiples of a common length are compared; the length itself may be unknown.
+    """Yield findings of rule P3: three axes whose distances, as multiples of one length, violate the triangle
+    inequality.
     """
     sides = {node[1:]: pairs[0] for node, pairs in sizes.between.items()}
     near: dict[str, dict[str, PitchPair]] = {}
@@ -164,13 +150,10 @@ def _triangle(
     if lack <= _EQUAL * long:
         return
     # permitted deviation of each pair from its design distance, in the same unit of length
-    room = sum(
-        (
-            abs(pair.bounds[1] - pair.distance) / pair.distance * size[1]
-            for pair, size in zip(pairs, found, strict=True)
-        ),
-        Fraction(0),
-    )
+    rooms = [
+        (pair.bounds[1] - pair.distance) / pair.distance * side for pair, (_, side) in zip(pairs, found, strict=True)
+    ]
+    room = sum(map(abs, rooms), Fraction(0))
     last = pairs[order[2]]
     measure = sizes.measure(last)
     sums = " + ".join(measure(found[at][1]) for at in order[:2])
@@ -189,32 +172,25 @@ def _triangle(
 
 
 def check_clutches(train: Train, tree: Tree) -> Iterator[BuildFinding]:
-    """Yield findings of rules G1 (clutches) and G2 (brakes): the links are on different axes. A clutch or brake that is
-    engaged in several states is reported once.
-    """
+    """Yield findings of rules G1 (clutches) and G2 (brakes): the links are on different axes."""
     reported = set()
     for case in train.cases:
         for rigid in rigid_across_axes(train, tree, case):
             if rigid.links not in reported:
                 reported.add(rigid.links)
-                lock = len(rigid.links) == 2
-                yield BuildFinding("G1" if lock else "G2", "error", _across_axes_problem(train, case, rigid, lock))
-
-
-def _across_axes_problem(train: Train, case: StateCase, rigid: Rigid, lock: bool) -> Problem:
-    axes = " and ".join(f"'{label}'" for label in rigid.labels)
-    joints = ", ".join(f"{start} - {end}" for start, end, _ in rigid.joints)
-    between = [inner for _, inner, _ in rigid.joints[:-1] if inner != train.frame]
-    if lock:
-        why = f"a clutch can only connect coaxial links, and this one would have to block the joints {joints}"
-        fix = "lock coaxial links, or connect the two links by a pair of equal wheels"
-    else:
-        why = f"a brake fixes a link that turns on the frame, and this one would have to block the joints {joints}"
-        fix = (
-            f"fix {' or '.join(repr(link) for link in between)} as well, or instead" if between else "fix another link"
-        )
-    what = f"{case.says(*rigid.links)} across the axes {axes}"
-    return Problem(what, why, fix, train.place(*rigid_place(train, case, rigid.links)))
+                axes = " and ".join(f"'{label}'" for label in rigid.labels)
+                joints = ", ".join(f"{start} - {end}" for start, end, _ in rigid.joints)
+                if len(rigid.links) == 2:
+                    rule, device = "G1", "a clutch can only connect coaxial links"
+                    fix = "lock coaxial links, or connect the two links by a pair of equal wheels"
+                else:
+                    rule, device = "G2", "a brake fixes a link that turns on the frame"
+                    between = [repr(inner) for _, inner, _ in rigid.joints[:-1] if inner != train.frame]
+                    fix = f"fix {' or '.join(between)} as well, or instead" if between else "fix another link"
+                what = f"{case.says(*rigid.links)} across the axes {axes}"
+                why = f"{device}, and this one would have to block the joints {joints}"
+                place = train.place(*rigid_place(train, case, rigid.links))
+                yield BuildFinding(rule, "error", Problem(what, why, fix, place))
 
 
 # ---------------------------------------------------------------------------------------------------------- idle wheels
@@ -246,12 +222,14 @@ def check_mates(train: Train) -> Iterator[BuildFinding]:
 # -------------------------------------------------------------------------------------------------------- shared wheels
 
 
-_SAME = 1e-6  # relative tolerance of distances: declared lengths and radii have about six digits
+Outlines = Callable[[], Mapping[str, PairOutline]]
+"""Function that returns the outlines of the pairs with declared teeth, by name. It is called only if equal planets, or
+two pairs that share a wheel, are to be compared.
+"""
+_SAME = 1e-6  # relative tolerance of distances: declared lengths, radii and positions have about six digits
 
 
-def check_shared_wheels(
-    pairs: Sequence[PitchPair], outlines: Callable[[], Mapping[str, PairOutline]]
-) -> Iterator[BuildFinding]:
+def check_shared_wheels(pairs: Sequence[PitchPair], outlines: Outlines) -> Iterator[BuildFinding]:
     """Yield findings of rule P2 for non-conjugate teeth, such as triangular teeth: a wheel with two mates must have the
     same pitch radius in both pairs.
     """
@@ -268,29 +246,23 @@ def check_shared_wheels(
         first, second = found[one.name].distance, found[other.name].distance
         if abs(first - second) > _SAME * max(first, second):
             (wheel,) = set(one.wheels) & set(other.wheels)
-            yield BuildFinding(
-                "P2",
-                "error",
-                Problem(
-                    f"pairs '{one.name}' and '{other.name}' need different centre distances: {first:.6g} "
-                    f"and {second:.6g} modules",
-                    f"they connect the same two axes, and the shared wheel '{wheel}' has the same teeth in both",
-                    "give both pairs the same `centre_distance`, and `radii: [first, second]` as lengths, with the "
-                    f"same radius of '{wheel}'",
-                    other.place,
-                ),
+            problem = Problem(
+                f"pairs '{one.name}' and '{other.name}' need different centre distances: {first:.6g} and {second:.6g} "
+                "modules",
+                f"they connect the same two axes, and the shared wheel '{wheel}' has the same teeth in both",
+                "give both pairs the same `centre_distance`, and `radii: [first, second]` as lengths, with the same "
+                f"radius of '{wheel}'",
+                other.place,
             )
+            yield BuildFinding("P2", "error", problem)
 
 
 # ------------------------------------------------------------------------------------------------------- skew distances
 
 
-_EQUAL_SKEW = 1e-6  # relative tolerance of distances: written positions are rounded
-
-
 def check_skew(train: Train, tree: Tree, pairs: Sequence[PitchPair], sizes: PitchDistances) -> Iterator[BuildFinding]:
-    """Yield findings of rule K4: the distance between skew axes differs from the sum of the pitch radii m z/(2 cos(b)),
-    where m is the normal module, z the tooth count and b the helix angle.
+    """Yield findings of rule K4: skew axes are not at the sum of the pitch radii m z/(2 cos(b)), where m is the normal
+    module, z the tooth count and b the helix angle.
     """
     axes = Axes(train, tree)
     for pair in pairs:
@@ -302,29 +274,21 @@ def check_skew(train: Train, tree: Tree, pairs: Sequence[PitchPair], sizes: Pitc
             continue
         radii = [float(module) * (wheel.count or 0) / 2 / cos(wheel.helix) for wheel in pair.declared]
         off = 1000 * offset - sum(radii)
-        if abs(off) > _EQUAL_SKEW * sum(radii):
-            yield _misplaced(pair, radii, off, module)
-
-
-def _misplaced(pair: PitchPair, radii: Sequence[float], off: float, module: Fraction) -> BuildFinding:
-    first, second = pair.axes
-    sides = " and ".join(f"'{wheel}' {radius:.6g} mm" for wheel, radius in zip(pair.wheels, radii, strict=True))
-    what = (
-        f"pair '{pair.name}': axes '{first}' and '{second}' are {sum(radii) + off:.6g} mm apart, "
-        f"but the pair needs {sum(radii):.6g} mm"
-    )
-    why = f"the distance between the axes must equal the sum of the pitch radii, {sides}"
-    fix = f"move an axis by {abs(off):.6g} mm, or change a module, a tooth count or the helix angles"
-    return BuildFinding("K4", "note" if abs(off) <= SLACK * module else "error", Problem(what, why, fix, pair.place))
+        if abs(off) <= _SAME * sum(radii):
+            continue
+        first, second = pair.axes
+        sides = " and ".join(f"'{wheel}' {radius:.6g} mm" for wheel, radius in zip(pair.wheels, radii, strict=True))
+        problem = Problem(
+            f"pair '{pair.name}': axes '{first}' and '{second}' are {1000 * offset:.6g} mm apart, but the pair needs "
+            f"{sum(radii):.6g} mm",
+            f"the distance between the axes must equal the sum of the pitch radii, {sides}",
+            f"move an axis by {abs(off):.6g} mm, or change a module, a tooth count or the helix angles",
+            pair.place,
+        )
+        yield BuildFinding("K4", "note" if abs(off) <= SLACK * module else "error", problem)
 
 
 # ---------------------------------------------------------------------------------------------------------- build check
-
-
-Outlines = Callable[[], Mapping[str, PairOutline]]
-"""Function that returns the outlines of the pairs with declared teeth, by name. It is called only if equal planets, or
-two pairs that share a wheel, are to be compared.
-"""
 
 
 def check_build(
@@ -344,17 +308,12 @@ def check_build(
         from geartrain.kinematics.buildability.belt_drives import check_belts
 
         yield from check_belts(train, tree, circuits)
-    yield from _planets(train, tree, circuits, sizes, outlines)
+    if has_copies(train):  # planets declared by `copies` are expanded to separate links
+        every = with_copies(train, tree)
+        branches = find_tree(every)
+        chords = find_circuits(every, branches)
+        sizes = PitchDistances(every, branches, chords, pitch_pairs(every, branches, chords))
+        yield from check_planets(every, branches, chords, sizes, outlines)
+    else:
+        yield from check_planets(train, tree, circuits, sizes, outlines)
     yield from check_clutches(train, tree)
-
-
-def _planets(
-    train: Train, tree: Tree, circuits: Sequence[Circuit], sizes: PitchDistances, outlines: Outlines
-) -> Iterator[BuildFinding]:
-    """Yield findings on equal planets. Planets declared by `copies` are first expanded to separate links."""
-    if has_copies(train):
-        train = with_copies(train, tree)
-        tree = find_tree(train)
-        circuits = find_circuits(train, tree)
-        sizes = PitchDistances(train, tree, circuits, pitch_pairs(train, tree, circuits))
-    yield from check_planets(train, tree, circuits, sizes, outlines)

@@ -69,8 +69,8 @@ class AssemblyMesh:
 
     @property
     def terms(self) -> tuple[tuple[int, CountRef], tuple[int, CountRef]]:
-        """Two terms (sign, tooth count) whose sum is twice the centre distance [modules]: z1 + z2, or z_ring - z_mate,
-        where z are tooth counts.
+        """Two terms (sign, tooth count z) whose sum is twice the centre distance [modules]: z1 + z2, or z_ring -
+        z_mate.
         """
         first, second = self.parts
         return (-1 if self.ring == 1 else 1, first), (-1 if self.ring == 0 else 1, second)
@@ -78,9 +78,7 @@ class AssemblyMesh:
 
 @dataclass(frozen=True, slots=True)
 class Planet:
-    """Planet with its meshes, as a node in the tree of planets that mesh with each other. The first planet is
-    the root.
-    """
+    """Planet with its meshes, as a node in the tree of planets that mesh with each other (root: the first planet)."""
 
     link: str
     inward: AssemblyMesh | None
@@ -124,9 +122,7 @@ class Planet:
 
     @property
     def form(self) -> object:
-        """Canonical form of the planet's meshes, which is equal for two planets that mesh in the same way with the same
-        central wheels.
-        """
+        """Canonical form of the planet's meshes; equal for planets that mesh alike with the same central wheels."""
         wheels = self.wheels
         central = tuple((wheels.index(self.own(mesh)), self.mate(mesh)) for mesh in self.central)
         outward = tuple((wheels.index(self.own(mesh)), other.form) for mesh, other in self.outward)
@@ -135,9 +131,7 @@ class Planet:
 
 @dataclass(frozen=True, slots=True)
 class PlanetSet:
-    """Planets of one carrier that mesh with each other; usually a single planet. Equal planets are compared set
-    by set.
-    """
+    """Planets of one carrier that mesh with each other; usually one planet. Equal planets are compared set by set."""
 
     carrier: str
     planets: Planet | None
@@ -160,9 +154,7 @@ _Central = tuple[str, AssemblyMesh]  # central wheel, and its mesh with a planet
 
 @dataclass(frozen=True)
 class TrainAssembly:
-    """Train with the data that the assembly rules of planets require: fixed and variable tooth counts, meshes, and sets
-    of planets.
-    """
+    """Train with the data of the assembly rules of planets: fixed and variable tooth counts, meshes, planet sets."""
 
     train: Train
     free: frozenset[str]
@@ -178,9 +170,7 @@ class TrainAssembly:
         return cls(train, frozenset(free), tree, find_circuits(train, tree))
 
     def part(self, wheel: str) -> CountRef:
-        """Return the tooth count of a wheel as a term of an assembly rule: the name of the wheel if its tooth count is
-        variable, or its fixed tooth count.
-        """
+        """Return the tooth count of a wheel as a term of an assembly rule: the wheel's name if it is variable."""
         count = self.train.wheels[wheel][1].count
         return wheel if wheel in self.free or count is None else count
 
@@ -251,9 +241,7 @@ class TrainAssembly:
 
     @cached_property
     def sets(self) -> tuple[PlanetSet, ...]:
-        """Sets of planets on carriers other than the frame. Sets that are isomorphic to an earlier set are its
-        `copies`.
-        """
+        """Sets of planets on moving carriers; sets that are isomorphic to an earlier set are its `copies`."""
         found: list[PlanetSet] = []
         by_carrier: dict[str, list[AssemblyMesh]] = {}
         for mesh in self.meshes:
@@ -275,22 +263,17 @@ class TrainAssembly:
         # a connected graph of n planets is a tree only if it has n - 1 meshes
         if len(among) != len(links) - 1:
             return PlanetSet(carrier, None, tuple(links))
+        central: dict[str, list[_Central]] = {}
+        for link in links:
+            sides = [(mesh, 1 - mesh.links.index(link)) for mesh in meshes if link in mesh.links]
+            found = [(mesh.wheels[at], mesh) for mesh, at in sides if not self.tree.bears(carrier, mesh.links[at])]
+            central[link] = sorted(found, key=lambda each: each[0])
         # start at the planet whose central wheels come first, so that equal sets have isomorphic trees
-        central = {link: self._central(carrier, link, meshes) for link in links}
         start = min(links, key=lambda link: ([wheel for wheel, _ in central[link]] or ["\uffff"], links.index(link)))
         return PlanetSet(carrier, self._planet(start, None, among, central), tuple(links))
 
-    def _central(self, carrier: str, link: str, meshes: Iterable[AssemblyMesh]) -> list[_Central]:
-        sides = [(mesh, 1 - mesh.links.index(link)) for mesh in meshes if link in mesh.links]
-        found = [(mesh.wheels[side], mesh) for mesh, side in sides if not self.tree.bears(carrier, mesh.links[side])]
-        return sorted(found, key=lambda each: each[0])
-
     def _planet(
-        self,
-        link: str,
-        inward: AssemblyMesh | None,
-        among: list[AssemblyMesh],
-        central: Mapping[str, list[_Central]],
+        self, link: str, inward: AssemblyMesh | None, among: list[AssemblyMesh], central: Mapping[str, list[_Central]]
     ) -> Planet:
         rest = [mesh for mesh in among if link not in mesh.links]
         outward = []
@@ -326,9 +309,7 @@ def mesh_counts(planet: Planet, mesh: AssemblyMesh, other: Planet | None = None)
 
 @dataclass(frozen=True, slots=True)
 class PhaseArithmetic:
-    """Integer arithmetic for the assembly rule, on numbers, or on integer arrays with one element for each candidate
-    set of tooth counts.
-    """
+    """Integer arithmetic for the assembly rule, on numbers or on arrays of candidate sets of tooth counts."""
 
     count: Callable[[CountRef], Any]
     """Function that returns the value of a tooth count term, as a number or an array."""
@@ -369,8 +350,8 @@ def phase_numbers(root: Planet, kind: PhaseArithmetic) -> list[Any]:
 
 
 def _angle_conditions(planet: Planet, kind: PhaseArithmetic, found: list[Any]) -> list[tuple[Any, Any]]:
-    """Return the pair (D, b) of each condition D phi = b t on a planet's angle phi, where t is the rotation of its set
-    [turn]. Append the integers E of the planet's descendants to `found`.
+    """Return the pair (D, b) of each condition D phi = b t on a planet's angle phi [turn], where t is the rotation of
+    its set [turn]. Append the integers E of the planet's descendants to `found`.
     """
     left = []
     for mesh in planet.central:
@@ -380,24 +361,17 @@ def _angle_conditions(planet: Planet, kind: PhaseArithmetic, found: list[Any]) -
         further = _angle_conditions(other, kind, found)
         if not further:
             continue
-        D, b = _combined_condition(further, kind, found)
+        # all conditions of the child planet are combined into one; E expresses whether they are compatible
+        (D, b), *rest = further
+        for D2, b2 in rest:
+            common, u, v = kind.bezout(D, D2)
+            found.append(_compatibility_number((D, b), (D2, b2), common))
+            D, b = common, kind.reduced(kind.reduced(u) * b + kind.reduced(v) * b2)
         own, mate = map(kind.count, mesh_counts(planet, mesh, other))
         # z phi of the child planet is known up to multiples of gcd(z, D)/D
         common = kind.gcd(mate, D)
         left.append((D // common * own, kind.reduced(-mesh.sense * kind.reduced(mate // common) * b)))
     return left
-
-
-def _combined_condition(left: list[tuple[Any, Any]], kind: PhaseArithmetic, found: list[Any]) -> tuple[Any, Any]:
-    """Combine all conditions D phi = b t on a planet's angle phi into one condition, and return its pair (D, b). Append
-    to `found` the integers E that express under which rotations t these conditions are compatible.
-    """
-    (D, b), *others = left
-    for D2, b2 in others:
-        common, u, v = kind.bezout(D, D2)
-        found.append(_compatibility_number((D, b), (D2, b2), common))
-        D, b = common, kind.reduced(kind.reduced(u) * b + kind.reduced(v) * b2)
-    return D, b
 
 
 def _compatibility_number(one: tuple[Any, Any], other: tuple[Any, Any], common: Any) -> Any:
@@ -417,15 +391,6 @@ def bezout(a: int, b: int) -> tuple[int, int, int]:
         q = r // r2
         r, r2, s, s2, t, t2 = r2, r - q * r2, s2, s - q * s2, t2, t - q * t2
     return r, s, t
-
-
-def assembly_number(planet: Planet) -> int:
-    """Return the integer G for which equal sets of planets mesh with the same central wheels at multiples of 1/G turn.
-
-    G is the largest such integer, or 0 if the sets mesh at any angle.
-    """
-    exact = PhaseArithmetic(int, gcd, bezout, lambda number: number)
-    return gcd(*phase_numbers(planet, exact))
 
 
 def neighbour_terms(root: Any, reach: Any, tips: Any, chord: Any) -> tuple[Any, ...]:
@@ -503,7 +468,9 @@ class _EqualPlanets:
             self.tips[wheel] = max(tip, self.tips.get(wheel, 0.0))
         self.firsts = [self.planet.link, *(copy.planets.link for copy in copies if copy.planets is not None)]
         self.number = len(self.firsts)
-        self.step = assembly_number(self.planet)
+        # equal sets mesh at multiples of 1/step turn; at any angle if it is 0
+        exact = PhaseArithmetic(int, gcd, bezout, lambda number: number)
+        self.step = gcd(*phase_numbers(self.planet, exact))
         axes = [tree.axis(link) for link in self.firsts]
         self.points = _planet_positions(train, tree.axis(one.carrier), axes)
         self.place = train.place("links", self.firsts[-1])
@@ -512,8 +479,8 @@ class _EqualPlanets:
     # -------------------------------------------------------------------------------------------------------- assembly
 
     def assembly(self) -> Iterator[BuildFinding]:
-        """Yield findings of the assembly rules: A1 for planets with one wheel that meshes only with central wheels, A2
-        for all others.
+        """Yield findings of the assembly rules: A1 for simple planets that mesh only with central wheels, A2 for
+        others.
         """
         if not self.step:
             return
@@ -550,9 +517,7 @@ class _EqualPlanets:
         yield BuildFinding(rule, "error" if worst > _MISS and rule == "A1" else "note", problem)
 
     def _uneven_spacing(self, rule: str) -> BuildFinding:
-        """Return the finding that planets cannot be evenly spaced. It is an error if every uneven spacing causes
-        collisions, and a note if not.
-        """
+        """Return the finding that planets cannot be evenly spaced: an error if uneven spacing causes collisions."""
         minimum = max((self._minimum_angle(planet, _STUB) for planet in self.planet.walk()), default=0.0)
         # 1e-9: an angle that is an integer number of steps to rounding needs no further step
         steps = max(1, ceil(minimum * self.step - 1e-9))
@@ -563,17 +528,16 @@ class _EqualPlanets:
         why = f"they mesh only at multiples of {self._degrees}, and {self.step} is not a multiple of {self.number}"
         if not fits:
             why += "; with uneven spacing, planets would collide"
-        others = f"use {_enumerated(even)} planets, which can be evenly spaced" if even else "change a tooth count"
-        spread = (
-            f"space neighbours by {whole} or {whole + 1} of these steps ({rest} of the gaps with {whole + 1}), or "
-            if fits
-            else ""
-        )
-        return BuildFinding(
-            rule,
-            "note" if fits or rule == "A2" else "error",
-            Problem(what, why, self._fix(rule, spread + others), self.place),
-        )
+        fix = "change a tooth count"
+        if even:
+            *some, last = map(str, even)
+            listed = f"{', '.join(some)} or {last}" if some else last
+            fix = f"use {listed} planets, which can be evenly spaced"
+        if fits:
+            spread = f"{whole} or {whole + 1} of these steps ({rest} of the gaps with {whole + 1})"
+            fix = f"space neighbours by {spread}, or {fix}"
+        level: BuildLevel = "note" if fits or rule == "A2" else "error"
+        return BuildFinding(rule, level, Problem(what, why, self._fix(rule, fix), self.place))
 
     @property
     def _degrees(self) -> str:
@@ -589,44 +553,39 @@ class _EqualPlanets:
         """Yield findings of rule A3: neighbouring planets whose tips overlap or nearly touch."""
         for planet in self.planet.walk():
             for mesh in planet.mesh_of.values():
-                if self._is_on_eccentric(planet, mesh):
-                    continue  # discs on eccentrics are next to each other along the axis
+                wheel = planet.own(mesh)
+                reach, teeth = self._axis_distance(planet, wheel), self.train.wheels[wheel][1].count or 0
+                # discs on eccentrics are next to each other along the axis
+                if reach is not None and 0 < reach < ON_ECCENTRIC * teeth:
+                    continue
                 gap = self._neighbour_clearance(planet, mesh, self.number)
                 if gap is not None and gap < _CLEAR:
-                    yield self._small_clearance(planet.own(mesh), gap)
+                    yield self._small_clearance(wheel, gap)
             for mesh, other in planet.outward:
                 gap = self._passing_clearance(planet, other, mesh)
                 if gap is not None and gap < 0:
                     wheels = planet.own(mesh), other.own(mesh)
                     what = f"'{wheels[0]}' and '{wheels[1]}' of neighbouring planet sets collide ({self.number} sets)"
                     why = f"their tip circles overlap by {-gap:.4g} modules"
-                    yield self._clearance_finding(
-                        wheels, gap, what, why, "use fewer planets, or change their tooth counts"
-                    )
+                    fix = "use fewer planets, or change their tooth counts"
+                    yield self._clearance_finding(wheels, gap, what, why, fix)
 
     def _small_clearance(self, wheel: str, gap: float) -> BuildFinding:
         module = self._module(wheel)
         far = f"{abs(gap):.4g} modules" if module is None else f"{abs(gap) * module:.4g} mm"
-        grave = gap <= 0
-        what = f"the tips of {self.number} planets '{wheel}' " + (
-            f"overlap by {far}" if grave else f"have a clearance of only {far}"
-        )
-        why = "the axes of neighbours are 2 a sin(pi/n) apart, less than their tip diameter" + (
-            "" if grave else f" plus {_CLEAR:g} modules"
-        )
+        what = f"the tips of {self.number} planets '{wheel}' "
+        what += f"overlap by {far}" if gap <= 0 else f"have a clearance of only {far}"
+        why = "the axes of neighbours are 2 a sin(pi/n) apart, less than their tip diameter"
         if self.points is not None:
-            why = why.replace(
-                "the axes of neighbours are 2 a sin(pi/n) apart, less",
-                "neighbours are placed at a distance less",
-            )
+            why = "neighbours are placed at a distance less than their tip diameter"
+        if gap > 0:
+            why += f" plus {_CLEAR:g} modules"
         # evenly spaced planets of the declared number are too close, so fewer are suggested
         most = self._maximum_number() if self.points is not None else min(self._maximum_number(), self.number - 1)
         return self._clearance_finding((wheel, wheel), gap, what, why, f"use at most {most} planets, or smaller ones")
 
     def _clearance_finding(self, wheels: tuple[str, str], gap: float, what: str, why: str, fix: str) -> BuildFinding:
-        """Return a finding on the tip clearance `gap` [modules]. It is an error if the tips overlap even with the
-        smallest addendum that is assumed for undeclared teeth, and a note if they do not.
-        """
+        """Return a finding on the tip clearance `gap` [modules]: an error if even stub teeth overlap, else a note."""
         free = sum(wheel not in self.tips for wheel in wheels)
         # addendum at which the tips just touch if all undeclared teeth are shortened equally
         fits = _FULL + gap / free if free else 0.0
@@ -642,9 +601,7 @@ class _EqualPlanets:
         return None if module is None else float(module) * self.train.wheels[wheel][1].slant
 
     def _neighbour_clearance(self, planet: Planet, mesh: AssemblyMesh, number: int) -> float | None:
-        """Return the clearance between the tips of equal wheels of neighbouring planets [modules]; None if it is
-        unknown.
-        """
+        """Return the tip clearance of equal wheels of neighbouring planets [modules]; None if it is unknown."""
         tips = self._tip_diameter(planet, mesh)
         # positions are known only for the first planet of each set
         if self.points is not None and planet is self.planet and number == self.number:
@@ -658,18 +615,8 @@ class _EqualPlanets:
         reach = self._axis_distance(planet, planet.own(mesh))
         return None if reach is None else float(sum(neighbour_terms(sqrt, reach, tips, sin(pi / number))))
 
-    def _is_on_eccentric(self, planet: Planet, mesh: AssemblyMesh) -> bool:
-        """Return True if a wheel is on an eccentric. This is the case if the distance between its axis and the
-        carrier's axis is not 0, but less than `ON_ECCENTRIC` pitch radii.
-        """
-        wheel = planet.own(mesh)
-        reach, count = self._axis_distance(planet, wheel), self.train.wheels[wheel][1].count or 0
-        return reach is not None and 0 < reach < ON_ECCENTRIC * count
-
     def _tip_diameter(self, planet: Planet, mesh: AssemblyMesh, addendum: float = _FULL) -> float:
-        """Return the tip diameter of a planet's wheel [modules]. The value `addendum` [modules] is used for undeclared
-        teeth.
-        """
+        """Return the tip diameter of a planet's wheel [modules]; undeclared teeth have the given addendum [modules]."""
         wheel = planet.own(mesh)
         declared = self.tips.get(wheel)
         return (self.train.wheels[wheel][1].count or 0) + 2 * addendum if declared is None else 2 * declared
@@ -680,9 +627,7 @@ class _EqualPlanets:
         return float(sum(sign * int(part) for sign, part in mesh.terms)) if outline is None else 2 * outline.distance
 
     def _axis_distance(self, planet: Planet, wheel: str = "") -> float | None:
-        """Return twice the distance of a planet's axis from the central axis [modules of `wheel`]; None if it is
-        unknown.
-        """
+        """Return twice the distance of a planet's axis from the central axis [modules of `wheel`]; None if unknown."""
         meshes = sorted(planet.central, key=lambda mesh: (planet.own(mesh) != wheel, mesh.ring is not None))
         if not meshes:
             return None
@@ -712,9 +657,7 @@ class _EqualPlanets:
         return (sqrt(max(min(squares), 0.0)) - tips) / 2
 
     def _minimum_angle(self, planet: Planet, addendum: float = _FULL) -> float:
-        """Return the smallest angle between neighbouring planets at which their tips do not overlap [turn]; `addendum`
-        has the same meaning as in `_tip_diameter`.
-        """
+        """Return the smallest angle between neighbouring planets at which their tips do not overlap [turn]."""
         found = 0.0
         for mesh in planet.mesh_of.values():
             reach = self._axis_distance(planet, planet.own(mesh))
@@ -723,26 +666,17 @@ class _EqualPlanets:
         return found
 
     def _maximum_number(self) -> int:
-        """Return the maximum number of evenly spaced planets whose tips do not overlap. If distances are unknown,
-        return the declared number of planets.
-        """
+        """Return the maximum number of evenly spaced planets whose tips do not overlap; the declared one if unknown."""
         minimum = max((self._minimum_angle(planet) for planet in self.planet.walk()), default=0.0)
         # 1e-9: rounding must not reduce the number of planets whose tips just touch
         return max(1, int(1 / minimum + 1e-9)) if minimum else self.number
 
 
 def _planet_positions(train: Train, centre: str | None, axes: Sequence[str | None]) -> list[tuple[float, float]] | None:
-    """Return the x and y coordinates of the planets relative to the axis of their carrier [mm]; None unless all
-    positions are declared.
-    """
+    """Return the coordinates (x, y) of planets relative to their carrier's axis [mm]; None if a position is missing."""
     places = [train.axes[label].point if label in train.axes else None for label in (centre or "", *map(str, axes))]
     spots = [place for place in places if place is not None]
     if len(spots) < len(places):
         return None
     x, y = frame(train.axes[centre or ""].way)
     return [(dot(minus(spot, spots[0]), x), dot(minus(spot, spots[0]), y)) for spot in spots[1:]]
-
-
-def _enumerated(counts: Sequence[int]) -> str:
-    *some, last = map(str, counts)
-    return f"{', '.join(some)} or {last}" if some else last

@@ -90,8 +90,8 @@ def _involute(angle: float) -> float:
 
 
 def minimum_ring(planet: int) -> int:
-    """Return the tooth count, at least 34, of the smallest ring without trochoid interference with a planet of `planet`
-    teeth; both have standard teeth.
+    """Return the tooth count (34 or more) of the smallest ring in which a planet of standard teeth has no trochoid
+    interference.
     """
     # the tip circle of a ring with fewer than 34 teeth lies within its base circle
     first = max(planet + 1, 34)
@@ -99,9 +99,7 @@ def minimum_ring(planet: int) -> int:
 
 
 def check_rings(pairs: Sequence[PitchPair]) -> Iterator[BuildFinding]:
-    """Yield findings of rules R1 to R3: a ring is smaller than its mate, trochoid interference, or trimming
-    interference.
-    """
+    """Yield findings of rules R1 to R3: a ring smaller than its mate, trochoid interference, trimming interference."""
     for pair in pairs:
         if pair.ring is None or set(pair.kinds) != {"spur"}:
             continue
@@ -131,15 +129,10 @@ def check_rings(pairs: Sequence[PitchPair]) -> Iterator[BuildFinding]:
                 "only axially"
             )
             why = "in radial assembly the tips of standard teeth collide (trimming interference)"
-            fix = f"leave space for axial assembly, or use a ring of at least {_radial_ring(planet)} teeth"
+            larger = count(minimum_ring(planet))
+            wide = next(z for z in larger if radial_margin(planet, z, PRESSURE, 1.0, 1.0) >= 0)
+            fix = f"leave space for axial assembly, or use a ring of at least {wide} teeth"
             yield BuildFinding("R3", "note", Problem(what, why, fix, pair.place))
-
-
-def _radial_ring(planet: int) -> int:
-    """Return the tooth count of the smallest ring into which a planet of `planet` standard teeth can be inserted
-    radially.
-    """
-    return next(z for z in count(max(minimum_ring(planet), 34)) if radial_margin(planet, z, PRESSURE, 1.0, 1.0) >= 0)
 
 
 SLACK = Fraction(1, 50)
@@ -150,16 +143,13 @@ than the backlash of cut teeth.
 SHIFT = Fraction(1, 2)
 """Maximum change of the centre distance that is accepted because profile shift can compensate it [modules]."""
 
-_FREE = Fraction(
-    1, 40
-)  # relative difference of distance of wheels without declared size, as if cut with different pitches
+# relative difference of distance of wheels without declared size, as if cut with different pitches
+_FREE = Fraction(1, 40)
 _LOOSE = Fraction(1, 20)  # relative difference of distance of teeth with their own sizes that run at any distance
 
 
 class PairOutline(NamedTuple):
-    """Dimensions of a pair with declared teeth as cut: its centre distance and the tip radius of each wheel [transverse
-    modules].
-    """
+    """Dimensions of a pair with declared teeth: centre distance and tip radius of each wheel [transverse modules]."""
 
     distance: float
     tips: Mapping[str, float]
@@ -167,9 +157,7 @@ class PairOutline(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class PitchPair:
-    """Gear pair with its declared dimensions. If a field has two elements, they refer to the first and the second
-    wheel.
-    """
+    """Gear pair with its declared dimensions; fields with two elements refer to the first and the second wheel."""
 
     name: str
     place: str
@@ -268,9 +256,7 @@ class PitchPair:
 
 
 def _distance_without_backlash(pair: PitchPair, form: ToothForm) -> Fraction:
-    """Return the centre distance without backlash [modules]. The pitch circles touch at this distance, except for
-    profile-shifted involutes.
-    """
+    """Return the centre distance without backlash [modules]; the pitch circles touch there unless teeth are shifted."""
     from geartrain.teeth.involute import Involute
 
     if not isinstance(form, Involute) or not any(figure.value for figure in form.shift):
@@ -371,31 +357,20 @@ class PitchDistances:
             # a contradiction is reported at the pair that would join different modules
             ratio = self.sizes.ratio(first, second)
             if ratio is not None and ratio != 1:
-                yield self._two_pitches(pair)
+                sides = []
+                for side, own in zip(pair.wheels, pair.modules, strict=True):
+                    whose = "" if own is not None else " through its other mates"
+                    sides.append(f"'{side}' has module {_mm(self.module(side))}{whose}")
+                what = f"the wheels of pair '{pair.name}' have different modules"
+                why = f"{sides[0]} and {sides[1]}, and teeth of different pitches cannot mesh"
+                fix = "give both wheels the same `module`"
+                yield BuildFinding("M1", "error", Problem(what, why, fix, pair.place))
             self.sizes.join(first, second, Fraction(1))
-
-    def _two_pitches(self, pair: PitchPair) -> BuildFinding:
-        sides = []
-        for wheel, own in zip(pair.wheels, pair.modules, strict=True):
-            whose = "" if own is not None else " through its other mates"
-            sides.append(f"'{wheel}' has module {_mm(self.module(wheel))}{whose}")
-        return BuildFinding(
-            "M1",
-            "error",
-            Problem(
-                f"the wheels of pair '{pair.name}' have different modules",
-                f"{sides[0]} and {sides[1]}, and teeth of different pitches cannot mesh",
-                "give both wheels the same `module`",
-                pair.place,
-            ),
-        )
 
     # ------------------------------------------------------------------------------------------------------- distances
 
     def _offsets(self, tree: Tree, circuits: Sequence[Circuit]) -> Iterator[BuildFinding]:
-        """Record axis distances from declared positions, then from the offsets of pins in slots. Yield a finding for
-        each contradiction.
-        """
+        """Record axis distances from declared positions and pin offsets, and yield a finding for each contradiction."""
         offsets = {each.name: each.offset for each in self.train.pin_couplings if each.offset is not None}
         for pair in self.pairs:
             if pair.parallel:
@@ -460,29 +435,23 @@ class PitchDistances:
             f"pair '{pair.name}': axes {_named(pair.axis_pair)} are {_mm(found * module)} apart according to {by}, "
             f"but {first} and {second} of module {_mm(module)} need {_mm(wanted * module)}"
         )
-        move, shift = f"move an axis by {_mm(abs(off) * module)}", f", or {shifts}" if shifts else ""
+        gap = _mm(abs(off) * module)
+        move, shift = f"move an axis by {gap}", f", or {shifts}" if shifts else ""
         if low <= found <= high or (shifts and pair.form is None):
-            yield BuildFinding(
-                "P1", "note", Problem(what, _backlash_effect(pair, off, module), move + shift, pair.place)
-            )
+            why = _backlash_effect(pair, off, module)
+            yield BuildFinding("P1", "note", Problem(what, why, move + shift, pair.place))
             return
-        why = f"their pitch circles {'are' if off > 0 else 'overlap by'} {_mm(abs(off) * module)}" + (
-            " apart" if off > 0 else ""
-        )
+        why = f"their pitch circles {f'are {gap} apart' if off > 0 else f'overlap by {gap}'}"
         # module with which the wheels have the given distance
-        fits = found / wanted * module
-        fix = f"{move}, " + (
-            f"or remove the module, which must be {_mm(fits)} at this distance"
-            if rule == "M2"
-            else f"or give both wheels module {_mm(fits)}"
-        )
-        yield BuildFinding(rule, "error", Problem(what, why, fix + shift, pair.place))
+        fits = _mm(found / wanted * module)
+        remedy = f"remove the module, which must be {fits} at this distance"
+        if rule == "P1":
+            remedy = f"give both wheels module {fits}"
+        yield BuildFinding(rule, "error", Problem(what, why, f"{move}, or {remedy}{shift}", pair.place))
 
     def _coaxial(self, pair: PitchPair) -> Iterator[BuildFinding]:
-        """Yield a finding if the required centre distance of a pair differs from that of another pair on the same two
-        axes.
-
-        The finding names the pair on these axes whose required distance differs most.
+        """Yield a finding if a pair and another pair on the same two axes require different centre distances. The
+        finding names the other pair whose required distance differs most.
         """
         wheel = ("wheel", pair.wheels[0])
         best: tuple[Fraction, PitchPair, Fraction] | None = None
@@ -533,12 +502,9 @@ _COMPENSATE = "shift profiles, give the pairs different modules, or change a too
 
 
 def _needed_shifts(pair: PitchPair, distance: Fraction) -> str:
-    """Return the text of a fix with the profile shifts for which involute teeth have no backlash at a distance
-    [modules]; "" if the sum of the shifts would be outside `_SHIFTS`, or if no involute pair has this distance.
-
-    The equation is inv a_w = inv a_t + 2 tan a_n (x1 + x2)/(z1 + z2), with cos a_w = cos a_t touching/distance, tan a_t
-    = tan a_n / cos(helix), the profile shifts x and the tooth counts z. In a pair with a ring, z and x of the mate are
-    negative. The rack angle a_n is declared by the tooth form; the default is 20 degrees.
+    """Return the text of a fix with the profile shifts x for which involute teeth have no backlash at a distance
+    [modules]: inv a_w = inv a_t + 2 tan a_n (x1 + x2)/(z1 + z2), cos a_w = cos a_t touching/distance, tan a_t = tan a_n
+    / cos(helix). In a pair with a ring, z and x of the mate are negative. The text is "" if no sum in `_SHIFTS` fits.
     """
     from geartrain.teeth.conjugate.involute_geometry import inv
 
@@ -567,9 +533,7 @@ def _needed_shifts(pair: PitchPair, distance: Fraction) -> str:
 
 
 def _backlash_effect(pair: PitchPair, off: Fraction, module: Fraction) -> str:
-    """Return a description of the change of backlash caused by a deviation `off` of the centre distance [modules]. For
-    involute teeth, the change is 2 off tan(alpha), where alpha is the pressure angle.
-    """
+    """Describe the change of backlash, 2 off tan(alpha), due to a deviation `off` of the centre distance [modules]."""
     tight = (off < 0) != (pair.ring is not None)
     if abs(off) <= SLACK and tight:
         return f"they are {_mm(abs(off) * module)} closer than teeth without backlash allow"

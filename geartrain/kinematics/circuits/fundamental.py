@@ -162,21 +162,19 @@ def find_circuits(train: Train, tree: Tree) -> tuple[Circuit, ...]:
             problems += _no_count(train, gear.pair)
             continue
         straight = wheel_i.helix_angle is None and wheel_j.helix_angle is None
-        if (
-            axes.plain and straight and wheel_i.kind == wheel_j.kind == "spur"
-        ):  # fast path for nearly all pairs, without directions
+        if axes.plain and straight and wheel_i.kind == wheel_j.kind == "spur":
+            # fast path for nearly all pairs, without directions
             sign = -1 if wheel_i.internal or wheel_j.internal else 1
-            circuit = Circuit(gear.name, "gear", i, j, carrier, wheel_i.count, sign * wheel_j.count, gear.pair)
-            circuits.append(_turning(tree, circuit))
-            continue
-        try:
-            a, b, note = axes.coefficients(i, j, carrier, wheel_i, wheel_j)
-        except GearTrainError as error:
-            place = train.place("gears", at)
-            problems += [
-                replace(each, what=f"gear pair '{gear.name}': {each.what}", place=place) for each in error.problems
-            ]
-            continue
+            a, b, note = wheel_i.count, sign * wheel_j.count, ""
+        else:
+            try:
+                a, b, note = axes.coefficients(i, j, carrier, wheel_i, wheel_j)
+            except GearTrainError as error:
+                place = train.place("gears", at)
+                problems += [
+                    replace(each, what=f"gear pair '{gear.name}': {each.what}", place=place) for each in error.problems
+                ]
+                continue
         circuit = Circuit(gear.name, "gear", i, j, carrier, a, b, gear.pair, note)
         circuits.append(_turning(tree, circuit))
     for at, coupling in enumerate(train.couplings):
@@ -197,9 +195,7 @@ class _DeclaredCoupling(NamedTuple):
     at: int
 
     def circuits(self) -> Sequence[Circuit | Problem]:
-        """Return the circuits of the coupling, which have a common carrier, or the problems because of which it has no
-        circuits.
-        """
+        """Return the circuits of the coupling, which have a common carrier, or the problems of its declaration."""
         train, tree, name = self.train, self.axes.tree, self.coupling.name
         wheels = [name for kind, name, _ in self.coupling.references() if kind == "wheel"]
         if missing := _no_count(train, wheels):
@@ -211,7 +207,14 @@ class _DeclaredCoupling(NamedTuple):
         first = circuits[0]
         for one, other in combinations(circuits, 2):
             if other.carrier != first.carrier:
-                return (self._two_carriers(first, other),)
+                kind = self.coupling.kind
+                what = (
+                    f"coupling '{name}': '{first.carrier}' carries the axes of '{first.j}' and '{first.i}', but "
+                    f"'{other.carrier}' those of '{other.j}' and '{other.i}'"
+                )
+                why = f"the distance between '{first.i}' and '{other.i}' changes, and a {kind} keeps its length"
+                fix = f"connect all its links to one carrier, or declare a {kind} for each carrier"
+                return (self._problem(what, why, fix),)
             if tree.axis(one.i) == tree.axis(other.i):
                 return (_no_carrier(train, tree, name, one.i, other.i, ("couplings", self.at)),)
         return circuits
@@ -238,9 +241,7 @@ class _DeclaredCoupling(NamedTuple):
         return self._travelling(circuit) if circuit.travels else self._rotating(circuit)
 
     def _rotating(self, circuit: Circuit) -> Circuit | Problem:
-        """Return the circuit of two turning links, or a problem. The directions of their axes determine the sign of the
-        speed ratio.
-        """
+        """Return the circuit of two turning links, with the sign that follows from their axes, or a problem."""
         axes, coupling = self.axes, self.coupling
         labels = _labels(axes.tree, circuit.carrier, circuit.i, circuit.j)
         sign = 1
@@ -262,9 +263,7 @@ class _DeclaredCoupling(NamedTuple):
         return _turning(axes.tree, circuit._replace(b=sign * circuit.b))
 
     def _travelling(self, circuit: Circuit) -> Circuit | Problem:
-        """Return the circuit of a turning link j and a sliding link i, or a problem. The motion of each link is
-        relative to the carrier's motion of the same kind.
-        """
+        """Return the circuit of a turning link j and a sliding link i, or a problem of its declaration."""
         axes, coupling, carrier, tree = self.axes, self.coupling, circuit.carrier, self.axes.tree
         along, about = _labels(tree, carrier, circuit.i, circuit.j)
         slides = {label: tree.lines[link] for link, (_, label) in tree.parent.items() if link in tree.lines}
@@ -288,9 +287,7 @@ class _DeclaredCoupling(NamedTuple):
         return circuit._replace(i=i, j=j, b=b, bases=(tree.moving(carrier, line), tree.moving(carrier, None)))
 
     def _wrong_angle(self, labels: tuple[str, str]) -> Problem | None:
-        """Return a problem if two axes are perpendicular, or if they are not at the angle that the coupling requires;
-        None if they are valid.
-        """
+        """Return a problem if two axes are perpendicular or not at the declared angle; None if they are valid."""
         between, declared = self.axes.angle(labels), getattr(self.coupling, "angle", None)
         what = f"coupling '{self.coupling.name}': "
         if between is not None and between > pi / 2 - _SAME_ANGLE:
@@ -301,15 +298,6 @@ class _DeclaredCoupling(NamedTuple):
             fix = "omit `angle`, which follows from `axes`, or correct a direction"
             return self._problem(what, "both declare the same angle", fix)
         return None
-
-    def _two_carriers(self, first: Circuit, other: Circuit) -> Problem:
-        name, kind = self.coupling.name, self.coupling.kind
-        return self._problem(
-            f"coupling '{name}': '{first.carrier}' carries the axes of '{first.j}' and '{first.i}', but "
-            f"'{other.carrier}' those of '{other.j}' and '{other.i}'",
-            f"the distance between '{first.i}' and '{other.i}' changes, and a {kind} keeps its length",
-            f"connect all its links to one carrier, or declare a {kind} for each carrier",
-        )
 
     def _problem(self, what: str, why: str, fix: str, *key: str) -> Problem:
         return Problem(what, why, fix, self.train.place("couplings", self.at, *key))
@@ -326,10 +314,7 @@ def _turning(tree: Tree, circuit: Circuit) -> Circuit:
 
 
 def _shared_axis(tree: Tree, i: str, j: str) -> str | None:
-    """Return the label of the common axis about which links i and j turn; None if they have different axes.
-
-    The link that carries an axis also belongs to this axis.
-    """
+    """Return the label of the axis on which links i and j turn, or which one of them carries; None if there is none."""
     for link, other in ((i, j), (j, i)):
         axis = tree.axis(link)
         if axis is not None and (tree.axis(other) == axis or tree.top[link] == other):
@@ -338,8 +323,8 @@ def _shared_axis(tree: Tree, i: str, j: str) -> str | None:
 
 
 def _coaxial_carrier(tree: Tree, i: str, j: str, declared: str | None) -> str | None:
-    """Return the carrier of a coaxial pair: the declared carrier, or, if none is declared, the link that carries the
-    axis. Return None if the pair is not coaxial, or if the carrier is not a third link on its axis.
+    """Return the carrier of a coaxial pair: the declared carrier, or by default the link that carries the axis. Return
+    None if the pair is not coaxial, or if the carrier is not a third link on its axis.
     """
     axis = _shared_axis(tree, i, j)
     if axis is None:
@@ -350,9 +335,7 @@ def _coaxial_carrier(tree: Tree, i: str, j: str, declared: str | None) -> str | 
 
 
 def couplings_on_axes(train: Train, tree: Tree) -> tuple[Coupling, ...]:
-    """Return the couplings of a train. The angles between their axes are filled in if they follow from the declared
-    `axes`.
-    """
+    """Return the couplings of a train, with the angles between their axes that follow from the declared `axes`."""
     if not any(coupling.OBLIQUE for coupling in train.couplings):
         return tuple(train.couplings)
     axes, found = Axes(train, tree), []
@@ -371,10 +354,8 @@ def _labels(tree: Tree, carrier: str, i: str, j: str) -> tuple[str, str]:
 
 
 def _carrier(tree: Tree, i: str, j: str) -> str | None:
-    """Return the carrier of the pair i, j: the link of the tree path at which the axis label changes; None if the label
-    does not change exactly once.
-
-    All links of an axis are treated as attached to the link that carries the axis.
+    """Return the carrier of the pair i, j: the link of the tree path at which the axis label changes, if all links of
+    an axis are attached to the link that carries it; None if the label does not change exactly once.
     """
     parent, top = tree.parent, tree.top
     axis_i = parent[i][1] if i in parent else None
@@ -467,9 +448,7 @@ def bevels_on_one_side(
 
 
 def passing_distance(axes: Axes, labels: Sequence[str]) -> float | None:
-    """Return the distance between two non-parallel axes [m], which is 0 if they intersect; None if one of their
-    positions is not declared.
-    """
+    """Return the distance between two non-parallel axes [m], 0 if they intersect; None if a position is missing."""
     here, there = (axes.positions.get(label) for label in labels)
     if here is None or there is None:
         return None

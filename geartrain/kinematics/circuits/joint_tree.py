@@ -31,9 +31,7 @@ from geartrain.train.states import Escapement
 
 @dataclass(frozen=True, slots=True)
 class Tree(FrozenFields):
-    """Turning and sliding pairs of a train as a spanning tree rooted at the frame. The tree determines the carriers of
-    gear pairs and their axes.
-    """
+    """Turning and sliding pairs of a train as a spanning tree rooted at the frame, which determines the carriers."""
 
     frame: str
     parent: Mapping[str, tuple[str, str]]
@@ -169,14 +167,13 @@ def find_tree(train: Train) -> Tree:
 
 
 def _lines(train: Train, parent: Mapping[str, tuple[str, str]], sliding: Mapping[str, str]) -> dict[str, str]:
-    """Return the direction of travel of each sliding link, as the first axis label with that direction.
-
-    Sliding pairs with different labels have the same direction if their declared directions are parallel and all
-    turning links between them turn about this direction, so that it is constant.
+    """Return the direction of travel of each sliding link, as the first axis label with that direction. Two labels have
+    the same direction if it is parallel and constant: all links between them turn about it.
     """
     labels = dict.fromkeys(sliding.values())
     lines = {label: label for label in labels}
-    known = {label: _line(_vector(train.axes[label].direction)) for label in labels if _has_direction(train, label)}
+    declared = {label for label in labels if label in train.axes and "direction" in train.axes[label].model_fields_set}
+    known = {label: _line(_vector(train.axes[label].direction)) for label in declared}
     for link, label in sliding.items():
         above = parent[link][0]
         while label in known and above in parent:
@@ -189,10 +186,6 @@ def _lines(train: Train, parent: Mapping[str, tuple[str, str]], sliding: Mapping
                 break
             above = parent[above][0]
     return {link: lines[label] for link, label in sliding.items()}
-
-
-def _has_direction(train: Train, label: str) -> bool:
-    return label in train.axes and "direction" in train.axes[label].model_fields_set
 
 
 def _labels_of_both(train: Train) -> Iterator[Problem]:
@@ -402,9 +395,7 @@ class Axes:
 
     @property
     def joint_sums(self) -> frozenset[str]:
-        """Links that are connected to the frame by joints with non-parallel axes. Their speed is a sum of joint speeds,
-        and not the speed of a rotation.
-        """
+        """Links with non-parallel joints up to the frame; their speed is a sum of joint speeds, not of a rotation."""
         if self.plain:
             return frozenset()
         sums: set[str] = set()
@@ -436,14 +427,14 @@ class Axes:
         return min(angle, pi - angle)
 
     def sense(self, labels: tuple[str, str]) -> int:
-        """Return 1 if the angle between the reference directions of two axes is less than 90 degrees, and -1 if it is
-        not.
-        """
+        """Return 1 if the angle between the reference directions of two axes is less than 90 degrees, else -1."""
         first, second = (self.direction(label) for label in labels)
         return self.sign(labels[0]) * self.sign(labels[1]) * (-1 if dot(first, second) < 0 else 1)
 
     def are_one_line(self, one: str, other: str) -> bool:
-        """Return True if two axes with declared positions are collinear. Axes without positions are never collinear."""
+        """Return True if two labels name one axis, or two axes whose declared positions are collinear."""
+        if one == other:
+            return True
         here, there = self.positions.get(one), self.positions.get(other)
         if here is None or there is None or not self.are_parallel((one, other)):
             return False
@@ -463,9 +454,8 @@ class Axes:
         return {at: part for at, part in enumerate(parts) if part}
 
     def crossing(self, one: str, other: str) -> tuple[float, int]:
-        """Return the angle between two axes, 0 to pi [rad], and its sign about the direction from `other` to `one`.
-
-        The sign is 0 if the positions do not determine it.
+        """Return the angle between two axes, 0 to pi [rad], and its sign about the direction from `other` to `one`,
+        which is 0 if the positions do not determine it.
         """
         first, second = self.direction(one), self.direction(other)
         upright = cross(first, second)
@@ -475,16 +465,14 @@ class Axes:
         return atan2(far, float(dot(first, second))), (side > 0) - (side < 0)
 
     def helix_angles(self, labels: tuple[str, str], wheels: tuple[Wheel, Wheel]) -> tuple[float, float] | None:
-        """Return the helix angles of two wheels on skew axes [rad]; None if the axes are parallel or the angles are not
-        declared.
+        """Return the helix angles of two wheels on skew axes [rad]; None if the axes are parallel or angles are
+        unknown.
         """
         return None if self.are_parallel(labels) else crossed_helix_angles(wheels, *self.crossing(*labels))
 
     def coefficients(self, i: str, j: str, carrier: str, wheel_i: Wheel, wheel_j: Wheel) -> tuple[int, int, str]:
-        """Return the coefficients a and b of the Willis equation, and a note, which is "" unless the sense of rotation
-        is only a convention.
-
-        Raises `GearTrainError` for wheels that cannot mesh on their axes.
+        """Return the coefficients a and b of the Willis equation, and a note if the sense of rotation is only a
+        convention (else ""). Raises `GearTrainError` for wheels that cannot mesh on their axes.
         """
         z_i, z_j = wheel_i.count or 0, wheel_j.count or 0
         if "worm" in (wheel_i.kind, wheel_j.kind):
@@ -497,9 +485,10 @@ class Axes:
                 return z_i, sense * self.sign(labels[0]) * self.sign(labels[1]) * z_j, note
             check_parallel(wheel_i, wheel_j)
         # plane wheels: an external pair reverses the sense of rotation, an internal one does not
+        ring = wheel_i.internal or wheel_j.internal
         if side_by_side and not {"bevel", "contrate"} & {wheel_i.kind, wheel_j.kind}:
-            return z_i, -z_j if wheel_i.internal or wheel_j.internal else z_j, ""
-        if not side_by_side and (wheel_i.internal or wheel_j.internal):
+            return z_i, -z_j if ring else z_j, ""
+        if not side_by_side and ring:
             what = "the axes of a ring and its mate are not parallel"
             raise GearTrainError(
                 Problem(what, "an internal pair needs parallel axes", "correct the axes, or use a bevel pair")
@@ -507,26 +496,21 @@ class Axes:
         # bevel and crown wheels: the sense depends on the sides on which their cones open
         side_i = wheel_i.facing * self.sign(labels[0])
         side_j = wheel_j.facing * self.sign(labels[1])
-        if wheel_i.internal or wheel_j.internal:
-            side_j = -side_j
-        return z_i, z_j * side_i * side_j, ""
+        return z_i, (-1 if ring else 1) * z_j * side_i * side_j, ""
 
     def _worm(self, i: str, j: str, carrier: str, wheel_i: Wheel, wheel_j: Wheel) -> tuple[int, int, str]:
-        """Return a, b and the note for a worm drive. Its sense of rotation follows from the hand of the worm and from
-        the positions of the axes.
-        """
+        """Return a, b and the note for a worm drive; its sense follows from the worm's hand and the axis positions."""
         z_i, z_j = wheel_i.count or 0, wheel_j.count or 0
         worm_first = wheel_i.kind == "worm"
         # a worm without a declared hand is right-handed
         hand = -1 if (wheel_i if worm_first else wheel_j).hand == "left" else 1
-        label_i, label_j = self.tree.axis_seen_from(carrier, i), self.tree.axis_seen_from(carrier, j)
-        worm, wheel = (label_i, label_j) if worm_first else (label_j, label_i)
-        self.helix_angles((label_i, label_j), (wheel_i, wheel_j))  # raises if the teeth are not aligned with the thread
+        labels = self.tree.axis_seen_from(carrier, i), self.tree.axis_seen_from(carrier, j)
+        worm, wheel = labels if worm_first else labels[::-1]
+        self.helix_angles(labels, (wheel_i, wheel_j))  # raises if the teeth are not aligned with the thread
         here, there = self.positions.get(worm), self.positions.get(wheel)
         turn = Fraction(0)
         if here is not None and there is not None:
-            arm, centre = _vector(here), _vector(there)
-            reach = minus(arm, centre)
+            reach = minus(_vector(here), _vector(there))
             # the thread drives the wheel's teeth opposite to the direction in which the worm would advance
             turn = -hand * dot(self.direction(worm), cross(self.direction(wheel), reach))
         flip = self.sign(worm) * self.sign(wheel)
@@ -540,7 +524,7 @@ class Axes:
 
 
 def _vector(figures: Iterable[Any]) -> ExactVector:
-    """Return three numbers as a vector, or three lengths as a vector in metres."""
+    """Return three numbers as a vector, or three lengths as a vector [m]."""
     x, y, z = (figure.value if isinstance(figure, Figure) else figure.base for figure in figures)
     return x, y, z
 
@@ -589,7 +573,15 @@ def close_joints(train: Train, tree: Tree, cases: Sequence[StateCase]) -> list[S
 
 
 def _closed_case(train: Train, axes: Axes, sums: frozenset[str], case: StateCase) -> StateCase:
-    problems = list(_driven_sums(train, case, sums))
+    problems = [
+        Problem(
+            f"the input '{link}' does not turn about a single axis",
+            "the joints between it and the frame have axes that are not parallel, so its axis of rotation moves",
+            "drive a link whose joints up to the frame have parallel axes",
+            train.place(*case.loc, link),
+        )
+        for link in sums.intersection(case.inputs)
+    ]
     bodies = _Bodies(axes, case)
     across = [rigid for rigid in bodies.connections if len(rigid.joints) > 1]
     if across:
@@ -603,7 +595,7 @@ def _closed_case(train: Train, axes: Axes, sums: frozenset[str], case: StateCase
 
 def _in_coordinates(tree: Tree, case: StateCase) -> StateCase:
     """Return the case in which each lock of a link to the link that carries it refers to the nearest link with a
-    comparable motion. A lock to the frame becomes a brake.
+    comparable motion (`Tree.reference`). A lock to the frame becomes a brake.
     """
     fixed, locks, causes = list(case.fixed), [], dict(case.causes)
     for a, b in case.locks:
@@ -620,18 +612,16 @@ def _in_coordinates(tree: Tree, case: StateCase) -> StateCase:
 
 
 def rigid_across_axes(train: Train, tree: Tree, case: StateCase) -> Iterator[Rigid]:
-    """Yield the brakes and locks that lock two or more joints, and therefore cannot be realised by a device on one
-    axis.
-
-    Joints that are locked by other brakes and locks are not counted.
+    """Yield the brakes and locks that lock two or more joints, which no device on one axis can do. Joints that are
+    locked by other brakes and locks are not counted.
     """
     bodies = _Bodies(Axes(train, tree), case)
     return (rigid for rigid in bodies.connections if len(bodies.open(rigid)) > 1)
 
 
 class _Bodies:
-    """Rigid bodies of a train in one state, as disjoint sets of links, with its brakes and locks. Locking a joint
-    merges two bodies. Collinear axes are treated as one axis.
+    """Rigid bodies of a train in one state, as disjoint sets of links. Locking a joint merges two bodies, and collinear
+    axes are treated as one axis.
     """
 
     def __init__(self, axes: Axes, case: StateCase) -> None:
@@ -663,31 +653,25 @@ class _Bodies:
         return [joint for joint in rigid.joints if self._bodies.are_apart(joint[0], joint[1])]
 
     def _joints(self, a: str, b: str) -> tuple[JointOnLine, ...]:
-        """Return the joints on the path between two links. Joints on collinear axes are merged, so that there is one
-        joint for each line.
-        """
+        """Return the joints on the path between two links; consecutive joints on collinear axes are merged."""
         parent, top = self._tree.parent, self._tree.top
         up, down = ways_to_common_ancestor(a, b, top.get)
         steps = [(link, top[link], parent[link][1]) for link in up[:-1]]
         steps += [(top[link], link, parent[link][1]) for link in down[-2::-1]]
         found: list[JointOnLine] = []
         for start, end, label in steps:
-            # consecutive joints on one line are one joint
-            if found and self._same_line(found[-1][2][-1], label):
+            if found and self._axes.are_one_line(found[-1][2][-1], label):
                 before = found.pop()
                 found.append((before[0], end, tuple(dict.fromkeys((*before[2], label)))))
             else:
                 found.append((start, end, (label,)))
         return tuple(found)
 
-    def _same_line(self, one: str, other: str) -> bool:
-        return one == other or self._axes.are_one_line(one, other)
-
     def _is_immobile(self, joints: Sequence[JointOnLine]) -> bool:
         """Return True if a closed chain of the given joints certainly has no mobility, False if it may be movable."""
         labels = [labels[0] for _, _, labels in joints]
         # up to three different lines have independent screws in every pose; for more, the rank in this pose decides
-        if len(labels) <= 3 and not any(self._same_line(one, other) for one, other in combinations(labels, 2)):
+        if len(labels) <= 3 and not any(self._axes.are_one_line(*two) for two in combinations(labels, 2)):
             return True
         screws = [screw for label in labels if (screw := self._axes.screw(label)) is not None]
         return len(screws) == len(labels) and eliminate(screws).rank == len(labels)
@@ -696,9 +680,7 @@ class _Bodies:
 def _joint_by_joint(
     frame: str, case: StateCase, across: Sequence[Rigid], stops: Sequence[tuple[Rigid, JointOnLine]]
 ) -> StateCase:
-    """Return the case in which brakes and locks across several axes are replaced by locks of the single joints on their
-    paths.
-    """
+    """Return the case in which brakes and locks across several axes are replaced by locks of single joints."""
     spread = {rigid.links for rigid in across}
     fixed = [link for link in case.fixed if (link,) not in spread]
     locks = [lock for lock in case.locks if lock not in spread]
@@ -713,17 +695,6 @@ def _joint_by_joint(
             locks.append((start, end))
             causes[(start, end)] = rigid.links
     return replace(case, fixed=tuple(dict.fromkeys(fixed)), locks=tuple(locks), causes=causes)
-
-
-def _driven_sums(train: Train, case: StateCase, sums: frozenset[str]) -> Iterator[Problem]:
-    """Yield a problem for each input whose speed is a sum of joint speeds over non-parallel axes."""
-    for link in sums.intersection(case.inputs):
-        yield Problem(
-            f"the input '{link}' does not turn about a single axis",
-            "the joints between it and the frame have axes that are not parallel, so its axis of rotation moves",
-            "drive a link whose joints up to the frame have parallel axes",
-            train.place(*case.loc, link),
-        )
 
 
 def _linkage(train: Train, case: StateCase, rigid: Rigid) -> Problem:

@@ -35,9 +35,7 @@ _VALUES = (2, 3, 5, 7, 11, 13)  # primes: sums of their products rarely vanish
 
 @dataclass(frozen=True, slots=True)
 class FactoredPolynomial:
-    """Factored polynomial: an integer, times powers of variables, times sums. No two of the sums have a variable in
-    common.
-    """
+    """Factored polynomial: an integer, times powers of variables, times sums that have no variable in common."""
 
     content: int
     """Integer factor; 0 for the zero polynomial."""
@@ -58,8 +56,7 @@ class FactoredPolynomial:
         if not given:
             return cls(0, (0,) * width, ())
         # the monomial factor is split off first, then known factors, then separable ones
-        powers = given.lowest()
-        rest = given.shifted(tuple(-power for power in powers))
+        powers, rest = given.lowest(), given.lowered()
         left = rest
         found: list[Laurent] = []
         for factor in known:
@@ -93,7 +90,12 @@ def _separate_factors(p: Laurent) -> Iterator[Laurent]:
             groups.remove(other)
             one |= other
     for group in groups:
-        yield _with_numbers(p, [at for at in used if at not in group]).primitive()
+        factor = p
+        for at in used:
+            # other variables are replaced by primes at which the polynomial does not vanish
+            if at not in group:
+                factor = next(found for value in _VALUES if (found := _substitute(factor, at, value)))
+        yield factor.primitive()
 
 
 def _are_separable(p: Laurent, i: int, j: int) -> bool:
@@ -104,15 +106,6 @@ def _are_separable(p: Laurent, i: int, j: int) -> bool:
             # criterion of the module's docstring with (a, b) = (value, value + 1)
             return p * both == at_i * at_j
     return False
-
-
-def _with_numbers(p: Laurent, others: Sequence[int]) -> Laurent:
-    """Return a polynomial in which the variables with the indices `others` are replaced by primes at which it does not
-    vanish.
-    """
-    for at in others:
-        p = next(found for value in _VALUES if (found := _substitute(p, at, value)))
-    return p
 
 
 def _substitute(p: Laurent, at: int, value: int) -> Laurent:
@@ -262,32 +255,35 @@ class ClosedForm(Result):
         """Conditions under which the denominator is 0, as equations between products of tooth counts; empty if the
         denominator cannot be 0.
         """
-        sums = self._factored(self.formula.denominator).sums
-        return tuple(_equation(terms, self.formula.wheels) for terms in sums if _has_both_signs(terms))
+        return self._zeros_of(self.formula.denominator)
 
     @property
     def zeros(self) -> tuple[str, ...]:
         """Conditions under which the numerator is 0, as equations between products of tooth counts; empty if the
         numerator cannot be 0.
         """
-        sums = self._factored(self.formula.numerator).sums
-        return tuple(_equation(terms, self.formula.wheels) for terms in sums if _has_both_signs(terms))
+        return self._zeros_of(self.formula.numerator)
+
+    def _zeros_of(self, terms: Sequence[Term]) -> tuple[str, ...]:
+        """Return the equations between products of tooth counts under which a polynomial is 0, one for each factor."""
+        found = []
+        for factor in self._factored(terms).sums:
+            added = [term for term in factor if term.coefficient > 0]
+            taken = [Term(-term.coefficient, term.exponents) for term in factor if term.coefficient < 0]
+            if added and taken:  # a sum of terms of one sign cannot vanish
+                sides = (_sum(side, self.formula.wheels, _TEXT) for side in (added, taken))
+                found.append(" = ".join(sides))
+        return tuple(found)
 
     def _factored(self, terms: Sequence[Term]) -> FactoredPolynomial:
-        known = (self._converted(*each) for each in self.known)
-        point = [self.counts[wheel] for wheel in self.formula.wheels]
-        return FactoredPolynomial.of(terms, point, [each for each in known if each is not None])
-
-    def _converted(self, wheels: Sequence[str], terms: Sequence[Term]) -> Laurent | None:
-        """Return a polynomial in the variables of this formula; None if the polynomial contains a wheel that the
-        formula does not.
-        """
-        own, used = self.formula.wheels, [at for at in range(len(wheels)) if any(each.exponents[at] for each in terms)]
-        if any(wheels[at] not in own for at in used):
-            return None
-        place = {wheel: at for at, wheel in enumerate(wheels)}
-        spread = (Term(c, tuple(powers[place[wheel]] if wheel in place else 0 for wheel in own)) for c, powers in terms)
-        return Laurent.of(spread, len(own))
+        own, known = self.formula.wheels, []
+        for wheels, factor in self.known:
+            used = {wheels[at] for _, powers in factor for at, power in enumerate(powers) if power}
+            if used.issubset(own):
+                place = {wheel: at for at, wheel in enumerate(wheels)}
+                spread = [Term(c, tuple(e[place[w]] if w in place else 0 for w in own)) for c, e in factor]
+                known.append(Laurent.of(spread, len(own)))
+        return FactoredPolynomial.of(terms, [self.counts[wheel] for wheel in own], known)
 
     def _format(self, style: _Style) -> str:
         top, bottom = (self._factored(terms) for terms in (self.formula.numerator, self.formula.denominator))
@@ -299,9 +295,7 @@ class ClosedForm(Result):
         return sign + (above if below == "1" else style.over(above, below))
 
     def _format_split(self, style: _Style, top: FactoredPolynomial, bottom: FactoredPolynomial) -> str:
-        """Return a quotient in the form 1 + z_r/z_s if its numerator is a short sum and its denominator is one term of
-        this sum; "" for other formulas.
-        """
+        """Return a quotient in the form 1 + z_r/z_s if its denominator is a term of its short numerator, else ""."""
         # only a short sum over a monomial that is one of its terms
         if bottom.sums or len(top.sums) != 1 or any(top.powers) or len(top.sums[0]) > _MOST_SPLIT:
             return ""
@@ -344,16 +338,3 @@ def _sum(terms: Sequence[Term], wheels: Sequence[str], style: _Style) -> str:
 
 def _in_brackets(text: str) -> str:
     return f"({text})" if " " in text else text
-
-
-def _has_both_signs(terms: Sequence[Term]) -> bool:
-    return len({term.coefficient > 0 for term in terms}) == 2
-
-
-def _equation(terms: Sequence[Term], wheels: Sequence[str]) -> str:
-    """Return the equation p = 0 of a polynomial p as text. The positive terms are on the left-hand side, the negated
-    negative terms on the right-hand side.
-    """
-    added = [term for term in terms if term.coefficient > 0]
-    taken = [Term(-term.coefficient, term.exponents) for term in terms if term.coefficient < 0]
-    return f"{_sum(added, wheels, _TEXT)} = {_sum(taken, wheels, _TEXT)}"

@@ -14,8 +14,6 @@ from fractions import Fraction
 from functools import reduce
 from typing import NamedTuple
 
-from geartrain.kinematics.formulas import laurent
-
 Exponents = tuple[int, ...]
 
 MOST_PRODUCTS = 200_000
@@ -25,9 +23,7 @@ use.
 
 
 class Term(NamedTuple):
-    """Term of a polynomial: an integer coefficient times a product of powers. The exponents are in the order of the
-    wheels or of their groups.
-    """
+    """Term of a polynomial: an integer coefficient times a product of powers of the variables."""
 
     coefficient: int
     exponents: Exponents
@@ -99,9 +95,7 @@ class Laurent:
 
     @property
     def is_definite(self) -> bool:
-        """True if all coefficients have the same sign, so that the polynomial cannot vanish for positive tooth
-        counts.
-        """
+        """True if all coefficients have the same sign, so that the polynomial has no zero at positive tooth counts."""
         return len({value > 0 for value in self.terms.values()}) == 1
 
     def inverse(self) -> Laurent:
@@ -121,9 +115,7 @@ class Laurent:
         return total % prime
 
     def lowest(self) -> Exponents:
-        """Return the minimum exponent of each variable. These are the exponents of the largest monomial that divides
-        all terms.
-        """
+        """Return the minimum exponent of each variable, as in the largest monomial that divides all terms."""
         return tuple(map(min, zip(*self.terms, strict=True))) if self.terms else (0,) * self.width
 
     def shifted(self, by: Exponents) -> Laurent:
@@ -143,13 +135,15 @@ class Laurent:
         values = [value for each in (self, *others) for value in each.terms.values()]
         return Fraction(math.gcd(*(v.numerator for v in values)), math.lcm(*(v.denominator for v in values)))
 
+    def lowered(self) -> Laurent:
+        """Return the product with the monomial for which the minimum exponent of each variable is 0."""
+        return self.shifted(tuple(-power for power in self.lowest()))
+
     def primitive(self) -> Laurent:
         """Return the primitive part, which is the product with a unit for which the minimum exponents are 0 and the
         coefficients are coprime integers.
         """
-        if not self.terms:
-            return self
-        return self.shifted(tuple(-power for power in self.lowest())).scaled(1 / self.content())
+        return self.lowered().scaled(1 / self.content()) if self.terms else self
 
     def sorted_terms(self) -> tuple[Term, ...]:
         """Return the terms of this polynomial, which has integer coefficients, sorted by descending exponents."""
@@ -207,9 +201,7 @@ def divide(p: Laurent, q: Laurent) -> Laurent | None:
     """Return p / q if the non-zero polynomial q divides p exactly; None if it does not."""
     if q.is_unit:
         return p * q.inverse()
-    low_p, low_q = p.lowest(), q.lowest()
-    rest = dict(p.shifted(_negated(low_p)).terms)
-    divisor = q.shifted(_negated(low_q)).terms
+    rest, divisor = dict(p.lowered().terms), q.lowered().terms
     # tuples compare lexicographically: a monomial order that multiplication preserves
     lead = max(divisor)
     found: dict[Exponents, Fraction] = {}
@@ -218,7 +210,7 @@ def divide(p: Laurent, q: Laurent) -> Laurent | None:
         step = tuple(map(int.__sub__, top, lead))
         if min(step, default=0) < 0:
             return None
-        if len(found) * len(divisor) > laurent.MOST_PRODUCTS:
+        if len(found) * len(divisor) > MOST_PRODUCTS:
             raise TooLongError
         factor = found[step] = rest[top] / divisor[lead]
         for exponents, value in divisor.items():
@@ -226,14 +218,19 @@ def divide(p: Laurent, q: Laurent) -> Laurent | None:
             new = rest.pop(at, Fraction(0)) - factor * value
             if new:
                 rest[at] = new
-    return Laurent(p.width, found).shifted(tuple(map(int.__sub__, low_p, low_q)))
+    return Laurent(p.width, found).shifted(tuple(map(int.__sub__, p.lowest(), q.lowest())))
+
+
+def divide_exactly(p: Laurent, q: Laurent) -> Laurent:
+    """Return p / q for a polynomial q that divides p."""
+    found = divide(p, q)
+    assert found is not None, "the divisor divides the polynomial"
+    return found
 
 
 def common_divisor(p: Laurent, q: Laurent) -> Laurent:
-    """Return the primitive greatest common divisor of two Laurent polynomials; 1 if they are coprime.
-
-    The divisor is found by Euclid's algorithm with primitive remainders over the rationals, in one variable after
-    another.
+    """Return the primitive greatest common divisor of two Laurent polynomials; 1 if they are coprime. It is found by
+    Euclid's algorithm with primitive remainders over the rationals, in one variable after another.
     """
     p, q = p.primitive(), q.primitive()
     if not p or not q:
@@ -250,12 +247,10 @@ def common_divisor(p: Laurent, q: Laurent) -> Laurent:
 
 
 def _remainders(p: Laurent, q: Laurent, at: int) -> Laurent:
-    """Apply Euclid's algorithm in the variable `at` and return the greatest common divisor. The contents, which are
-    polynomials in the other variables, are handled separately.
-    """
+    """Return the greatest common divisor by Euclid's algorithm in the variable `at`, with the contents split off."""
     content_p, content_q = _content(p, at), _content(q, at)
     content = common_divisor(content_p, content_q)
-    p, q = _divide_exactly(p, content_p), _divide_exactly(q, content_q)
+    p, q = divide_exactly(p, content_p), divide_exactly(q, content_q)
     if _degree(p, at) < _degree(q, at):
         p, q = q, p
     while True:
@@ -265,7 +260,7 @@ def _remainders(p: Laurent, q: Laurent, at: int) -> Laurent:
         # a non-zero remainder without the variable: only the contents have a common divisor
         if not _degree(rest, at):
             return content
-        p, q = q, _divide_exactly(rest, _content(rest, at)).primitive()
+        p, q = q, divide_exactly(rest, _content(rest, at)).primitive()
 
 
 def _pseudo_remainder(p: Laurent, q: Laurent, at: int) -> Laurent:
@@ -297,13 +292,3 @@ def _coefficient(p: Laurent, at: int, power: int) -> Laurent:
 
 def _degree(p: Laurent, at: int) -> int:
     return max(exponents[at] for exponents in p.terms) if p else 0
-
-
-def _divide_exactly(p: Laurent, q: Laurent) -> Laurent:
-    found = divide(p, q)
-    assert found is not None, "a content divides what it is the content of"
-    return found
-
-
-def _negated(exponents: Exponents) -> Exponents:
-    return tuple(-power for power in exponents)

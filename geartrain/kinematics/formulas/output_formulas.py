@@ -23,7 +23,7 @@ from geartrain.kinematics.formulas.rational_functions import Formula as Formula
 from geartrain.kinematics.formulas.rational_functions import make_formula
 from geartrain.numerics.elimination import PRIME, add_into, eliminate_units
 from geartrain.numerics.results import Result
-from geartrain.train import StateCase, Teeth, Train, Wheel
+from geartrain.train import StateCase, Teeth, Train
 from geartrain.train.fields import MOST_TEETH
 
 Row = dict[int, Laurent]
@@ -89,7 +89,11 @@ def solve_rows(rows: Sequence[Row], width: int, preferred: Sequence[int] | None 
     # a non-zero polynomial vanishes at a random point with a probability of at most degree / (2^61 - 1)
     # (Schwartz-Zippel lemma)
     point = [draw.randrange(1, PRIME) for _ in range(width)]
-    pivots, core, conditions = _eliminate_monomials(rows)
+    # unknowns whose pivots are monomials are eliminated; the core is left
+    pivots, left = eliminate_units(rows, _LaurentRing())
+    core = [(at, row) for at, row in left if row.keys() - {GIVEN}]
+    core.sort(key=lambda pair: (GIVEN not in pair[1], pair[0]))
+    conditions = [(at, row[GIVEN]) for at, row in sorted(left, key=itemgetter(0)) if row.keys() == {GIVEN}]
     chosen, span = _independent(core, point)
     leading = span
     if preferred is not None and len(chosen) < len(core):
@@ -99,8 +103,8 @@ def solve_rows(rows: Sequence[Row], width: int, preferred: Sequence[int] | None 
     values, determinant = _solve_core([core[at][1] for at in chosen], sorted(leading), width)
     for at, (origin, row) in enumerate(core):
         if at not in chosen:
-            left = _combined(row, values, determinant).numerator
-            conditions += [(origin, left)] if left else []
+            condition = _combined(row, values, determinant).numerator
+            conditions += [(origin, condition)] if condition else []
     return SymbolicSolution(width, point, pivots, values, determinant, span, conditions)
 
 
@@ -114,19 +118,6 @@ class _LaurentRing:
 
     def words(self, entry: Laurent) -> int:
         return len(entry)
-
-
-def _eliminate_monomials(
-    rows: Sequence[Row],
-) -> tuple[list[tuple[int, Row]], list[tuple[int, Row]], list[tuple[int, Laurent]]]:
-    """Eliminate unknowns whose pivots are monomials. Return the pivots, the rows of the remaining core, and the
-    consistency conditions.
-    """
-    pivots, left = eliminate_units(rows, _LaurentRing())
-    core = [(at, row) for at, row in left if row.keys() - {GIVEN}]
-    core.sort(key=lambda pair: (GIVEN not in pair[1], pair[0]))
-    conditions = [(at, row[GIVEN]) for at, row in sorted(left, key=itemgetter(0)) if row.keys() == {GIVEN}]
-    return pivots, core, conditions
 
 
 def _independent(rows: Iterable[tuple[int, Row]], point: Sequence[int]) -> tuple[list[int], dict[int, _Residues]]:
@@ -161,11 +152,10 @@ def _reduced_row(row: Mapping[int, int], span: Mapping[int, _Residues]) -> _Resi
 
 
 def _solve_core(rows: Sequence[Row], columns: Sequence[int], width: int) -> tuple[dict[int, Laurent], Laurent]:
-    """Return the numerators of the unknowns of a square core and its determinant, by Cramer's rule. Unknowns of other
-    columns are set to 0.
+    """Return the numerators of the unknowns of a square core and its determinant, by Cramer's rule; unknowns of other
+    columns are 0.
     """
-    place = {column: at for at, column in enumerate(columns)}
-    size = len(columns)
+    place, size = {column: at for at, column in enumerate(columns)}, len(columns)
     zero = Laurent.constant(0, width)
     matrix = [
         {place[c]: entry for c, entry in row.items() if c in place} | {size: -row.get(GIVEN, zero)} for row in rows
@@ -177,10 +167,8 @@ def _solve_core(rows: Sequence[Row], columns: Sequence[int], width: int) -> tupl
 
 
 def _combined(form: Mapping[int, Laurent], values: Mapping[int, Laurent], determinant: Laurent) -> SymbolicValue:
-    """Return the value of a linear form in the unknowns of the core, as a fraction of polynomials.
-
-    values        numerators of the unknowns, by column
-    determinant   common denominator of the unknowns
+    """Return the value of a linear form in the unknowns of the core, whose numerators are `values` by column and whose
+    common denominator is `determinant`.
     """
     one, total = Laurent.constant(1, determinant.width), Laurent.constant(0, determinant.width)
     denominator = determinant if any(column in values for column in form) else one
@@ -196,9 +184,7 @@ def _combined(form: Mapping[int, Laurent], values: Mapping[int, Laurent], determ
 
 @dataclass(frozen=True, slots=True)
 class Chord:
-    """Circuit that closes a loop, with the product of the speed ratios around the loop and the component that contains
-    the loop.
-    """
+    """Circuit that closes a loop, with the ratio product and the component of the loop."""
 
     circuit: int
     product: Laurent
@@ -228,14 +214,19 @@ class SymbolicEquations:
         self.width = len(free)
         parts = find_components(links, frame, circuits, case.inputs)
         self._ratios = self._find_ratios(parts)
-        loops = [self._chord(parts, at) for at in (*parts.closing, *parts.breaking)]
+        loops = []
+        for at in (*parts.closing, *parts.breaking):
+            circuit = parts.circuits[at]
+            i, j = parts.ends(circuit)
+            around = self._speed_ratio(circuit, circuit.j) * self._ratios[i] * self._ratios[j].inverse()
+            loops.append(Chord(at, around, parts.node_group[i]))
         one = Laurent.constant(1, self.width)
         # a constant product other than 1: the loop locks for all values of the variable counts
         never = [chord.circuit for chord in loops if chord.product.is_constant and chord.product != one]
         self.chords = tuple(chord for chord in loops if not chord.product.is_constant)
         self._reduced = reduce_components(replace(parts, breaking=never))
         self.parts = parts
-        stated = [*self._coupling_rows(), *self._fixed_rows(case), *self._input_rows(case)]
+        stated = list(self._stated_rows(case))
         self.rows = [row for row, _ in stated]
         self.origin = [words for _, words in stated]
 
@@ -251,9 +242,7 @@ class SymbolicEquations:
         return {group: self._constant(1)}
 
     def _find_ratios(self, parts: Components) -> list[Laurent]:
-        """Return the speed of the link of each node relative to the node's carrier, divided by the unknown speed of the
-        component.
-        """
+        """Return the relative speed of the link of each node, divided by the unknown speed of its component."""
         found: dict[int, Laurent] = {}
         for start in range(len(parts.node_link)):
             chain = []
@@ -269,17 +258,13 @@ class SymbolicEquations:
         return [found[node] for node in range(len(parts.node_link))]
 
     def _speed_ratio(self, circuit: Circuit, to: str) -> Laurent:
-        """Return the speed of the link `to` divided by the speed of the other link of the circuit, both relative to the
-        carrier.
-        """
+        """Return the speed of the link `to` of a circuit divided by that of the other link, relative to the carrier."""
         a, b = self._coefficient(circuit, 0), self._coefficient(circuit, 1)
         near, far = (a, b) if to == circuit.j else (b, a)
         return -(near * far.inverse())
 
     def _coefficient(self, circuit: Circuit, side: int) -> Laurent:
-        """Return the coefficient a (`side` 0) or b (`side` 1) of a circuit. A variable tooth count is represented by
-        its variable, with the sign of the coefficient.
-        """
+        """Return the coefficient a (`side` 0) or b (`side` 1) of a circuit; a variable tooth count is a variable."""
         given = (circuit.a, circuit.b)[side]
         variable = self._free.get(circuit.wheels[side]) if circuit.by_teeth else None
         if variable is None:
@@ -287,24 +272,15 @@ class SymbolicEquations:
         size = Laurent.variable(variable, self.width)
         return size if given > 0 else -size
 
-    def _chord(self, parts: Components, at: int) -> Chord:
-        chord = parts.circuits[at]
-        i, j = parts.ends(chord)
-        around = self._speed_ratio(chord, chord.j) * self._ratios[i] * self._ratios[j].inverse()
-        return Chord(at, around, parts.node_group[i])
-
     def _form(self, link: int) -> Row:
         """Return the speed of a link as a linear form in the unknowns, before the sign of its axis is applied."""
-        reduced = self._reduced
         if link == self.parts.frame:
             return {}
-        own = reduced.own.get(link)
+        own = self._reduced.own.get(link)
         return {own: self._constant(1)} if own is not None else self._relative_form(self.parts.nodes_of[link][0])
 
     def _relative_form(self, node: int) -> Row:
-        """Return the speed of a node's link as a linear form: the speed of the node's carrier plus the relative
-        speed.
-        """
+        """Return the speed of a node's link, the sum of its carrier's and its relative speed, as a linear form."""
         parts = self.parts
         row: Row = {parts.node_group[node]: self._ratios[node]}
         carrier = parts.node_carrier[node]
@@ -312,8 +288,9 @@ class SymbolicEquations:
             row[self._reduced.own[carrier]] = self._constant(1)
         return row
 
-    def _coupling_rows(self) -> Iterator[tuple[Row, str]]:
-        parts = self.parts
+    def _stated_rows(self, case: StateCase) -> Iterator[tuple[Row, str]]:
+        """Yield each row that must be 0 with its cause: couplings of components, brakes, locks, and inputs."""
+        parts, index = self.parts, self.parts.index
         for (kind, subject, node), numbers in zip(self._reduced.origin, self._reduced.equations, strict=True):
             if kind == "share":
                 row = self._form(subject)
@@ -322,18 +299,14 @@ class SymbolicEquations:
             else:  # a component that is locked to its carrier for all counts
                 yield self.unknown(next(iter(numbers))), f"'{parts.circuits[subject].id}' locks its wheels"
 
-    def _fixed_rows(self, case: StateCase) -> Iterator[tuple[Row, str]]:
-        index = self.parts.index
         for link in case.fixed:
             yield self._form(index[link]), case.says(link)
         for a, b in case.locks:
             row = self._form(index[a])
             add_into(row, self._form(index[b]), self._constant(-1))
             yield row, case.says(a, b)
-
-    def _input_rows(self, case: StateCase) -> Iterator[tuple[Row, str]]:
         for link, speed in case.inputs.items():
-            row = self._form(self.parts.index[link])
+            row = self._form(index[link])
             if speed:
                 row[GIVEN] = self._constant(-speed * self._signs.get(link, 1))
             yield row, f"'{link}' is an input"
@@ -401,7 +374,14 @@ def find_formulas(
     Raises `QuestionError` for wheels or states that the train does not have, or if the coupled part of the train is too
     large. Raises `DeclarationError` if a wheel that is not in `free` has no tooth count.
     """
-    _check(train, state, free)
+    _check_wheels(train, free)
+    train.check_state(state)
+    for name, counts in free.items():
+        if not counts:
+            what = f"wheel '{name}' has no allowed tooth count"
+            why = "its count is variable, and the sequence of its allowed counts is empty"
+            place = train.place("links", train.wheels[name][0], "wheels", name)
+            raise QuestionError(Problem(what, why, f"give at least one count, such as `{{'{name}': [20]}}`", place))
     tree = find_tree(train)
     (case,) = close_joints(train, tree, [train.case(state)])
     if inputs is not None:
@@ -414,7 +394,9 @@ def find_formulas(
     try:
         return _collect_formulas(train, tree, case, equations, wheels)
     except TooLongError:
-        raise QuestionError(_too_coupled(train)) from None
+        why = "they would have millions of terms, because many speeds depend on each other"
+        fix = "vary fewer wheels, or request fewer outputs"
+        raise QuestionError(Problem(f"the formulas of '{train.name}' are too long", why, fix)) from None
 
 
 def with_counts(train: Train, counts: Mapping[str, int]) -> Train:
@@ -426,35 +408,29 @@ def with_counts(train: Train, counts: Mapping[str, int]) -> Train:
     and for invalid tooth counts.
     """
     _check_wheels(train, counts)
-    _check_counts(train, counts)
     links = dict(train.links)
     for name, count in counts.items():
+        if not 0 < count <= MOST_TEETH or count != int(count):
+            what, why = f"wheel '{name}' cannot have {count} teeth", "a tooth count is a positive integer"
+            raise QuestionError(Problem(what, why, "give a whole number from 1 to 10^12"))
         link, wheel = train.wheels[name]
-        changed = wheel.model_copy(update={"teeth": _with_value(wheel, int(count))})
+        value: int | Teeth = int(count)
+        if not isinstance(wheel.teeth, int):
+            # the declared range or choices are kept if they include the tooth count
+            low, high = wheel.teeth.range or (count, count)
+            if count in wheel.teeth.choices if wheel.teeth.choices is not None else low <= count <= high:
+                value = wheel.teeth.model_copy(update={"value": value})
+        changed = wheel.model_copy(update={"teeth": value})
         links[link] = links[link].model_copy(update={"wheels": {**links[link].wheels, name: changed}})
     copied = train.model_copy(update={"links": links})
     copied.__dict__.pop("wheels", None)  # the copy contains the cached property of the original
     return copied
 
 
-def _with_value(wheel: Wheel, count: int) -> int | Teeth:
-    """Return the tooth count together with the declared range or choices of the wheel if these include the tooth count.
-    If they do not, return only the tooth count.
-    """
-    teeth = wheel.teeth
-    if isinstance(teeth, int):
-        return count
-    bounds = teeth.range or (count, count)
-    likely = count in teeth.choices if teeth.choices is not None else bounds[0] <= count <= bounds[1]
-    return teeth.model_copy(update={"value": count}) if likely else count
-
-
 def _equations(
     train: Train, tree: Tree, case: StateCase, wheels: Sequence[str], free: Mapping[str, Counts]
 ) -> SymbolicEquations:
-    """Return the equations of a train that affect its outputs. Variable tooth counts are represented by large random
-    numbers.
-    """
+    """Return the equations that affect the outputs; circuits have large random numbers for variable tooth counts."""
     representative = with_counts(train, {name: free[name][0] for name in wheels})
     # large and random, so that no loop closes by coincidence of equal counts
     draw = random.Random(0)
@@ -472,7 +448,9 @@ def _equations(
 def _collect_formulas(
     train: Train, tree: Tree, case: StateCase, equations: SymbolicEquations, wheels: Sequence[str]
 ) -> Formulas:
-    solution = solve_rows(equations.rows, equations.width, _declared(train, wheels))
+    counts = [train.wheels[name][1].count for name in wheels]
+    preferred = [count for count in counts if count is not None] if all(counts) else None
+    solution = solve_rows(equations.rows, equations.width, preferred)
     outputs: dict[str, Formula] = {}
     undetermined: list[str] = []
     cancelled: dict[str, Laurent] = {}
@@ -493,9 +471,7 @@ def _collect_formulas(
 
 
 def _loop_conditions(equations: SymbolicEquations, solution: SymbolicSolution) -> Iterator[tuple[str, Laurent]]:
-    """Yield the condition of each loop with variable tooth counts: its ratio product is 1, or its wheels are at
-    rest.
-    """
+    """Yield the condition of each loop of variable tooth counts: its ratio product is 1, or its wheels are at rest."""
     one = Laurent.constant(1, equations.width)
     for chord in equations.chords:
         rolls = solution.value(equations.unknown(chord.group))
@@ -511,9 +487,7 @@ def _loop_conditions(equations: SymbolicEquations, solution: SymbolicSolution) -
 
 
 def _zero_conditions(stated: Sequence[tuple[str, Laurent]], wheels: Sequence[str]) -> tuple[Formula, ...]:
-    """Return functions that are 0 if the conditions in `stated` are satisfied, without duplicates and monomial
-    factors.
-    """
+    """Return functions that are 0 if the conditions are satisfied, without duplicates and monomial factors."""
     found: dict[tuple[Term, ...], Formula] = {}
     for label, left in stated:
         _, powers = max((value < 0, exponents) for exponents, value in left.terms.items())
@@ -524,49 +498,8 @@ def _zero_conditions(stated: Sequence[tuple[str, Laurent]], wheels: Sequence[str
     return tuple(found.values())
 
 
-def _declared(train: Train, wheels: Sequence[str]) -> list[int] | None:
-    """Return the declared tooth counts of the wheels; None if a wheel has no declared tooth count."""
-    counts = [train.wheels[name][1].count for name in wheels]
-    return [count for count in counts if count is not None] if all(counts) else None
-
-
-def _check(train: Train, state: str | None, free: Mapping[str, Counts]) -> None:
-    _check_wheels(train, free)
-    train.check_state(state)
-    for name, counts in free.items():
-        if not counts:
-            place = train.place("links", train.wheels[name][0], "wheels", name)
-            raise QuestionError(
-                Problem(
-                    f"wheel '{name}' has no allowed tooth count",
-                    "its count is variable, and the sequence of its allowed counts is empty",
-                    f"give at least one count, such as `{{'{name}': [20]}}`",
-                    place,
-                )
-            )
-
-
 def _check_wheels(train: Train, wheels: Mapping[str, object]) -> None:
     for name in wheels:
         if name not in train.wheels:
-            fix = suggest(name, train.wheels)
-            raise QuestionError(
-                Problem(f"'{train.name}' has no wheel '{name}'", "only declared wheels have tooth counts", fix)
-            )
-
-
-def _check_counts(train: Train, counts: Mapping[str, int]) -> None:
-    for name, count in counts.items():
-        if not 0 < count <= MOST_TEETH or count != int(count):
-            fix = "give a whole number from 1 to 10^12"
-            raise QuestionError(
-                Problem(f"wheel '{name}' cannot have {count} teeth", "a tooth count is a positive integer", fix)
-            )
-
-
-def _too_coupled(train: Train) -> Problem:
-    return Problem(
-        f"the formulas of '{train.name}' are too long",
-        "they would have millions of terms, because many speeds depend on each other",
-        "vary fewer wheels, or request fewer outputs",
-    )
+            what, why = f"'{train.name}' has no wheel '{name}'", "only declared wheels have tooth counts"
+            raise QuestionError(Problem(what, why, suggest(name, train.wheels)))

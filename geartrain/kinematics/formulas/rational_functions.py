@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from geartrain.kinematics.formulas.laurent import Exponents, Laurent, Term, common_divisor, divide
+from geartrain.kinematics.formulas.laurent import Exponents, Laurent, Term, common_divisor, divide_exactly
 from geartrain.numerics.exact import fraction_text, integer_factors, is_short, log10
 
 if TYPE_CHECKING:
@@ -27,9 +27,7 @@ class MonomialGrouping:
     """Polynomials in the new variables (the monomials of the groups), with non-negative exponents."""
 
     def back(self, p: Laurent, width: int) -> Laurent:
-        """Return a polynomial in the new variables (the monomials of the groups) as a polynomial in the `width`
-        original variables.
-        """
+        """Return a polynomial in the new variables as a polynomial in the `width` original variables."""
 
         def spread(exponents: Exponents) -> Exponents:
             full = [0] * width
@@ -97,25 +95,6 @@ def whole(terms: Iterable[Term], point: Sequence[int]) -> int:
                 coefficient *= count if power == 1 else count**power
         total += coefficient
     return total
-
-
-def substituted(
-    terms: Iterable[Term], wheels: Sequence[str], left: Sequence[str], counts: Mapping[str, int]
-) -> Laurent:
-    """Return a polynomial in the tooth counts of the wheels in `left`, after substituting the tooth counts of all other
-    wheels.
-    """
-    rest = [
-        Term(
-            whole(
-                [Term(coefficient, tuple(e if w in counts else 0 for w, e in zip(wheels, exponents, strict=True)))],
-                [counts.get(wheel, 1) for wheel in wheels],
-            ),
-            tuple(e for w, e in zip(wheels, exponents, strict=True) if w not in counts),
-        )
-        for coefficient, exponents in terms
-    ]
-    return Laurent.of(rest, len(left))
 
 
 def in_words(terms: Sequence[Term], wheels: Sequence[str]) -> str:
@@ -200,7 +179,14 @@ class Formula:
         left = tuple(wheel for wheel in self.wheels if wheel not in counts)
         if left == self.wheels:
             return self
-        parts = [substituted(terms, self.wheels, left, counts) for terms in (self.numerator, self.denominator)]
+        parts = []
+        for terms in (self.numerator, self.denominator):
+            rest = []
+            for coefficient, exponents in terms:
+                powers = dict(zip(self.wheels, exponents, strict=True))
+                factors = (int(counts[wheel]) ** powers[wheel] for wheel in self.wheels if wheel in counts)
+                rest.append(Term(math.prod(factors, start=coefficient), tuple(powers[wheel] for wheel in left)))
+            parts.append(Laurent.of(rest, len(left)))
         return make_formula(self.label, left, *parts)[0]
 
     def to_dict(self) -> dict[str, Any]:
@@ -220,9 +206,7 @@ class Formula:
         return " / ".join(f"({text})" if " " in text else text for text in (top, bottom))
 
     def bounded(self, columns: Mapping[str, Ints]) -> tuple[Floats, Floats]:
-        """Return the values as in `values`, and bounds on their absolute errors, which are infinite where no digit is
-        certain.
-        """
+        """Return the values as in `values`, and bounds on their absolute errors (infinite if no digit is certain)."""
         import numpy as np
 
         from geartrain.numerics.bounded_polynomials import bounded_quotient, in_range, products_of
@@ -253,30 +237,20 @@ def make_formula(
     # in the monomials of groups of wheels, polynomials have fewer variables, and their divisor is found faster
     grouping = find_grouping([numerator, denominator])
     common = common_divisor(*grouping.rewritten)
-    parts = [grouping.back(_quotient(each, common), len(wheels)) for each in grouping.rewritten]
-    return _formula(label, wheels, *parts), grouping.back(common, len(wheels))
-
-
-def _listed(terms: Sequence[Term]) -> list[list[Any]]:
-    """Return terms as lists for JSON. Coefficients with too many digits for a JSON number are converted to strings."""
-    return [[c if is_short(c, 600) else fraction_text(c), list(exponents)] for c, exponents in terms]
-
-
-def _formula(label: str, wheels: Sequence[str], top: Laurent, bottom: Laurent) -> Formula:
+    top, bottom = (grouping.back(divide_exactly(each, common), len(wheels)) for each in grouping.rewritten)
     # exponents are made non-negative by a common monomial factor
     lowest = tuple(map(min, top.lowest(), bottom.lowest())) if top else bottom.lowest()
     # canonical form: coprime integer coefficients, the first one of the denominator positive
     scale = (1 if max(bottom.terms.items())[1] > 0 else -1) / top.content(bottom)
     spread = [each.shifted(tuple(-power for power in lowest)).scaled(scale) for each in (top, bottom)]
     used = [at for at in range(len(wheels)) if any(exponents[at] for each in spread for exponents in each.terms)]
-    numerator, denominator = (
+    parts = (
         tuple(Term(c, tuple(powers[variable] for variable in used)) for c, powers in each.sorted_terms())
         for each in spread
     )
-    return Formula(label, tuple(wheels[at] for at in used), numerator, denominator)
+    return Formula(label, tuple(wheels[at] for at in used), *parts), grouping.back(common, len(wheels))
 
 
-def _quotient(p: Laurent, q: Laurent) -> Laurent:
-    found = divide(p, q)
-    assert found is not None, "a common divisor divides"
-    return found
+def _listed(terms: Sequence[Term]) -> list[list[Any]]:
+    """Return terms as lists for JSON. Coefficients with too many digits for a JSON number are converted to strings."""
+    return [[c if is_short(c, 600) else fraction_text(c), list(exponents)] for c, exponents in terms]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
@@ -16,7 +16,6 @@ from geartrain.numerics.results import Result
 if TYPE_CHECKING:
     from sympy import Expr
 
-    from geartrain.kinematics.formulas.rational_functions import Formula
     from geartrain.train import Train
 
 
@@ -152,19 +151,14 @@ def speed_formulas(train: Train, state: str | None, outputs: Sequence[str] = ())
             shares = tuple(
                 InputShare(link, case.inputs[link], ClosedForm(each[name], counts)) for link, each in found.items()
             )
-            required = [each for formulas in found.values() for each in formulas.conditions]
-            excluded = [each for formulas in found.values() for each in formulas.exclusions]
-            poles = [text for share in shares for text in share.ratio.poles] + _zeros(excluded, counts)
+            # equations, without duplicates
+            required: dict[str, None] = {}
+            poles = dict.fromkeys(text for share in shares for text in share.ratio.poles)
+            for formulas in found.values():
+                for texts, functions in ((required, formulas.conditions), (poles, formulas.exclusions)):
+                    texts.update(dict.fromkeys(text for each in functions for text in ClosedForm(each, counts).zeros))
             shown = tuple(share for share in shares if share.ratio.formula.numerator)
-            yield OutputFormula(name, state, shown, _unique(_zeros(required, counts)), _unique(poles))
-
-
-def _zeros(formulas: Sequence[Formula], counts: Mapping[str, int]) -> list[str]:
-    return [text for each in formulas for text in ClosedForm(each, counts).zeros]
-
-
-def _unique(texts: Sequence[str]) -> tuple[str, ...]:
-    return tuple(dict.fromkeys(texts))
+            yield OutputFormula(name, state, shown, tuple(required), tuple(poles))
 
 
 def _speed_symbol(link: str) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -32,9 +32,7 @@ _TRIALS = 3000  # maximum number of sets that are tried
 
 
 class LockedNetwork(NamedTuple):
-    """Component as a gain graph, with its carrier, the link of each node, and the circuit of each edge (mesh) of the
-    graph.
-    """
+    """Gain graph of one component, with its carrier, the link of each node, and the circuit of each mesh (edge)."""
 
     carrier: str
     links: list[str]
@@ -44,10 +42,7 @@ class LockedNetwork(NamedTuple):
 
 @collector_paused()
 def find_gridlock(part: SolvedPart, mobility: Mobility) -> Gridlock:
-    """Find the parts of a train that are locked by its meshes. Brakes, locks, inputs and followers are ignored.
-
-    Pin followers only oscillate, and their mean speed of 0 is not caused by meshes.
-    """
+    """Find the parts of a train that are locked by its meshes. Brakes, locks, inputs and pin followers are ignored."""
     parts = part.reduced.components
     if not parts.breaking and mobility.by_rank and not mobility.still:
         return Gridlock()
@@ -61,12 +56,14 @@ def find_gridlock(part: SolvedPart, mobility: Mobility) -> Gridlock:
 
 
 def find_locked_networks(parts: Components) -> list[LockedNetwork]:
-    """Return the gain graph of each component with an inconsistent loop. The units of speed are chosen so that most
-    gains are 1.
-    """
+    """Return the gain graph of each component with an inconsistent loop, with gains of 1 along a spanning tree."""
     size = len(parts.links)
-    at = {carrier * size + link: node for node, (link, carrier) in enumerate(_nodes(parts))}
-    gains = {chord: _gain(parts, chord) for chord in parts.breaking}
+    nodes = zip(parts.node_link, parts.node_carrier, strict=True)
+    at = {carrier * size + link: node for node, (link, carrier) in enumerate(nodes)}
+    gains: dict[int, Gain] = {}
+    for chord in parts.breaking:
+        product = parts.closing_product(chord)
+        gains[chord] = -1 if product == -1 else product  # integers are faster than Fractions
     groups = dict.fromkeys(parts.group_of(parts.circuits[chord]) for chord in parts.breaking)
     inside: dict[int, tuple[list[int], list[tuple[int, int]], dict[int, int]]] = {
         group: ([], [], {}) for group in groups
@@ -97,16 +94,6 @@ def find_locked_networks(parts: Components) -> list[LockedNetwork]:
         )
         for group, (circuits, ends, number) in inside.items()
     ]
-
-
-def _nodes(parts: Components) -> Iterator[tuple[int, int]]:
-    return zip(parts.node_link, parts.node_carrier, strict=True)
-
-
-def _gain(parts: Components, chord: int) -> Gain:
-    """Return the ratio product of the loop that a circuit closes, as a gain. A product of -1 is returned as an int."""
-    gain = parts.closing_product(chord)
-    return -1 if gain == -1 else gain
 
 
 def _locked_subgraph(parts: Components, jammed: LockedNetwork) -> LockedSubgraph:
@@ -142,11 +129,7 @@ def _without(part: SolvedPart, gone: Collection[str]) -> SolvedPart:
 
 
 def _locked_links(part: SolvedPart, gone: Collection[str]) -> tuple[str, ...]:
-    """Return the links that are locked for all tooth counts after the meshes in `gone` are removed.
-
-    For special tooth counts, a link and all links that it drives can be at rest while the train moves. Therefore, only
-    links that are also at rest for other speed ratios are returned.
-    """
+    """Return the links at rest after the meshes in `gone` are removed, for these and for random speed ratios."""
     less = _without(part, gone)
     still = _stationary_links(less)
     if not still:
@@ -163,15 +146,12 @@ def _stationary_links(part: SolvedPart) -> tuple[str, ...]:
 
 
 def _with_random_ratios(part: SolvedPart) -> SolvedPart:
-    """Return the train with random speed ratios for every link and carrier. The ratio products of loops are
-    unchanged.
-    """
+    """Return the train with random speed ratios for every link and carrier; ratio products of loops are unchanged."""
 
     def factor(link: str, carrier: str) -> int:
-        # large and random, so that no link is at rest by coincidence (Schwartz-Zippel lemma)
-        return Random(f"{link} {carrier}").randrange(
-            10**6, 10**7
-        )  # seeded by name, so that it does not change when meshes are removed
+        # large and random, so that no link is at rest by coincidence (Schwartz-Zippel lemma); seeded by name, so that
+        # it does not change when meshes are removed
+        return Random(f"{link} {carrier}").randrange(10**6, 10**7)
 
     circuits = [
         circuit._replace(
@@ -191,11 +171,8 @@ def _frees_train(part: SolvedPart, gone: Collection[str]) -> bool:
 
 
 def _coupled_removal(part: SolvedPart, gone: Collection[str], at_least: int) -> MeshRemoval | None:
-    """Return a set of meshes, of any carriers, whose removal frees the train; None if no such set exists, or if there
-    are too many meshes to try.
-
-    If there are few meshes, the set is a smallest set. If there are many, every mesh in it is necessary, but a smaller
-    set may exist.
+    """Return a set of meshes, of any carriers, whose removal frees the train: a smallest set if there are few meshes,
+    else a set in which every mesh is necessary; None if no such set exists, or if there are too many meshes to try.
     """
     toothed = _without(part, ())
     bound = {
@@ -207,25 +184,25 @@ def _coupled_removal(part: SolvedPart, gone: Collection[str], at_least: int) -> 
     if len(gears) > MOST_COUPLED or not _frees_train(part, gears):
         return None
     minimum = max(1, at_least)
-    singles = (
-        [gear for gear in gears if _frees_train(part, {gear})] if minimum == 1 and len(gears) <= _ONE_BY_ONE else []
-    )
-    if singles:
-        return MeshRemoval((singles[0],), "one", 1, tuple(singles))
+    if minimum == 1 and len(gears) <= _ONE_BY_ONE:
+        singles = [gear for gear in gears if _frees_train(part, {gear})]
+        if singles:
+            return MeshRemoval((singles[0],), "one", 1, tuple(singles))
+        minimum = 2
     needed = _minimal_removal(part, sorted(gears, key=lambda name: name not in gone))
-    # no single mesh frees the train
-    minimum = max(minimum, 2) if len(gears) <= _ONE_BY_ONE else minimum
-    if sum(comb(len(gears), size) for size in range(minimum, len(needed))) > _TRIALS:
+    sizes = range(minimum, len(needed))
+    if sum(comb(len(gears), size) for size in sizes) > _TRIALS:
         return MeshRemoval(tuple(needed), "greedy", minimum)
-    return _search_smaller_sets(part, gears, needed, range(minimum, len(needed)))
+    # exhaustive search for a smaller set, in order of increasing size
+    smaller = (some for size in sizes for some in combinations(gears, size) if _frees_train(part, some))
+    found = next(smaller, tuple(needed))
+    return MeshRemoval(found, "search", len(found))
 
 
 def _minimal_removal(part: SolvedPart, gears: Sequence[str]) -> list[str]:
-    """Return a minimal set of meshes whose removal frees the train; the first meshes in `gears` are preferred.
-
-    Removing more meshes never locks a train, so the shortest sufficient prefix of the list is found by bisection. Its
-    last mesh is necessary, and the search continues among the meshes before it.
-    """
+    """Return a minimal set of meshes whose removal frees the train; the first meshes in `gears` are preferred."""
+    # Removing more meshes never locks a train, so the shortest sufficient prefix of the list is found by bisection. Its
+    # last mesh is necessary, and the search continues among the meshes before it.
     needed: list[str] = []
     left = list(gears)
     while not _frees_train(part, needed):
@@ -236,17 +213,6 @@ def _minimal_removal(part: SolvedPart, gears: Sequence[str]) -> list[str]:
         needed.append(left[low - 1])
         del left[low - 1 :]
     return needed
-
-
-def _search_smaller_sets(part: SolvedPart, gears: Sequence[str], kept: Sequence[str], sizes: range) -> MeshRemoval:
-    """Return the smallest set of meshes whose removal frees the train, by exhaustive search over the given sizes in
-    increasing order. If there is no such set, the result contains the meshes `kept`.
-    """
-    for size in sizes:
-        for some in combinations(gears, size):
-            if _frees_train(part, some):
-                return MeshRemoval(some, "search", size)
-    return MeshRemoval(tuple(kept), "search", len(kept))
 
 
 # Choice of the meshes to disengage: one mesh if it is enough, else a smallest set if it can be proved.
@@ -287,8 +253,9 @@ def choose_removal(network: GainGraph) -> RemovalChoice:
     """Return the meshes that are to be disengaged in a connected locked network."""
     near = (network.ends[mesh][0] for mesh in walk_gain_graph(network).breaking[:_STARTS])
     loop = shortest_loop(network, range(network.size) if network.size <= _STARTS else near)
-    # a mesh that is enough belongs to every inconsistent loop
-    singles = sorted(mesh for _, mesh in loop if mesh not in network.firm and is_balanced(network, [mesh]))
+    # a mesh that is enough belongs to every inconsistent loop: without it no other mesh contradicts the speeds
+    own = sorted(mesh for _, mesh in loop if mesh not in network.firm)
+    singles = [mesh for mesh in own if {mesh}.issuperset(walk_gain_graph(network, [mesh]).breaking)]
     if singles:
         return RemovalChoice(singles[:1], "one", 1, singles, loop, [loop])
     loops: list[GainLoop] = []
@@ -310,29 +277,23 @@ def choose_removal(network: GainGraph) -> RemovalChoice:
         if left < 0:
             break
     meshes = _completed(network, gone)
-    proof, sharing = next(
-        (
-            (some, sharing)
-            for sharing in (1, 2)
-            if ceil(len(some := _packed(network, loops, sharing)) / sharing) == at_least
-        ),
-        ([], 1),
-    )
+    proof: list[GainLoop] = []
+    for sharing in (1, 2):
+        # a largest subset of the loops in which each mesh belongs to at most `sharing` loops
+        chosen = _solve(network, loops, -sharing).x
+        packed = [] if chosen is None else [each for each, part in zip(loops, chosen, strict=True) if part > 0.5]
+        if ceil(len(packed) / sharing) == at_least:
+            proof = packed
+            break
+    else:
+        sharing = 1
     method: RemovalMethod = "greedy" if len(meshes) > at_least else "loops" if proof and sharing == 1 else "search"
     return RemovalChoice(meshes, method, at_least, [], loop, proof, sharing)
 
 
-def _packed(network: GainGraph, loops: Sequence[GainLoop], sharing: int) -> list[GainLoop]:
-    """Return a largest subset of the loops in which each mesh belongs to at most `sharing` loops."""
-    found = _solve(network, loops, -sharing).x
-    return [] if found is None else [loop for loop, part in zip(loops, found, strict=True) if part > 0.5]
-
-
 def _solve(network: GainGraph, loops: Sequence[GainLoop], sharing: int) -> Any:
-    """Return the solution of one of two dual binary integer programs, whose matrix has a row for each loop.
-
-    sharing   1 to find the smallest set that contains a mesh of every loop; -s to find the largest set of loops in
-              which every mesh belongs to at most s loops
+    """Return the solution of one of two dual binary integer programs: the smallest set that contains a mesh of every
+    loop if `sharing` is 1, or the largest set of loops in which every mesh belongs to at most s loops if it is -s.
     """
     import numpy as np
     from scipy.optimize import Bounds, LinearConstraint, milp
@@ -348,8 +309,8 @@ def _solve(network: GainGraph, loops: Sequence[GainLoop], sharing: int) -> Any:
 
 
 def _completed(network: GainGraph, gone: Sequence[int]) -> list[int]:
-    """Return a minimal set of meshes whose removal frees a connected network, most of them from `gone`. The set
-    contains the meshes that contradict the speeds of a spanning tree that avoids `gone` and prefers firm meshes.
+    """Return a minimal set of meshes whose removal frees a connected network, most of them from `gone`: the meshes that
+    contradict the speeds of a spanning tree that avoids `gone` and prefers firm meshes.
     """
     tree: DisjointSets[int] = DisjointSets()
     out = set(gone)
@@ -443,16 +404,9 @@ def walk_gain_graph(network: GainGraph, without: Collection[int] = ()) -> GainWa
     return GainWalk(speeds, breaking)
 
 
-def is_balanced(network: GainGraph, without: Collection[int] = ()) -> bool:
-    """Return True if every loop has the gain product 1 after the meshes in `without` are removed."""
-    return set(without).issuperset(walk_gain_graph(network, without).breaking)
-
-
-def inconsistent_loops(network: GainGraph, without: Collection[int] = ()) -> list[GainLoop]:
-    """Return a short inconsistent loop for each mesh that contradicts a spanning forest, without duplicates.
-
-    A shortest inconsistent loop of the whole network is among them, because every inconsistent loop contains one of
-    these meshes.
+def inconsistent_loops(network: GainGraph, without: Collection[int]) -> list[GainLoop]:
+    """Return a short inconsistent loop for each mesh that contradicts a spanning forest, without duplicates. A shortest
+    inconsistent loop of the network is among them, because each inconsistent loop contains one of these meshes.
     """
     breaking = [mesh for mesh in walk_gain_graph(network, without).breaking if mesh not in without]
     starts = dict.fromkeys(network.ends[mesh][0] for mesh in breaking)
@@ -471,9 +425,7 @@ def shortest_loop(network: GainGraph, starts: Iterable[int]) -> GainLoop:
 
 
 def _loop_through(network: GainGraph, without: Collection[int], start: int, below: int) -> GainLoop:
-    """Return an inconsistent loop with fewer than `below` meshes, found by breadth-first search from `start`; empty if
-    there is none.
-    """
+    """Return an inconsistent loop with fewer than `below` meshes by breadth-first search from `start`, or []."""
     speed: dict[int, Gain] = {start: 1}
     came: dict[int, tuple[int, int]] = {}
     depth = {start: 0}

@@ -204,22 +204,15 @@ def join_removals(releases: Iterable[MeshRemoval]) -> MeshRemoval:
     # alternatives exist only for a single component
     if len(parts) == 1:
         return parts[0]
+    # bounds from loops that share no mesh are added
+    proofs = [proof for part in parts for proof in part.proofs]
+    apart = tuple(loop for proof in proofs if proof.sharing == 1 for loop in proof.loops)
+    others = (proof for proof in proofs if proof.sharing > 1)
     return MeshRemoval(
         tuple(mesh for part in parts for mesh in part.meshes),
         # the weakest proof of all parts counts: `RemovalMethod` is in that order
         max((part.method for part in parts), key=get_args(RemovalMethod).index),
         sum(part.at_least for part in parts),
         (),
-        tuple(merge_bounds(proof for part in parts for proof in part.proofs)),
+        (*([RemovalBound(apart, 1)] if apart else []), *others),
     )
-
-
-def merge_bounds(proofs: Iterable[RemovalBound]) -> Iterator[RemovalBound]:
-    """Yield lower bounds merged from bounds on disjoint sets of meshes. Bounds from loops that share no mesh
-    are added.
-    """
-    every = list(proofs)
-    apart = tuple(loop for proof in every if proof.sharing == 1 for loop in proof.loops)
-    if apart:
-        yield RemovalBound(apart, 1)
-    yield from (proof for proof in every if proof.sharing > 1)

@@ -11,11 +11,4 @@ from geartrain.kinematics.phasing.mesh_phasing import (
     find_phasing,
 )
 
-__all__ = [
-    "DivisibilityRule",
-    "LoopPhase",
-    "MeshPhasing",
-    "UnplacedPair",
-    "find_divisibility_rule",
-    "find_phasing",
-]
+__all__ = ["DivisibilityRule", "LoopPhase", "MeshPhasing", "UnplacedPair", "find_divisibility_rule", "find_phasing"]

@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geartrain.kinematics.circuits import Circuit, Tree
-from geartrain.kinematics.components import Components
 from geartrain.numerics.containers import collector_paused
 from geartrain.numerics.quantity import UNITS, Figure, Quantity
 from geartrain.numerics.rounding_bounds import UNIT_ROUNDOFF
@@ -28,9 +27,7 @@ EPS = 2 * UNIT_ROUNDOFF  # spacing of float64 numbers at 1: bounds the error of 
 
 @dataclass(frozen=True)
 class UnplacedPair:
-    """Gear pair or coupling that is excluded from the assembly conditions because its position is unknown, with the
-    reason.
-    """
+    """Gear pair or coupling without an assembly condition, with the reason why its position is unknown."""
 
     name: str
     """Name of the pair or coupling."""
@@ -40,8 +37,8 @@ class UnplacedPair:
 
 @dataclass(frozen=True)
 class PitchPoints:
-    """Pitch points of gear pairs with known positions. All arrays have one row for each pair, and one column for each
-    of its two wheels.
+    """Pitch points of gear pairs with known positions, in arrays with one row for each pair and one column for each
+    wheel.
     """
 
     circuits: tuple[Circuit, ...]
@@ -103,16 +100,9 @@ class PitchPoints:
         return found
 
 
-def mesh_nodes(parts: Components, circuits: Sequence[Circuit]) -> list[tuple[int, int]]:
-    """Return the two nodes of every pair, which represent its two links relative to its carrier."""
-    index = parts.index
-    at = {key: node for node, key in enumerate(zip(parts.node_link, parts.node_carrier, strict=True))}
-    return [(at[index[c.i], index[c.carrier]], at[index[c.j], index[c.carrier]]) for c in circuits]
-
-
 def contact_families(keys: Sequence[tuple[object, object]]) -> tuple[list[tuple[int, int]], Mapping[object, int]]:
-    """Return the family numbers of the two contacts of every pair, and the family number of each key. Contacts with
-    equal keys form a family.
+    """Return the family numbers of the two contacts of every pair, and of each key; contacts with equal keys are a
+    family.
     """
     number: dict[object, int] = {}
     for pair in keys:
@@ -209,10 +199,12 @@ def _axes(train: Train) -> dict[str, _Axis]:
 
 
 def _direction(figures: Sequence[Figure], senses: list[IntegerVector]) -> tuple[IntegerVector, float, IntegerVector]:
-    """Return a direction as integers, its maximum error [rad], and the first direction in `senses` that is parallel to
-    it.
-    """
-    way = _integer_direction([figure.value for figure in figures])
+    """Return a direction as integers, its maximum error [rad], and the first direction in `senses` parallel to it."""
+    values = [figure.value for figure in figures]
+    scale = math.lcm(*(value.denominator for value in values))
+    x, y, z = (int(value * scale) for value in values)
+    common = math.gcd(x, y, z)
+    way = x // common, y // common, z // common
     rough = math.hypot(*(float(figure.half or 0) for figure in figures))
     sense = next((known for known in senses if parallel(known, way)), None)
     if sense is None:
@@ -220,18 +212,8 @@ def _direction(figures: Sequence[Figure], senses: list[IntegerVector]) -> tuple[
     return way, rough / math.hypot(*(float(figure.value) for figure in figures)), sense or way
 
 
-def _integer_direction(parts: Sequence[Fraction]) -> IntegerVector:
-    """Return the shortest integer vector with the given direction."""
-    unit = math.lcm(*(part.denominator for part in parts))
-    x, y, z = (int(part * unit) for part in parts)
-    common = math.gcd(x, y, z)
-    return x // common, y // common, z // common
-
-
 def _half_digit(length: Quantity) -> float:
-    """Return half a unit of the last declared decimal of a length [m]; 0 for integers and fractions, which are
-    exact.
-    """
+    """Return half a unit of the last declared decimal of a length [m]; 0 for integers and fractions (exact)."""
     number = _NUMBER.match(length.text)
     if number is None or not _DECIMAL.search(number[0]) or "/" in length.text or ":" in length.text:
         return 0.0
@@ -269,8 +251,8 @@ def _contact(train: Train, circuit: Circuit, first: _Axis, second: _Axis) -> _Co
 
 
 def _parallel_contact(first: _Axis, second: _Axis, internal: Sequence[bool]) -> _Contact | str:
-    """Return the contact of two wheels on parallel axes, or the reason why it is unknown. The pitch point lies on the
-    side of the other axis; for the mate of a ring, it lies on the opposite side.
+    """Return the contact of two wheels on parallel axes, or the reason why it is unknown. The pitch point is on the
+    side of the other axis, or on the opposite side for the mate of a ring.
     """
     if first.place is None or second.place is None:
         return "the positions of its axes are not declared"
@@ -304,23 +286,18 @@ def _intersecting_contact(first: _Axis, second: _Axis, facing: Sequence[int]) ->
 
 
 def _norm(vector: IntegerVector) -> Fraction:
-    """Return the length of an integer vector as a Fraction that is accurate to at least 64 bits; the components of the
-    vector may have hundreds of digits.
-    """
+    """Return the length of an integer vector, whose components may be long, as a Fraction accurate to 64 bits."""
     # the root of an integer shifted by 128 bits has 64 bits after the binary point
     return Fraction(math.isqrt(dot(vector, vector) << 128), 1 << 64)
 
 
 def _turns(sine: float) -> float:
-    return (
-        math.asin(sine) / math.tau if sine < 1 else 0.5
-    )  # rounding as large as the distance: the direction is unknown
+    # rounding as large as the distance: the direction is unknown
+    return math.asin(sine) / math.tau if sine < 1 else 0.5
 
 
 def _azimuth(way: IntegerVector, sense: IntegerVector) -> float:
-    """Return the azimuth of a vector about an axis [turn], counterclockwise from the projection of x, or of y if the
-    axis is nearly parallel to x.
-    """
+    """Return the azimuth of a vector about an axis [turn], counterclockwise from the first vector of `frame`."""
     axis = unit(_floats(sense))
     turn = azimuth(_floats(way), axis, frame(axis)[0]) / math.tau % 1.0
     return 0.0 if turn == 1.0 else turn  # a tiny negative angle is rounded up
@@ -352,9 +329,8 @@ def _families(
         found.append([])
         for link, way, turn in zip((circuit.i, circuit.j), contacts[at].ways, turns[at], strict=True):
             known = heads.setdefault((link, circuit.carrier), [])
-            for number, head, zero, other in known[
-                -_COMPARED:
-            ]:  # keeps the cost linear for a hub with thousands of mates
+            # few are compared, which keeps the cost linear for a hub with thousands of mates
+            for number, head, zero, other in known[-_COMPARED:]:
                 part = rational_angle(head, way, (turn - zero) % 1)
                 if part is None and contacts[at].error + contacts[other].error:
                     slack = sum(each.error + each.rounding for each in (contacts[at], contacts[other]))

@@ -16,12 +16,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from geartrain.kinematics.circuits import Circuit, Tree
 from geartrain.kinematics.components import find_components
-from geartrain.kinematics.phasing.azimuths import (
-    MOUNT,
-    UnplacedPair,
-    mount_frame_wheels,
-    place_pitch_points,
-)
+from geartrain.kinematics.phasing.azimuths import MOUNT, UnplacedPair, mount_frame_wheels, place_pitch_points
 from geartrain.kinematics.phasing.phase_system import (
     PhaseCondition,
     PhaseKind,
@@ -61,9 +56,8 @@ class DivisibilityRule(Result):
     def text(self) -> str:
         """Rule as text, such as `3 divides za and 5 divides zb`."""
         kinds = [kind for _, terms in self.conditions for kind in terms]
-        short = all(
-            kind[:1].isdigit() or len(kind) <= 2 for kind in kinds
-        )  # short names are written like z5, z4a and ze, others like z[sun]
+        # short names are written like z5, z4a and ze, others like z[sun]
+        short = all(kind[:1].isdigit() or len(kind) <= 2 for kind in kinds)
         sums = (f"{modulus} divides {_sum(terms, short)}" for modulus, terms in self.conditions)
         return " and ".join(sums) or "always"
 
@@ -106,9 +100,7 @@ def find_divisibility_rule(forms: Iterable[Mapping[str, Fraction]]) -> Divisibil
 
 
 def _join(found: list[tuple[int, Row]], modulus: int, terms: Row) -> None:
-    """Add a divisibility condition to `found`. It is merged with a condition on a coprime modulus if one sum expresses
-    both conditions.
-    """
+    """Add a divisibility condition, merged with one on a coprime modulus if one sum expresses both conditions."""
     for at, (other, known) in enumerate(found):
         kinds = {*known, *terms}
         for says, to in ((terms, other), (known, modulus)):
@@ -134,24 +126,22 @@ def _prime_powers(number: int) -> Iterable[int]:
 
 
 def _independent_generators(rows: Sequence[Sequence[int]], power: int) -> list[list[int]]:
+    """Return a smallest part of the Howell form of the rows that generates the same group modulo a prime power."""
+
+    def group_order(some: Sequence[Sequence[int]]) -> int:
+        firsts = (next(value for value in row if value) for row in _howell_form(some, power))
+        return math.prod(power // math.gcd(first, power) for first in firsts)
+
     found = _howell_form(rows, power)
     for row in found[::-1]:
         fewer = [other for other in found if other is not row]
-        if _group_order(fewer, power) == _group_order(found, power):
+        if group_order(fewer) == group_order(found):
             found = fewer
     return found
 
 
-def _group_order(rows: Sequence[Sequence[int]], power: int) -> int:
-    """Return the number of elements of the group that the rows generate modulo `power`."""
-    firsts = (next(value for value in row if value) for row in _howell_form(rows, power))
-    return math.prod(power // math.gcd(first, power) for first in firsts)
-
-
 def _howell_form(rows: Sequence[Sequence[int]], power: int) -> list[list[int]]:
-    """Return the Howell (triangular) form of the rows modulo the prime power `power`, which generates the same group as
-    the rows.
-    """
+    """Return the Howell (triangular) form of the rows modulo a prime power, which generates the same group."""
     found = []
     active = [list(row) for row in rows]
     width = len(active[0]) if active else 0
@@ -176,28 +166,19 @@ def _howell_form(rows: Sequence[Sequence[int]], power: int) -> list[list[int]]:
 
 
 def _simplest_form(row: Sequence[int], power: int) -> tuple[int, list[int]]:
-    """Return the congruence row · x = 0 (mod power) in reduced form, as the modulus and the smallest equivalent
-    weights.
-    """
+    """Return the congruence row · x = 0 (mod power) in reduced form: the modulus and the simplest weights."""
     common = math.gcd(*row, power)
     modulus = power // common
-    row = [value // common for value in row]
+    choices = []
     # the unit affects only the notation, so at most 1000 are tried
-    units = [unit for unit in range(1, min(modulus, 1000) + 1) if math.gcd(unit, modulus) == 1]
-    return modulus, min((_centred(row, unit, modulus) for unit in units), key=_simplicity)
-
-
-def _centred(row: Sequence[int], unit: int, modulus: int) -> list[int]:
-    found = [value * unit % modulus for value in row]
-    return [value - modulus if 2 * value > modulus else value for value in found]
-
-
-def _simplicity(row: Sequence[int]) -> tuple[int, int, int, list[int]]:
-    """Return a key that sorts rows by simplicity: rows with small weights come first, then rows with few negative
-    weights, then rows whose first weight is positive.
-    """
-    first = next((value for value in row if value), 0)
-    return sum(map(abs, row)), sum(value < 0 for value in row), first < 0, list(row)
+    for unit in range(1, min(modulus, 1000) + 1):
+        if math.gcd(unit, modulus) == 1:
+            reduced = [value // common * unit % modulus for value in row]
+            weights = [value - modulus if 2 * value > modulus else value for value in reduced]
+            first = next((value for value in weights if value), 0)
+            # small weights are preferred, then few negative weights, then a positive first weight
+            choices.append((sum(map(abs, weights)), sum(value < 0 for value in weights), first < 0, weights))
+    return modulus, min(choices)[-1]
 
 
 def _sum(terms: Mapping[str, int], short: bool) -> str:
@@ -263,24 +244,19 @@ class LoopPhase(Result):
     def text(self) -> str:
         """Description of the loop and its verdict in one line of text."""
         name = " - ".join((*self.gears, *self.gears[:1])) if self.gears else f"{', '.join(self.meshes)} together"
+        accuracy = {"exact": "", "recognised": " (angles recognised)", "numeric": f" (to {self.slack:.1g})"}[self.how]
         if self.kind == "closes":
-            return f"{name} closes{self._accuracy_remark}"
+            return f"{name} closes{accuracy}"
         if self.kind == "unclear":
             return f"{name} is undecided: positions are accurate to {self.slack:.2g} pitch only"
         miss = abs(self.miss)
         size = fraction_text(miss) if isinstance(miss, Fraction) else f"{miss:.6g}"
-        words = f"{name} misses by {size} pitch at {self.meshes[-1]}{self._accuracy_remark}"
+        words = f"{name} misses by {size} pitch at {self.meshes[-1]}{accuracy}"
         if self.retime:
             # the wheel with the smallest rotation is suggested
             wheel, turned = min(self.retime.items(), key=lambda each: abs(each[1]))
             words += f"; {wheel} turned on its arbor by {turned:.6g} pitch would close it"
         return words
-
-    @property
-    def _accuracy_remark(self) -> str:
-        if self.how == "exact":
-            return ""
-        return " (angles recognised)" if self.how == "recognised" else f" (to {self.slack:.1g})"
 
 
 def describe_loop(problem: PhaseSystem, condition: PhaseCondition) -> LoopPhase:
@@ -317,11 +293,8 @@ def _wheel(problem: PhaseSystem, mesh: int, node: int) -> str:
 
 
 def _sum_change(problem: PhaseSystem, mesh: int, node: int, row: Mapping[int, int]) -> int:
-    """Return the change of a loop's sum of phase equations [pitch] that results if a wheel is rotated on its arbor by
-    one pitch.
-    """
-    circuit = problem.circuits[mesh]
-    return row[mesh] * (1 if problem.ends[mesh][0] == node or circuit.b > 0 else -1)
+    """Return the change of a loop's sum of phase equations if a wheel is rotated on its arbor by one pitch [pitch]."""
+    return row[mesh] * (1 if problem.ends[mesh][0] == node or problem.circuits[mesh].b > 0 else -1)
 
 
 def _inside_angles(problem: PhaseSystem, condition: PhaseCondition) -> dict[str, Fraction | float]:
@@ -472,8 +445,8 @@ class MeshPhasing(Result):
 
     @cached_property
     def wheels(self) -> Mapping[str, float]:
-        """Angle of the first tooth of every wheel from its reference direction, from 0 to the angular pitch of the
-        wheel [rad].
+        """Angle of the first tooth of every wheel from its reference direction, in [0, angular pitch of the wheel)
+        [rad].
         """
         angles, found = self.angles, {}
         for circuit in self.problem.circuits:
@@ -494,8 +467,8 @@ class MeshPhasing(Result):
 
     @cached_property
     def last_errors(self) -> Mapping[str, float]:
-        """Phase error of every pair [pitch] if the pair assembled last in each loop takes up the entire phase error of
-        the loop.
+        """Phase error of every pair [pitch] if the last pair assembled in each loop takes up the loop's entire phase
+        error.
         """
         return self._errors(self.problem.tree_angles)
 
@@ -532,10 +505,15 @@ class MeshPhasing(Result):
         """
         forms, kinds = [], self.alike()
         for loop in self.loops:
-            form = _by_kind(loop.inside, kinds)
             # an odd number of meshes adds half a pitch, which no divisibility condition can express
-            if form is None or len(loop.meshes) % 2:
+            if loop.inside is None or len(loop.meshes) % 2:
                 return None
+            form: dict[str, Fraction] = {}
+            for gear, part in loop.inside.items():
+                if not isinstance(part, Fraction):
+                    return None
+                kind = kinds.get(gear, gear)
+                form[kind] = form.get(kind, Fraction(0)) + part
             forms.append(form)
         return find_divisibility_rule(forms)
 
@@ -564,7 +542,13 @@ class MeshPhasing(Result):
             yield f"  and {len(shown) - _SHOWN} more"
         if self.missing:
             yield f"  assembled one after the other, the last meshes are off by up to {self.last:.6g} pitch"
-            yield f"  distributed over all meshes, errors are up to {self.spread:.6g} pitch{self._backlash_remark}"
+            effects = {
+                True: ", which the backlash absorbs",
+                False: ", which the backlash does not absorb",
+                None: ", and not all backlash is known",
+            }
+            effect = effects[self.fits] if self.backlashes else ""
+            yield f"  distributed over all meshes, errors are up to {self.spread:.6g} pitch{effect}"
         if self.unjudged:
             passes = "loop passes" if self.unjudged == 1 else "loops pass"
             yield f"  {self.unjudged} {passes} through pairs with unknown position, not checked:"
@@ -574,32 +558,9 @@ class MeshPhasing(Result):
         if not self.problem.complete:
             yield "  loops were checked one by one, without conditions on several loops together"
 
-    @property
-    def _backlash_remark(self) -> str:
-        if not self.backlashes:
-            return ""
-        words = {
-            True: "which the backlash absorbs",
-            False: "which the backlash does not absorb",
-            None: "and not all backlash is known",
-        }
-        return f", {words[self.fits]}"
-
     def _errors(self, angles: Sequence[float] | Floats) -> dict[str, float]:
         found = self.problem.errors(angles).tolist()
         return {circuit.id: error for circuit, error in zip(self.problem.circuits, found, strict=True)}
-
-
-def _by_kind(inside: Mapping[str, Fraction | float] | None, kinds: Mapping[str, str]) -> dict[str, Fraction] | None:
-    if inside is None:
-        return None
-    form: dict[str, Fraction] = {}
-    for gear, part in inside.items():
-        if not isinstance(part, Fraction):
-            return None
-        kind = kinds.get(gear, gear)
-        form[kind] = form.get(kind, Fraction(0)) + part
-    return form
 
 
 def _name(link: str) -> str:

@@ -15,7 +15,7 @@ import numpy as np
 
 from geartrain.kinematics.circuits import Circuit
 from geartrain.kinematics.components import Components, ReducedSystem, reduce_components
-from geartrain.kinematics.phasing.azimuths import PitchPoints, centred_residue, mesh_nodes
+from geartrain.kinematics.phasing.azimuths import PitchPoints, centred_residue
 from geartrain.numerics.containers import collector_paused
 from geartrain.numerics.elimination import Echelon, LinearForm, TooDenseError, eliminate
 from geartrain.numerics.exact import whole_multiple
@@ -44,9 +44,7 @@ class SparseRows:
         return height * self.width <= _DENSE
 
     def least_squares(self, right: Floats) -> Floats:
-        """Return the vector x of minimum norm that minimises |A x - right|, where A is this matrix, by LSMR (Fong and
-        Saunders 2011).
-        """
+        """Return the vector x of minimum norm that minimises |A x - right|, by LSMR (Fong and Saunders 2011)."""
         from scipy.sparse import csr_array
         from scipy.sparse.linalg import lsmr
 
@@ -247,8 +245,10 @@ class PhaseSystem:
 
     @cached_property
     def ends(self) -> list[tuple[int, int]]:
-        """Nodes of the two links of every mesh."""
-        return mesh_nodes(self.parts, self.circuits)
+        """Nodes of the two links of every mesh, relative to its carrier."""
+        parts, index = self.parts, self.parts.index
+        at = {key: node for node, key in enumerate(zip(parts.node_link, parts.node_carrier, strict=True))}
+        return [(at[index[c.i], index[c.carrier]], at[index[c.j], index[c.carrier]]) for c in self.circuits]
 
     @cached_property
     def cycles(self) -> list[PhaseCycle]:
@@ -296,7 +296,7 @@ class PhaseSystem:
 
     @cached_property
     def coupled_rows(self) -> list[dict[int, int]]:
-        """Weights of the equations of meshes of several carriers for which the left-hand sides of these equations
+        """Weights of the equations of meshes of several carriers with which the left-hand sides of the equations
         cancel.
         """
         rows = []
@@ -314,8 +314,8 @@ class PhaseSystem:
         return rows
 
     def _add_contributions(self, node: int, factor: Fraction, total: dict[int, Fraction]) -> None:
-        """Add to `total`, for each mesh on the path from the root to a node, the coefficient of the mesh's constant in
-        the angle of the node, multiplied by `factor`.
+        """Add to `total`, for each mesh on the path from the root to a node, `factor` times the coefficient of the
+        mesh's constant in the angle of the node.
         """
         parts = self.parts
         speed = parts.relative(node) * factor
@@ -351,9 +351,7 @@ class PhaseSystem:
 
     @cached_property
     def _unequal_rows(self) -> list[dict[int, int]]:
-        """Rows whose integer combinations may have common factors, which are all rows of components with weights other
-        than 1 and -1.
-        """
+        """Rows of components with weights other than 1 and -1, whose integer combinations may have common factors."""
         if not self.cycles:
             return self.coupled_rows
         group = self.parts.node_group
@@ -372,12 +370,16 @@ class PhaseSystem:
     def _condition(self, cycle: PhaseCycle | None, row: Mapping[int, int]) -> PhaseCondition:
         contacts = self.contacts
         families = self._families(row)
-        slack = 0.0
-        for mesh, weight in row.items():
-            slack += abs(weight) * self._uncertainty[mesh]
         if families is None:
+            slack = 0.0
+            terms = []
+            for mesh, weight in row.items():
+                slack += abs(weight) * self._uncertainty[mesh]
+                constant = self._constant[mesh]
+                # exact, because a large weight would cancel the digits of the fraction
+                terms.append(weight * constant if abs(weight) == 1 else float(weight * Fraction(constant) % 1))
             # fsum rounds once, so the result does not depend on the order of the meshes
-            total = math.fsum(self._weighted(weight, self._constant[mesh]) for mesh, weight in row.items())
+            total = math.fsum(terms)
             # in (-1/2, 1/2] like `centred_residue`; `round` would round halves to even integers
             return PhaseCondition(cycle, row, total - math.ceil(total - 0.5), slack, False)
         scale, exact = contacts.scale, contacts.exact_constant
@@ -395,18 +397,8 @@ class PhaseSystem:
         values: list[float] = self.contacts.uncertainty.tolist()
         return values
 
-    @staticmethod
-    def _weighted(weight: int, constant: float) -> float:
-        if abs(weight) == 1:
-            return weight * constant
-        return float(
-            Fraction(weight) * Fraction(constant) % 1
-        )  # exact, because a large weight would cancel the digits of the fraction
-
     def _families(self, row: Mapping[int, int]) -> list[int] | None:
-        """Return the family numbers of all contacts of a condition if their unknown angles cancel; None if the residue
-        is known only as a float.
-        """
+        """Return the family numbers of all contacts of a condition if their unknown angles cancel, else None."""
         total: dict[int, int] = {}
         for mesh, weight in row.items():
             circuit = self.circuits[mesh]
@@ -418,9 +410,7 @@ class PhaseSystem:
 
     @cached_property
     def _whole_pitches(self) -> dict[int, int]:
-        """Integers that are added to the constants of meshes [pitch], by mesh. They are chosen to minimise the residues
-        of loops with compound wheels.
-        """
+        """Integers added to the constants of meshes [pitch], by mesh, so that loops of compound wheels nearly close."""
         basis, dual, _ = self._saturated
         found: dict[int, int] = {}
         for row, column in zip(basis, dual, strict=True):
@@ -439,18 +429,18 @@ class PhaseSystem:
         In components with compound wheels, a full turn of one link changes which teeth of other links engage, so the
         angles are exact fractions.
         """
-        parts, nodes = self.parts, [0.0 for _ in self.parts.node_parent]
-        found: list[Number] = list(nodes)
-        level = node_depths(parts)
+        parts = self.parts
+        found: list[Number] = [0.0 for _ in parts.node_parent]
+        exact = {parts.node_group[self.ends[mesh][0]] for row in self._saturated[0] for mesh in row}
         # from the roots outwards, so that the predecessor is known
-        for node in sorted(range(len(nodes)), key=level.__getitem__):
+        for node in sorted(range(len(found)), key=node_depths(parts).__getitem__):
             up = parts.node_parent[node]
             if up < 0:
                 continue
             mesh = parts.node_circuit[node]
             circuit, first = self.circuits[mesh], self.ends[mesh][0] == node
             own, other = (circuit.a, circuit.b) if first else (circuit.b, circuit.a)
-            if parts.node_group[node] in self._exact_groups:
+            if parts.node_group[node] in exact:
                 right = Fraction(self._constant[mesh]) + self._whole_pitches.get(mesh, 0)
                 found[node] = (right - other * Fraction(found[up])) / own
             else:
@@ -458,18 +448,13 @@ class PhaseSystem:
         return found
 
     @cached_property
-    def _exact_groups(self) -> frozenset[int]:
-        return frozenset(self.parts.node_group[self.ends[mesh][0]] for row in self._saturated[0] for mesh in row)
-
-    @cached_property
     def tree_angles(self) -> list[float]:
         """Angles of links that satisfy the equations of all meshes except the meshes that close loops [turn]."""
         return self._link_angles(self._tree_nodes)
 
     def _link_angles(self, nodes: Sequence[Number]) -> list[float]:
-        """Return the angles of links [turn], given the angles of nodes, which are relative to carriers [turn].
-
-        Free unknowns are set to 0, so that carriers are in their declared pose.
+        """Return the angles of links [turn], given the angles of nodes relative to carriers [turn]. Free unknowns are
+        set to 0, so that carriers are in their declared pose.
         """
         parts, own = self.parts, self._reduced.own
         together = [self._angle_difference(*origin, nodes) for origin in self._reduced.origin]
@@ -487,8 +472,8 @@ class PhaseSystem:
         return [float(angle % 1) for angle in found]
 
     def _angle_difference(self, kind: str, first: int, node: int, nodes: Sequence[Number]) -> Number:
-        """Return the difference between the angles of a link relative to two carriers [turn]. For a loop that cannot
-        turn, return the angle of its component for which the equation of the closing mesh is satisfied.
+        """Return the difference between a link's angles relative to two carriers, or, for a loop that cannot turn, the
+        angle of its component that satisfies the equation of the closing mesh [turn].
         """
         parts = self.parts
         if kind == "share":
@@ -499,9 +484,7 @@ class PhaseSystem:
 
     @cached_property
     def _link_rows(self) -> SparseRows:
-        """Matrix of the phase equations: the two links and the carrier of every mesh as columns, with their
-        coefficients.
-        """
+        """Matrix of the phase equations, with the two links and the carrier of every mesh as columns."""
         index = self.parts.index
         links = np.array([(index[c.i], index[c.j], index[c.carrier]) for c in self.circuits]).reshape(-1, 3)
         teeth = self.contacts.teeth
@@ -514,17 +497,13 @@ class PhaseSystem:
         return SparseRows(nodes, self._without_rigid_loops(self.contacts.teeth), len(self.parts.node_parent))
 
     def _without_rigid_loops(self, factors: Floats) -> Floats:
-        """Return the coefficients with zero rows for meshes in loops that cannot turn, because such loops have no phase
-        condition.
-        """
+        """Return the coefficients with zero rows for meshes in loops that cannot turn (no phase condition)."""
         found = factors.copy()
-        found[list(self.parts.breaking)] = 0.0  # rigid loops have no phase condition
+        found[list(self.parts.breaking)] = 0.0
         return found
 
     def errors(self, angles: Sequence[float] | Floats) -> Floats:
-        """Return the phase error of every mesh [pitch] for given angles of the links [turn]. It is 0 for meshes in
-        loops that cannot turn.
-        """
+        """Return the phase error of every mesh [pitch] for given link angles [turn]; 0 in loops that cannot turn."""
         return self._errors(self._link_rows, np.asarray(angles))
 
     def _errors(self, rows: SparseRows, angles: Floats) -> Floats:
@@ -549,9 +528,7 @@ class PhaseSystem:
         return min(found, key=lambda angles: float((self.errors(angles) ** 2).sum()))
 
     def _loop_errors(self, errors: Floats) -> Floats:
-        """Return the phase errors of all meshes [pitch]. Integers are added to the errors of the meshes that close
-        loops, so that short loops have small residues.
-        """
+        """Return the phase errors of all meshes [pitch], plus integers for which short loops have small residues."""
         found = errors.tolist()
         for condition in self.conditions:
             if condition.cycle is not None:
@@ -561,8 +538,8 @@ class PhaseSystem:
         return np.array(found)
 
     def _distribute(self, errors: Floats) -> list[float]:
-        """Distribute the phase errors of the meshes over the links, and return the resulting angles of the links
-        [turn]. A carrier keeps its angle unless it is itself connected by gears.
+        """Return the angles of links after distributing the phase errors of the meshes over them [turn]. A carrier
+        keeps its angle unless it is itself connected by gears.
         """
         if self.coupled_rows:
             together = np.mod(self._iterate(self._link_rows, np.array(self.tree_angles), errors), 1.0)
@@ -572,9 +549,7 @@ class PhaseSystem:
         return self._link_angles([angle + type(angle)(step) for angle, step in zip(start, moved.tolist(), strict=True)])
 
     def _iterate(self, rows: SparseRows, angles: Floats, errors: Floats, start: Sequence[float] = (0.0,)) -> Floats:
-        """Return the angles of links [turn] after alternating least squares and reassignment of teeth to gaps, repeated
-        until the assignment does not change.
-        """
+        """Return the angles after alternating least squares and reassignment of teeth to gaps [turn]."""
         for _ in range(_ROUNDS if rows.small(len(errors)) else _FEW):
             step = rows.least_squares(errors)
             angles = angles + step

@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cache, partial
+from functools import cache
 from math import gcd, lcm
 from typing import NamedTuple
 
@@ -64,25 +64,18 @@ def diagnose(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int], 
             resolved = resolve_form(row, forms)
             # no unknown is left: circuits and brakes imply that this speed is 0
             if stated.speed and not any(column >= 0 for column in resolved):
-                return _describe_contradiction(reduced, case, _tag_factors(resolved), statements)
+                given = {-1 - column: value for column, value in resolved.items()}
+                return _describe_contradiction(reduced, case, given, statements)
         echelon = eliminate(rows, budget)
     except TooDenseError:
         return unwitnessed_verdict(reduced, case)
     for condition in echelon.conditions:
-        given = _tag_factors(condition)
-        total = sum(
-            (value * statements[tag - structural].speed for tag, value in given.items() if tag >= structural), _ZERO
-        )
-        if total:
+        # factor of each equation, by its index
+        given = {-1 - column: value for column, value in condition.items()}
+        stated_factors = ((statements[tag - structural], value) for tag, value in given.items() if tag >= structural)
+        if sum((value * stated.speed for stated, value in stated_factors), _ZERO):
             return _describe_contradiction(reduced, case, given, statements)
     return unwitnessed_verdict(reduced, case)
-
-
-def _tag_factors(row: LinearForm) -> dict[int, Fraction]:
-    """Return the factor of each equation, by number n of the equation, from a row in which column -1 - n is the symbol
-    of equation n.
-    """
-    return {-1 - column: value for column, value in row.items()}
 
 
 def resolve_form(row: LinearForm, forms: Mapping[int, LinearForm]) -> LinearForm:
@@ -119,16 +112,11 @@ def unwitnessed_verdict(reduced: ReducedSystem, case: StateCase) -> Verdict:
 
 
 def _locked_inputs(reduced: ReducedSystem, case: StateCase) -> list[str]:
-    """Return the non-zero inputs that cannot move for any speeds of the other inputs, by elimination modulo a prime.
-
-    Each input is represented by a symbol, and elimination leaves the relations between the inputs that the circuits
-    imply.
-    """
+    """Return the non-zero inputs that cannot move for any speeds of the other inputs, by elimination modulo a prime."""
+    index = reduced.components.index
     rows = [dict(row) for row in (*reduced.equations, *held_rows(reduced, case))]
-    rows += [
-        {**reduced.form(reduced.components.index[link]), -1 - at: Fraction(1)} for at, link in enumerate(case.inputs)
-    ]
-    # conditions contain only symbols: relations between the inputs
+    rows += [{**reduced.form(index[link]), -1 - at: Fraction(1)} for at, link in enumerate(case.inputs)]
+    # each input is a symbol, and conditions contain only symbols: relations between the inputs
     left = eliminate(map(residues, rows), modulus=PRIME).conditions
     said = [{-1 - column: value for column, value in row.items()} for row in left]
     rank = rank_modulo(said)
@@ -142,8 +130,8 @@ def _locked_inputs(reduced: ReducedSystem, case: StateCase) -> list[str]:
 def _tagged(
     reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int]
 ) -> tuple[list[LinearForm], list[PrescriptionStatement]]:
-    """Return all equations, each with its own symbol in column -1 - t, and the statements of the brakes, locks and
-    inputs. The index t counts the structural equations first, then brakes, locks and inputs.
+    """Return all equations, each with its own symbol in column -1 - t, and the statements of brakes, locks and inputs.
+    The index t counts the structural equations first, then brakes, locks and inputs.
     """
     index = reduced.components.index
     rows: list[LinearForm] = [dict(row) for row in (*reduced.equations, *held_rows(reduced, case))]
@@ -153,9 +141,8 @@ def _tagged(
     statements += [PrescriptionStatement("lock", case.says(a, b), case.declares(a, b)) for a, b in case.locks]
     for link, speed in case.inputs.items():
         rows.append(dict(reduced.form(index[link])))
-        statements.append(
-            PrescriptionStatement("input", case.given(link), case.given(link), speed * signs.get(link, 1))
-        )
+        given = case.given(link)
+        statements.append(PrescriptionStatement("input", given, given, speed * signs.get(link, 1)))
     for tag, row in enumerate(rows):
         # the symbols show which equations a contradiction is combined from
         row[-1 - tag] = Fraction(-1)
@@ -165,9 +152,7 @@ def _tagged(
 def _describe_contradiction(
     reduced: ReducedSystem, case: StateCase, given: Mapping[int, Fraction], statements: Sequence[PrescriptionStatement]
 ) -> Verdict:
-    """Return the verdict on a contradiction; `given` is the factor of each equation in the contradictory linear
-    combination.
-    """
+    """Return the verdict on a contradiction; `given` are the factors of the equations in the contradictory sum."""
     parts, structural = reduced.components, len(reduced.equations)
     used = [(statements[tag - structural], value) for tag, value in sorted(given.items()) if tag >= structural]
     inputs = [(stated.text, value, stated.speed) for stated, value in used if stated.kind == "input"]
@@ -205,9 +190,7 @@ def _describe_contradiction(
 
 
 def _pairs(reduced: ReducedSystem, given: Mapping[int, Fraction], structural: int) -> list[str]:
-    """Return the names of the gear pairs that take part in a contradiction. They are on the paths between the links
-    that the equations of the contradiction share.
-    """
+    """Return the names of the pairs on the paths between the links that the equations of a contradiction share."""
     parts = reduced.components
     touched: dict[int, set[int]] = {}
     for tag in given:
@@ -245,9 +228,8 @@ def free_verdict(
     index = reduced.components.index
     rows: list[LinearForm] = []
     fixes: list[str] = []
-    for link in sorted(
-        undetermined, key=lambda name: index[name] not in reduced.own
-    ):  # carriers first, as suitable inputs
+    # carriers first, as suitable inputs
+    for link in sorted(undetermined, key=lambda name: index[name] not in reduced.own):
         row = resolve_form(reduced.form(index[link]), forms)
         loose = {column: value for column, value in row.items() if column >= 0}
         if eliminate([*rows, loose]).rank > len(rows):
@@ -259,9 +241,10 @@ def free_verdict(
     given = len(case.inputs)
     degrees = f"{freedom} degree{'s' if freedom > 1 else ''} of freedom"
     head = f"{given} of {given + freedom} degrees of freedom prescribed" if given else f"{degrees} and no input"
-    more = (
-        ("one more input" if given else "an input") if freedom == 1 else f"{freedom}{' more' if given else ''} inputs"
-    )
+    if freedom == 1:
+        more = "one more input" if given else "an input"
+    else:
+        more = f"{freedom} more inputs" if given else f"{freedom} inputs"
     text = f"{head}: speeds of {abridged_names(undetermined)} are undetermined; prescribe {more}, such as "
     text += ", ".join(fixes)
     return Verdict("free", text, links=tuple(undetermined), fixes=tuple(fixes))
@@ -319,8 +302,8 @@ def propagate(
                 return None
     if not all(bottom):
         return None
-    # the product of ratios along the train is multiplied out when a speed is read
-    # all numbers of a train whose digits grow from link to link would take memory in proportion to their square
+    # products of ratios are multiplied out when a speed is read: if digits grow from link to link, all numbers together
+    # would take memory in proportion to their square
     opposite = {link for link, sign in signs.items() if sign < 0}
 
     def speed_of(link: str) -> Fraction:
@@ -341,9 +324,7 @@ def _rows(index: Mapping[str, int], frame: str, circuits: Sequence[Circuit], cas
 
 
 def _solve(row: Terms, speeds: FactoredRatios) -> int:
-    """Solve an equation for its only unknown speed, and return the index of the link with this speed; return -1 if all
-    speeds are known.
-    """
+    """Solve an equation for its only unknown speed, and return the index of its link; -1 if all speeds are known."""
     target, lead = -1, 0
     moving = []
     for link, coefficient in row:
@@ -405,10 +386,7 @@ class Solution:
 
     def relative(self, of: str, base: str) -> Fraction | None:
         """Return the speed of the link `of` relative to the link `base`, about the axis of `of`; None if it is not
-        determined.
-
-        The relative speed can be determined even if both links are free, if the difference of their speeds is in the
-        row space of the system.
+        determined. It can be determined although both links are free, if the difference of their speeds is.
         """
         found = relative_speed(of, base, self.speeds.get, self.signs)
         if found is not None or self.difference is None:
@@ -424,9 +402,7 @@ class Solution:
 
 
 def _speed_ratios(part: SolvedPart, case: StateCase, signs: Mapping[str, int]) -> Mapping[str, Mapping[str, Fraction]]:
-    """Return the exact speed ratios as `ratios[link][input]`. The equations are solved when the mapping is first
-    accessed.
-    """
+    """Return the exact speed ratios as `ratios[link][input]`; equations are solved when the mapping is accessed."""
 
     @cache
     def forms() -> dict[int, LinearForm]:
@@ -475,7 +451,14 @@ def solve(part: SolvedPart, case: StateCase, signs: Mapping[str, int], budget: i
     if undetermined:
         freedom = reduced.unknowns - echelon.rank
         verdict = free_verdict(reduced, case, forms, undetermined, freedom)
-        return Solution(verdict, speeds, ratios, signs, partial(_free_difference, reduced, forms))
+
+        def difference(of: str, base: str) -> Fraction | None:
+            index = reduced.components.index
+            row = dict(reduced.form(index[of]))
+            add_into(row, reduced.form(index[base]), -1)
+            return _value(resolve_form(row, forms))
+
+        return Solution(verdict, speeds, ratios, signs, difference)
     return Solution(determined_verdict(case, reduced), speeds, ratios, signs)
 
 
@@ -487,10 +470,8 @@ def elimination_budget(reduced: ReducedSystem, budget: int | None) -> int | None
 
 
 def eliminate_within(rows: Sequence[LinearForm], budget: int | None) -> Echelon:
-    """Eliminate exactly with at most `budget` operations. Raises `TooDenseError` immediately if the predicted fill-in
-    exceeds this number.
-
-    The fill-in is predicted by the same elimination modulo a prime, with short numbers and a separate limit.
+    """Eliminate exactly with at most `budget` operations. Raises `TooDenseError` if a limited elimination modulo a
+    prime, with short numbers, predicts too much fill-in.
     """
     if budget is not None and len(rows) > _FEW:
         eliminate(map(residues, rows), _PREDICTED + 10 * len(rows), PRIME)
@@ -498,9 +479,7 @@ def eliminate_within(rows: Sequence[LinearForm], budget: int | None) -> Echelon:
 
 
 def exact_verdict(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int]) -> Verdict:
-    """Return the verdict without speeds, by elimination modulo a prime. It is used for systems that are too dense for
-    exact numbers.
-    """
+    """Return the verdict without speeds, by elimination modulo a prime, for systems too dense for exact numbers."""
     held = [*reduced.equations, *held_rows(reduced, case)]
     if not any(case.inputs.values()) and rank_modulo(held) == reduced.unknowns:
         return stationary_verdict(reduced, case)
@@ -531,13 +510,6 @@ def _input_rows(reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int
         if speed:
             row[_GIVEN] = -speed * signs.get(link, 1)
         yield row
-
-
-def _free_difference(reduced: ReducedSystem, forms: Mapping[int, LinearForm], of: str, base: str) -> Fraction | None:
-    index = reduced.components.index
-    row = dict(reduced.form(index[of]))
-    add_into(row, reduced.form(index[base]), -1)
-    return _value(resolve_form(row, forms))
 
 
 def _determined_speeds(

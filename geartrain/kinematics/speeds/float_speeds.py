@@ -32,16 +32,11 @@ if TYPE_CHECKING:
     from geartrain.numerics.arrays import Floats
 
 
-_INVERTED, _ABREAST = (
-    400,
-    64,
-)  # maximum number of links for which the inverse is computed, and columns computed together
+_INVERTED, _ABREAST = 400, 64  # maximum number of links for which the inverse is computed; columns computed together
 _DRAWN = 12  # random sets of signs for more links
 _STEPS = 8  # maximum refinement steps; each at least halves the error if they converge
 _ITERATIONS = 4  # power iterations that bound a condition number
-_LARGEST_CONDITION = 1 / (
-    8 * UNIT_ROUNDOFF
-)  # 1 / (4 eps): beyond this condition number no digit of the inverse is correct
+_LARGEST_CONDITION = 1 / (8 * UNIT_ROUNDOFF)  # 1 / (4 eps): beyond it no digit of the inverse is correct
 _LARGEST_EXPONENT = 400  # of two, of a speed: the squares of errors stay within float64
 
 
@@ -102,7 +97,11 @@ def solve_floats(system: WillisSystem, inputs: Mapping[str, Sequence[float]] | N
     try:
         lu = matrix.factorise()
     except RuntimeError as error:
-        raise RangeError(_no_factors(len(rows), str(error))) from None
+        what = f"the {len(rows)} equations cannot be factorised in float64 ({str(error).strip()})"
+        why = (
+            "ratios above 1e308, and differences smaller than the rounding error, make the system numerically singular"
+        )
+        raise RangeError(Problem(what, why, "use the exact method")) from None
     x = _refined(lu, matrix, lu.solve(right), right, remainder)
     rest = matrix.residual(x, right, remainder)
     _check_range(matrix, x, rest, rows)
@@ -116,28 +115,21 @@ def solve_floats(system: WillisSystem, inputs: Mapping[str, Sequence[float]] | N
     # equation (24) with A^-1 r' refined once; the factor 2 covers the rounding errors of that solution
     estimate = 2 * (np.abs(left) + np.abs(more)) + UNIT_ROUNDOFF * np.abs(x) + reach
     residual = np.divide(np.abs(rest), terms, out=np.zeros_like(rest), where=terms > 0)
+    # component-wise condition numbers |A^-1| |A| |x| / |x|; the numerator is exact if the inverse was computed
+    size = np.abs(x[:, 0])
+    numbers = np.divide(spread[:, 0], size, out=np.full_like(size, np.inf), where=size != 0).tolist()
+    at, inf = matrix.at, float("inf")
+    condition = {link: numbers[at[link]] if link in at else inf for link in system.links}
     return FloatSpeeds(
         _with_frame(system, matrix, x),
         _with_frame(system, matrix, estimate),
         labelled_array(residual, row=[row.label for row in rows], case=[str(case) for case in range(x.shape[1])]),
-        _condition_numbers(system, matrix, x[:, 0], spread[:, 0]),
+        condition if len(x) <= _INVERTED else {},
     )
 
 
-def _condition_numbers(system: WillisSystem, matrix: PaddedRows, x: Floats, spread: Floats) -> dict[str, float]:
-    """Return the condition number |A^-1| |A| |x| / |x| of the speed of each link, by link. `spread` is the numerator,
-    which is exact if the inverse was computed.
-    """
-    if len(x) > _INVERTED:
-        return {}
-    numbers = np.divide(spread, np.abs(x), out=np.full_like(x, np.inf), where=x != 0).tolist()
-    return {link: numbers[matrix.at[link]] if link in matrix.at else float("inf") for link in system.links}
-
-
 def _refined(lu: Any, matrix: PaddedRows, x: Floats, right: Floats, remainder: Floats) -> Floats:
-    """Return the solution after iterative refinement (23). The refinement ends at convergence, or if a correction is
-    more than half as large as the previous correction.
-    """
+    """Return the solution after iterative refinement (23), until corrections are negligible or shrink too slowly."""
     last = 1.0
     for _ in range(_STEPS):
         step = lu.solve(matrix.residual(x, right, remainder))
@@ -153,10 +145,8 @@ def _refined(lu: Any, matrix: PaddedRows, x: Floats, right: Floats, remainder: F
 
 
 def _error_bound(lu: Any, error: Floats) -> Floats:
-    """Return the maximum change of each speed if the equations have errors of any sign, which is |A^-1| error.
-
-    For up to 400 links, the inverse is computed column by column. For more links, four times the root mean square over
-    errors with random signs and magnitudes is returned, because for a single set of signs several errors may cancel.
+    """Return the maximum change |A^-1| error of each speed if the equations have errors of any sign. For more than 400
+    links, it is estimated by four times the root mean square over errors with random signs and magnitudes.
     """
     found = np.zeros_like(error)
     size, cases = error.shape
@@ -175,10 +165,8 @@ def _error_bound(lu: Any, error: Floats) -> Floats:
 
 
 def prepare(system: WillisSystem) -> tuple[PaddedRows, list[WillisEquation]]:
-    """Return the matrix for factorisation and the equations of its rows. The number of independent rows equals the
-    number of moving links.
-
-    Raises `RangeError` if the system is not square.
+    """Return the matrix for factorisation and the equations of its rows, as many as moving links. Raises `RangeError`
+    if the system is not square.
     """
     links, rows = independent_rows(system.links, system.equations, system.redundant)
     if len(rows) > len(links):
@@ -194,14 +182,10 @@ def prepare(system: WillisSystem) -> tuple[PaddedRows, list[WillisEquation]]:
 
 
 def _with_frame(system: WillisSystem, matrix: PaddedRows, values: NDArray[Any]) -> LabelledArray:
-    """Return an array with one row of values for each link in the order of the declaration; the row of the
-    frame is 0.
-    """
+    """Return an array with one row for each link in the order of the declaration; the row of the frame is 0."""
     at = next(at for at, link in enumerate(system.links) if link not in matrix.at)
     return labelled_array(
-        np.insert(values, at, 0, axis=0),
-        link=system.links,
-        case=[str(case) for case in range(values.shape[1])],
+        np.insert(values, at, 0, axis=0), link=system.links, case=[str(case) for case in range(values.shape[1])]
     )
 
 
@@ -234,10 +218,8 @@ def _rounded_right_sides(rows: Sequence[WillisEquation], given: Sequence[Sequenc
 
 
 def _check_range(matrix: PaddedRows, x: Floats, rest: Floats, rows: Sequence[WillisEquation]) -> None:
-    """Raise `RangeError` if the solution overflows or underflows.
-
-    One mesh changes a speed by a factor of at most 1e12, so a speed that underflows to 0 has neighbours that are too
-    small.
+    """Raise `RangeError` if the solution overflows or underflows. One mesh changes a speed by a factor of at most 1e12,
+    so a speed that underflows to 0 has neighbours that are too small.
     """
     far = ((x != 0) & (np.abs(np.frexp(x)[1]) > _LARGEST_EXPONENT)).any(axis=1)
     # a row whose links are all nearly at rest is compared with the fastest link of the train
@@ -251,49 +233,26 @@ def _check_range(matrix: PaddedRows, x: Floats, rest: Floats, rows: Sequence[Wil
 
 
 def _check_digits(lu: Any, matrix: PaddedRows, speeds: Floats, spread: Floats) -> None:
-    """Raise `RangeError` if the factors may have no correct digit. This is assumed if a bound on the spectral radius of
-    |A^-1| |A| exceeds 1 / (4 eps).
-
-    The spectral radius is the condition number of the system if the units of speed are chosen optimally for each link
-    (Bauer 1963). For any positive vector v, it is at most the maximum of |A^-1| |A| v / v (Collatz and Wielandt); power
-    iteration from |x| lowers this bound. If a link is at rest, or slow because large terms cancel, one iteration is
-    required. If the factors are wrong, the bound remains above the limit.
-
-    speeds   |x|
-    spread   |A^-1| |A| |x|, computed with the factors
+    """Raise `RangeError` if the factors may have no correct digit, because a bound on the spectral radius of |A^-1| |A|
+    exceeds 1 / (4 eps). `speeds` is |x|, and `spread` is |A^-1| |A| |x|, computed with the factors.
     """
-    condition = _condition(lu, matrix, speeds, spread, _LARGEST_CONDITION)
-    if (condition <= _LARGEST_CONDITION).all():
-        return
+    # The spectral radius is the condition number of the system if the units of speed are chosen optimally for each link
+    # (Bauer 1963). For any positive vector v, it is at most the maximum of |A^-1| |A| v / v (Collatz and Wielandt), and
+    # power iteration from |x| lowers this bound. If the factors are wrong, it remains above the limit.
+    for _ in range(_ITERATIONS):
+        condition = np.divide(spread, speeds, out=np.where(spread == 0, 0.0, np.inf), where=speeds > 0)
+        if (condition <= _LARGEST_CONDITION).all():
+            return
+        speeds, spread = spread, _error_bound(lu, matrix.size(spread))
     at = int(np.argmax(condition.max(axis=1)))
     what = f"no digit of the speed of '{list(matrix.at)[at]}' is correct in float64"
     why = f"rounding errors of the equations are amplified more than {_LARGEST_CONDITION:.0e} times"
     raise RangeError(Problem(what, why, "use the exact method"))
 
 
-def _condition(lu: Any, matrix: PaddedRows, speeds: Floats, spread: Floats, limit: float) -> Floats:
-    """Return |A^-1| |A| v / v for the first vector v of a power iteration for which the maximum of this quotient is
-    below `limit`. The maximum is a bound on the spectral radius.
-    """
-    for _ in range(_ITERATIONS):
-        condition = np.divide(spread, speeds, out=np.where(spread == 0, 0.0, np.inf), where=speeds > 0)
-        if (condition <= limit).all():
-            break
-        speeds, spread = spread, _error_bound(lu, matrix.size(spread))
-    return condition
-
-
 def _out_of_range(label: str) -> Problem:
     return Problem(
         f"a speed near '{label}' is too small or too large for floating-point numbers",
         "speeds and ratios must be between 1e-120 and 1e120, so that their rounding errors can be bounded",
-        "use the exact method",
-    )
-
-
-def _no_factors(size: int, message: str) -> Problem:
-    return Problem(
-        f"the {size} equations cannot be factorised in float64 ({message.strip()})",
-        "ratios above 1e308, and differences smaller than the rounding error, make the system numerically singular",
         "use the exact method",
     )

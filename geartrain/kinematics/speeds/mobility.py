@@ -87,15 +87,6 @@ class Mobility(Result):
         return self.links - 1 - self.by_rank
 
 
-def _idle_circuits(reduced: ReducedSystem, forms: Mapping[int, LinearForm]) -> list[str]:
-    """Return the names of the pairs in components whose unknown speed is always 0."""
-    parts = reduced.components
-    null = {column for column, form in forms.items() if not form and column < len(parts.group_carrier)}
-    if not null:
-        return []
-    return [c.id for c in parts.circuits if c.b and parts.group_of(c) in null]
-
-
 def _stationary_links(reduced: ReducedSystem, forms: Mapping[int, LinearForm]) -> list[str]:
     """Return the links that are at rest in every motion, because their linear form is 0."""
     parts = reduced.components
@@ -113,8 +104,8 @@ def _stationary_links(reduced: ReducedSystem, forms: Mapping[int, LinearForm]) -
 
 @collector_paused()
 def find_mobility(reduced: ReducedSystem, turning_pairs: int, sliding_pairs: int = 0) -> Mobility:
-    """Compute the mobility of the train from the exact rank of its equations, ignoring prescribed speeds; see (16) and
-    (17) of docs/theory.md.
+    """Return the mobility from the exact rank of the equations without prescribed speeds, (16) and (17) of
+    docs/theory.md.
     """
     parts = reduced.components
     gears = sum(circuit.kind == "gear" for circuit in parts.circuits)
@@ -133,7 +124,10 @@ def find_mobility(reduced: ReducedSystem, turning_pairs: int, sliding_pairs: int
         rank = echelon.rank
         with suppress(TooDenseError):
             forms = echelon.forms(budget)
-            still, idle = _stationary_links(reduced, forms), _idle_circuits(reduced, forms)
+            still = _stationary_links(reduced, forms)
+            # pairs in components whose unknown speed is always 0
+            null = {column for column, form in forms.items() if not form and column < len(parts.group_carrier)}
+            idle = [c.id for c in parts.circuits if null and c.b and parts.group_of(c) in null]
         repeated = (reduced.origin[row] for row in echelon.redundant)
         shared = [parts.links[link] for kind, link, _ in repeated if kind == "share"]
     freedom = reduced.unknowns - rank

@@ -17,7 +17,7 @@ from math import cos, radians, tan
 from geartrain.dynamics.gear_meshes import PinMesh
 from geartrain.dynamics.pair_speeds import at_speed, pitch_line_speed
 from geartrain.dynamics.torques.load_case import LoadCase, MeanEfficiencies
-from geartrain.dynamics.torques.torque_balance import LoadedPair, TorqueBalance
+from geartrain.dynamics.torques.torque_balance import TorqueBalance
 from geartrain.kinematics.circuits import Circuit
 from geartrain.teeth.pair_results import SlidingEfficiency
 
@@ -119,15 +119,12 @@ def apply_mean_efficiencies(
     """
     if not any(each.differ for each in means.values()):
         return balance, ()
-    given = _given(balance)
-    meshes = tuple(_with(mesh, means[mesh.id], given.get(mesh.id, 0), driving) for mesh in balance.meshes)
+    given, meshes = _given(balance), []
+    for mesh in balance.meshes:
+        forward, backward = means[mesh.id].given(given.get(mesh.id, 0), driving)
+        meshes.append(replace(mesh, forward=forward, backward=backward))
     neither = tuple(mesh.id for mesh in meshes if means[mesh.id].differ and not given.get(mesh.id))
-    return replace(balance, meshes=meshes), neither
-
-
-def _with(mesh: LoadedPair, means: MeanEfficiencies, side: int, driving: bool) -> LoadedPair:
-    forward, backward = means.given(side, driving)
-    return replace(mesh, forward=forward, backward=backward)
+    return replace(balance, meshes=tuple(meshes)), neither
 
 
 def _given(balance: TorqueBalance) -> dict[str, int]:
@@ -140,14 +137,12 @@ def _given(balance: TorqueBalance) -> dict[str, int]:
         if len(block.rows) != 1 or len(block.columns) != 1 or block.rows[0] >= len(balance.links):
             continue
         link, column = balance.links[block.rows[0]], balance.columns[block.columns[0]]
-        side = next((_side(mesh, link) * mesh.turn for mesh in column.meshes if link in mesh.links), 0)
+        first = next((mesh for mesh in column.meshes if link in mesh.links), None)
+        # the carrier is neither the first nor the second link
+        side = 0 if first is None else {first.links[0]: 1, first.links[1]: -1}.get(link, 0) * first.turn
         # equal planets share one unknown torque, and may name their wheels in different orders
         found |= {mesh.id: side * mesh.turn for mesh in column.meshes}
     return found
-
-
-def _side(mesh: LoadedPair, link: str) -> int:
-    return {mesh.links[0]: 1, mesh.links[1]: -1}.get(link, 0)
 
 
 # ------------------------------------------------------------------------------------------------------------ skew axes

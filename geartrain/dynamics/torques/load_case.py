@@ -35,9 +35,20 @@ class VirtualMotion:
     power: Fraction
 
 
-def speed_forms(system: WillisSystem) -> dict[str, LinearForm]:
-    """Return the speed of every link as a linear form in the free speeds and the column `PRESCRIBED`."""
-    return _forms(system.links, system.equations)
+def speed_forms(links: Iterable[str], rows: Iterable[WillisEquation]) -> dict[str, LinearForm]:
+    """Return the speed of every link as a linear form in the free speeds and the column `PRESCRIBED`.
+
+    rows   equations of the Willis system to be satisfied
+    """
+    at = {link: number for number, link in enumerate(links)}
+    held: list[LinearForm] = []
+    for row in rows:
+        form: LinearForm = {at[link]: Fraction(coefficient) for link, coefficient in row.terms}
+        if row.right:
+            form[PRESCRIBED] = -row.right
+        held.append(form)
+    found = eliminate(held).forms()
+    return {link: found.get(number, {number: Fraction(1)}) for link, number in at.items()}
 
 
 def unbalanced_motions(
@@ -49,7 +60,7 @@ def unbalanced_motions(
     still   links with unknown torques; the links are at rest in all these motions, so that their torques do no work
     """
     held = [WillisEquation(f"still {link}", "fixed", ((link, 1),)) for link in still]
-    forms = _forms(system.links, [*(row for row in system.equations if row.kind != "input"), *held])
+    forms = speed_forms(system.links, [*(row for row in system.equations if row.kind != "input"), *held])
     found = []
     # one motion for each free speed, with the other free speeds 0
     for column in sorted({column for form in forms.values() for column in form}):
@@ -74,18 +85,6 @@ def balancing_torque(motions: Sequence[VirtualMotion], link: str) -> Fraction | 
             return None
         found = torque
     return found
-
-
-def _forms(links: Iterable[str], rows: Iterable[WillisEquation]) -> dict[str, LinearForm]:
-    at = {link: number for number, link in enumerate(links)}
-    held: list[LinearForm] = []
-    for row in rows:
-        form: LinearForm = {at[link]: Fraction(coefficient) for link, coefficient in row.terms}
-        if row.right:
-            form[PRESCRIBED] = -row.right
-        held.append(form)
-    found = eliminate(held).forms()
-    return {link: found.get(number, {number: Fraction(1)}) for link, number in at.items()}
 
 
 _ONE = Fraction(1)  # efficiency without loss
@@ -285,14 +284,9 @@ class LoadCase:
         """Positive friction torques of bearings that do not depend on the load, by link and the link that
         carries it.
         """
-        own = (
-            (link, self.tree.borne_by(link), friction) for link in self.train.links if (friction := self.bearing(link))
-        )
-        jumpers = (
-            (each.i, each.carrier, self.couplings[each.id].friction_torque)
-            for each in self.circuits
-            if each.kind != "gear"
-        )
+        own = [(link, self.tree.borne_by(link), self.bearing(link)) for link in self.train.links if self.bearing(link)]
+        couplings = (each for each in self.circuits if each.kind != "gear")
+        jumpers = ((each.i, each.carrier, self.couplings[each.id].friction_torque) for each in couplings)
         found: dict[tuple[str, str], Fraction] = {}
         for link, carrier, friction in (*own, *jumpers):
             if friction:
@@ -302,9 +296,7 @@ class LoadCase:
     def bearing(self, link: str) -> Fraction:
         """Return the friction torque of a link's bearing [N m, or a number without a unit]; 0 if none is declared."""
         friction = self.train.links[link].bearing
-        if friction is None or link == self.train.frame:
-            return Fraction(0)
-        return friction.sliding.base
+        return Fraction(0) if friction is None or link == self.train.frame else friction.sliding.base
 
 
 def power_inputs(setting: LoadCase) -> tuple[str, ...]:

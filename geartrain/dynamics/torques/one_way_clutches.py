@@ -76,20 +76,6 @@ def decide_case(train: Train, state: str | None) -> StateCase:
         return replace(train.case(state, ()), problems=tuple(error.problems))
 
 
-def can_be_positive(forms: Sequence[LinearForm], column: int) -> bool:
-    """Return True if all linear forms can be positive at the same values of the unknowns.
-
-    column   index of a column that is not used in `forms`, for an additional unknown t
-
-    The constants are multiplied by t >= 1, so that any positive solution can be scaled until all forms are at least 1.
-    """
-    scaled: list[LinearForm] = [{column: Fraction(1), PRESCRIBED: Fraction(-1)}]
-    for form in forms:
-        unknowns = {at: value for at, value in form.items() if at != PRESCRIBED}
-        scaled.append({**unknowns, column: form.get(PRESCRIBED, Fraction(0)), PRESCRIBED: Fraction(-1)})
-    return feasible(scaled)
-
-
 @dataclass(frozen=True)
 class _Decision:
     train: TrainMechanics
@@ -104,7 +90,7 @@ class _Decision:
             return self._answer(self._contradictory(), {}, ())
         chosen = list(dict.fromkeys(each.holding for ways in self._fitting.values() for each in ways))
         if len(chosen) > 1:
-            return self._refused(*self._undecided(chosen))
+            return self._undecided(chosen)
         if not chosen:
             pattern, released = self._released()
             return self._answer(pattern, {}, (f"{_joined(released, 'let')} go under this load",) if released else ())
@@ -139,7 +125,13 @@ class _Decision:
         }
         moves = all(slip is None or slip > 0 for slip in slips.values())
         if moves and setting.forms:
-            moves = can_be_positive(list(forms.values()), len(setting.forms))
+            # the constants are multiplied by a further unknown t >= 1, so that slips above 0 can be scaled beyond 1
+            scale = len(setting.forms)
+            rows: list[LinearForm] = [{scale: Fraction(1), PRESCRIBED: Fraction(-1)}]
+            for form in forms.values():
+                unknowns = {at: value for at, value in form.items() if at != PRESCRIBED}
+                rows.append({**unknowns, scale: form.get(PRESCRIBED, Fraction(0)), PRESCRIBED: Fraction(-1)})
+            moves = feasible(rows)
         return ClutchPattern(holding, case, setting, slips, moves)
 
     def _clutch(self, name: str) -> tuple[Clutch, str, str, int]:
@@ -257,15 +249,14 @@ class _Decision:
     def _answer(
         self, pattern: ClutchPattern, deciding: Mapping[str, Torques | None], notes: tuple[str, ...]
     ) -> StateCase:
-        state = self.state
-        required = () if state is None else self.train.declaration.states[state].engaged
+        required = () if self.state is None else self.train.declaration.states[self.state].engaged
         actions = []
         # if the speeds contradict each other, only the clutches that hold have a meaning
         for name in self.names if pattern.setting is not None else pattern.holding:
-            holds, slip = name in pattern.holding, pattern.slips.get(name)
+            holds = name in pattern.holding
             torque, unit = self._torque(pattern, name, deciding) if holds else (Fraction(0), "")
+            slip = Fraction(0) if holds else pattern.slips.get(name)
             teeth = self._clutch(name)[0].teeth
-            slip = Fraction(0) if holds else slip
             actions.append(OneWayAction(name, holds, slip, torque, unit, name in required, teeth))
         relieved = {each.name for each in actions if each.holds and each.torque == 0}
         return replace(pattern.case, one_way=tuple(actions), notes=(*notes, *self._shared(pattern, relieved)))
@@ -276,13 +267,15 @@ class _Decision:
         """Return the torque of a holding clutch on its second link, and the unit of the torque. The torque is None if
         it depends on which load is applied.
         """
-        links, found, unit = self._clutch(name)[0].links, set[Fraction | None](), ""
+        clutch, _, _, sense = self._clutch(name)
+        links, found, unit = clutch.links, set[Fraction | None](), ""
         source = power_inputs(pattern.setting)[:1] if pattern.setting is not None else ()
         for load, torques in deciding.items():
             held = next((each for each in torques.held if each.links == links), None) if torques else None
             if torques is None or held is None or held.torques is None:
                 return None, ""
-            if self._is_relieved(pattern, name, held.torques[-1]):
+            # a brake or lock on the same links transmits what the clutch cannot transmit
+            if links not in pattern.case.senses and sense * held.torques[-1] < 0:
                 return Fraction(0), ""
             if held.clutch != name:
                 return None, ""
@@ -292,11 +285,6 @@ class _Decision:
             found.add(held.torques[-1] / given if given else None)
             unit = f"times the torque of {source[0]}" if source else ""
         return (found.pop(), unit) if len(found) == 1 and None not in found else (None, "")
-
-    def _is_relieved(self, pattern: ClutchPattern, name: str, torque: Fraction) -> bool:
-        """Return True if a brake or lock on the same links transmits a torque that the clutch cannot transmit."""
-        clutch, _, _, sense = self._clutch(name)
-        return clutch.links not in pattern.case.senses and sense * torque < 0
 
     def _shared(self, pattern: ClutchPattern, relieved: Collection[str]) -> Iterator[str]:
         """Yield notes on clutches that hold the same two links together, and on clutches whose slip varies within a
@@ -326,15 +314,12 @@ class _Decision:
     # -------------------------------------------------------------------------------------------------------- refusals
 
     def _refused(self, what: str, why: str, fix: str) -> StateCase:
-        state = self.state
-        place = self.train.declaration.place(*(("clutches",) if state is None else ("states", state)))
+        place = self.train.declaration.place(*(("clutches",) if self.state is None else ("states", self.state)))
         case = self._patterns[()].case
         return replace(case, problems=(*case.problems, Problem(what, why, fix, place)))
 
-    def _undecided(self, chosen: Sequence[tuple[str, ...]]) -> tuple[str, str, str]:
-        """Return the description, the reason and the fix of the problem that several clutch patterns are possible in a
-        state.
-        """
+    def _undecided(self, chosen: Sequence[tuple[str, ...]]) -> StateCase:
+        """Return a case with the problem that several sets of clutches may hold, depending on the loads."""
         common = set(chosen[0]).intersection(*chosen[1:])
         open_ = [name for name in self.names if any(name in each for each in chosen) and name not in common]
         ways = {
@@ -344,11 +329,8 @@ class _Decision:
         }
         why = "; ".join(f"with a load on {load}: {way}" for load, way in ways.items())
         some = "{" + ", ".join(f"{load}: -1" for load in list(ways)[:1]) + "}"
-        return (
-            f"whether {_joined(open_, 'hold')} depends on the loads",
-            why,
-            f"declare `loads`, such as `loads: {some}`",
-        )
+        what = f"whether {_joined(open_, 'hold')} depends on the loads"
+        return self._refused(what, why, f"declare `loads`, such as `loads: {some}`")
 
     @cached_property
     def _varying(self) -> Mapping[str, Sequence[Circuit]]:

@@ -6,6 +6,7 @@ power in addition to the loads (sections 5, 6, 8 and 11 of docs/torques.md).
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -73,11 +74,6 @@ class LoadedBalance:
         return "the load" if self.loads else "the friction of the bearings"
 
     @property
-    def driving(self) -> Fraction:
-        """Net power that the loads supply to the train [unit of torque times the train's unit of speed]."""
-        return self._power(self.loads)
-
-    @property
     def has_friction(self) -> bool:
         """True if there is a load, and if some bearing friction is not proportional to the load."""
         masses = {} if self.bearing_loads is None else self.bearing_loads.masses
@@ -90,7 +86,7 @@ class LoadedBalance:
         """
         found, complete = find_flow_patterns(balance)
         # the known powers are the same in all flows, so the power of the unknown torques orders the losses
-        return sorted(found, key=lambda flow: (len(flow.solved.open), self.power(flow))), complete
+        return sorted(found, key=lambda flow: (len(flow.solved.open), self.power(flow.solved.external))), complete
 
     def solve(self) -> tuple[LoadedBalance, list[FlowPattern], bool]:
         """Return the balance including the load-dependent friction of bearings, its patterns of power flow as in
@@ -113,13 +109,7 @@ class LoadedBalance:
                 return found, flows, complete
         return self, [], complete
 
-    def power(self, flow: FlowPattern) -> Fraction:
-        """Return the power that the unknown torques supply in one pattern of power flow [unit of torque times the
-        train's unit of speed].
-        """
-        return self._power(flow.solved.external)
-
-    def _power(self, torques: Mapping[str, Fraction]) -> Fraction:
+    def power(self, torques: Mapping[str, Fraction]) -> Fraction:
         """Return the total power of the given torques on links whose speed is determined [unit of torque times the
         train's unit of speed].
         """
@@ -168,14 +158,23 @@ def find_torque_verdict(
     """
     if not flows:
         return _unbalanced(question, complete)
-    but = _neglected_note(neglected)
+    uncounted: dict[str, list[str]] = {}
+    for each in (each for each in neglected if each.counts):
+        uncounted.setdefault(each.what, []).extend(each.where)
+    named = [f"{what} ({', '.join(where)})" for what, where in uncounted.items()]
+    but = f"; not included: {', '.join(named)}" if named else " (mean over a turn)" if neglected else ""
     # undetermined torques come first, because the number of patterns then has no meaning
     if any(flow.solved.loose or flow.solved.open or None in flow.solved.locks for flow in flows):
         verdict = _indeterminate(flows, question)
         return replace(verdict, text=verdict.text + but)
     if len(flows) > 1:
-        verdict = _ambiguous(question, flows)
-        return replace(verdict, text=verdict.text + but)
+        given, *others = (question.power(flow.solved.external) for flow in flows)
+        rest = " or ".join(_describe_flow(question, power, given < 0) for power in others)
+        text = (
+            f"{len(flows)} patterns of power flow balance {question.load}: in the reported one, with minimum loss, "
+            f"{_describe_flow(question, given, False)}; in {'others' if others[1:] else 'the other'} {rest}{but}"
+        )
+        return TorqueVerdict("ambiguous", text)
     sure = "" if complete else "; other patterns of power flow were not tried"
     source = "the loads" if question.loads else question.load
     free = f"; {_some(question.open)} turn freely, but torques do not depend on their speeds" if question.open else ""
@@ -185,21 +184,8 @@ def find_torque_verdict(
     )
 
 
-def _neglected_note(neglected: Sequence[NeglectedEffect]) -> str:
-    uncounted: dict[str, list[str]] = {}
-    for each in neglected:
-        if each.counts:
-            uncounted.setdefault(each.what, []).extend(each.where)
-    if uncounted:
-        named = [f"{what} ({', '.join(where)})" for what, where in uncounted.items()]
-        return f"; not included: {', '.join(named)}"
-    return " (mean over a turn)" if neglected else ""
-
-
 def _unbalanced(question: LoadedBalance, complete: bool) -> TorqueVerdict:
-    """Return the verdict that no torques balance the load. It names the cause: declared shares, friction of bearings,
-    or friction of teeth.
-    """
+    """Return the verdict that no torques balance the load, because of declared shares, bearing friction or teeth."""
     names = question.names
     if not question.enough:
         text = "the loads balance without losses, but not with them: one more unknown torque is needed"
@@ -226,9 +212,7 @@ def _unbalanced(question: LoadedBalance, complete: bool) -> TorqueVerdict:
 
 
 def _locked_bearings(question: LoadedBalance) -> TorqueVerdict:
-    """Return the verdict that no torques balance the load, because bearing friction that is proportional to the load
-    locks the train.
-    """
+    """Return the verdict that bearing friction that is proportional to the load locks the train."""
     assert question.bearing_loads is not None
     links = ", ".join(question.bearing_loads.links)
     if question.has_friction and question.heavily_loaded():
@@ -245,10 +229,10 @@ def _locked_bearings(question: LoadedBalance) -> TorqueVerdict:
 
 def _driving_note(question: LoadedBalance, flow: FlowPattern) -> str:
     """Return a note if a load supplies power but cannot drive the train by itself; "" for other loads."""
-    if question.driving <= 0 or question.power(flow) <= 0:
+    if question.power(question.loads) <= 0 or question.power(flow.solved.external) <= 0:
         return ""
     heavy = question.heavily_loaded() if question.has_friction else ()
-    if any(question.power(each) <= 0 for each in heavy):
+    if any(question.power(each.solved.external) <= 0 for each in heavy):
         return (
             f"; the load is too small to overcome the friction of the bearings, so {question.names} must drive as well"
         )
@@ -276,22 +260,9 @@ def _indeterminate(flows: Sequence[FlowPattern], question: LoadedBalance) -> Tor
     return TorqueVerdict("indeterminate", text, loose)
 
 
-def _ambiguous(question: LoadedBalance, flows: Sequence[FlowPattern]) -> TorqueVerdict:
-    """Return the verdict for several patterns of power flow, which describes the returned pattern and mentions the
-    other patterns.
-    """
-    given, *others = (question.power(flow) for flow in flows)
-    rest = " or ".join(_describe_flow(question, power, given < 0) for power in others)
-    text = (
-        f"{len(flows)} patterns of power flow balance {question.load}: in the reported one, with minimum loss, "
-        f"{_describe_flow(question, given, False)}; in {'others' if others[1:] else 'the other'} {rest}"
-    )
-    return TorqueVerdict("ambiguous", text)
-
-
 def _describe_flow(question: LoadedBalance, power: Fraction, resisted: bool) -> str:
-    """Return a description of one pattern of power flow. `resisted` is True if power leaves at the unknown torque in
-    the returned pattern.
+    """Return a description of the power [unit of torque times unit of speed] that the unknown torques supply in one
+    pattern of power flow. `resisted` is True if power leaves at the unknown torques in the pattern with minimum loss.
     """
     if power < 0:
         return f"power {decimal(-power, 6)} leaves at {question.names}, which resists"
@@ -316,12 +287,10 @@ def find_shares(train: Train, circuits: Sequence[Circuit], loaded: Collection[st
         if gear.share is not None:
             for wheel in gear.pair:
                 by_wheel.setdefault(wheel, {})[gear.name] = gear.share.value
-    found = ((train.wheels[wheel][0], parts) for wheel, parts in by_wheel.items() if len(parts) > 1)
-    return tuple((link, parts) for link, parts in found if link in loaded or not _is_idler(link, circuits, train.frame))
-
-
-def _is_idler(link: str, circuits: Iterable[Circuit], frame: str) -> bool:
-    return link != frame and sum(link in (each.i, each.j, each.carrier) for each in circuits) == 2
+    meshing = Counter(link for each in circuits for link in {each.i, each.j, each.carrier})
+    shared = ((train.wheels[wheel][0], parts) for wheel, parts in by_wheel.items() if len(parts) > 1)
+    # an idler has two meshes and no other torque
+    return tuple(each for each in shared if each[0] in loaded or each[0] == train.frame or meshing[each[0]] != 2)
 
 
 def find_ties(
@@ -356,9 +325,7 @@ def find_ties(
 def _planet_meshes(
     circuits: Sequence[Circuit], meshes: Sequence[LoadedPair], apart: Collection[str]
 ) -> dict[str, list[tuple[str, str, _Key]]]:
-    """Return the meshes of each planet, by planet: name of the mesh, link of the mate, and a key that is the same for
-    equal planets.
-    """
+    """Return the meshes of each planet: name of the mesh, link of the mate, and a key that equal planets share."""
     found: dict[str, list[tuple[str, str, _Key]]] = {}
     for circuit, mesh in zip(circuits, meshes, strict=True):
         first, second = circuit.wheels if circuit.kind == "gear" else (circuit.i, circuit.j)
@@ -377,9 +344,7 @@ def _planet_meshes(
 def _planet_classes(
     meshing: Mapping[str, Sequence[tuple[str, str, _Key]]], known: Mapping[str, Fraction]
 ) -> dict[str, int]:
-    """Return the index of the class of equal planets to which each planet belongs, by planet. The classes are found by
-    colour refinement.
-    """
+    """Return the number of the class of equal planets to which each planet belongs, found by colour refinement."""
     classes: dict[str, int] = {}
     while True:
         keys: dict[str, _Key] = {}
@@ -445,10 +410,12 @@ def find_question(setting: LoadCase, solve_for: str | None) -> TorqueQuestion | 
         text = "no load is declared: give `loads` on links (negative against their motion) or `bearing` friction"
         return TorqueVerdict("unloaded", text)
     question = _requested(setting, loads, solve_for)
-    verdict = _without_axis(setting, (*loads, *question.links))
-    if verdict is None:
-        verdict = _at_rest(setting, question.links)
-    return question if verdict is None else verdict
+    if (verdict := _without_axis(setting, (*loads, *question.links))) is not None:
+        return verdict
+    links, speeds = question.links, setting.speeds
+    if len(links) == 1 and speeds.get(links[0]) == 0 and any(speeds[link] for link in setting.case.inputs):
+        return TorqueVerdict("still", f"'{links[0]}' does not turn, so a torque on it does no work")
+    return question
 
 
 def torques_unknown(state: str | None) -> Torques:
@@ -566,24 +533,14 @@ def _requested(setting: LoadCase, loads: Mapping[str, Fraction], solve_for: str 
 
 
 def _without_axis(setting: LoadCase, links: Iterable[str]) -> TorqueVerdict | None:
-    """Return a verdict if the speed of one of the links is a sum of joint speeds about non-parallel axes; None if it is
-    not.
-
-    Such a sum is not a rotation, so the power of a torque on the link is not unique.
+    """Return a verdict if the speed of a link is a sum of joint speeds about non-parallel axes, which is not a
+    rotation, so that the power of a torque on the link is not unique; None if all speeds are rotations.
     """
     sums = setting.axes.joint_sums
     for link in links:
         if link in sums:
             why = "the axes between it and the frame are not parallel, and its sum of joint speeds is not a rotation"
             return TorqueVerdict("undecided", f"a torque on '{link}' has no unique axis: {why}")
-    return None
-
-
-def _at_rest(setting: LoadCase, requested: tuple[str, ...]) -> TorqueVerdict | None:
-    """Return a verdict if the only requested link is at rest while the train moves; None if it is not."""
-    speeds = setting.speeds
-    if len(requested) == 1 and speeds.get(requested[0]) == 0 and any(speeds[link] for link in setting.case.inputs):
-        return TorqueVerdict("still", f"'{requested[0]}' does not turn, so a torque on it does no work")
     return None
 
 
@@ -612,7 +569,7 @@ def _balanced(setting: LoadCase, unknown: TorqueQuestion, bearings: bool = True,
     if not flows and loads is not None and find_flow_patterns(balance)[0]:
         return Torques(state, _locked_bearings(question), unknown.links)
     if not flows and balance.senses and (any_way := find_flow_patterns(replace(balance, senses={}))[0]):
-        names = _overrunning(setting, any_way[0])
+        names = _overrunning(setting, balance, any_way[0])
         text = f"{' and '.join(names)} would have to hold against the sense in which a one-way clutch can hold"
         return Torques(state, TorqueVerdict("overrunning", text, names), unknown.links)
     idle = [name for name, x in flows[0].solved.multipliers.items() if not x] if flows else []
@@ -630,21 +587,16 @@ def _balanced(setting: LoadCase, unknown: TorqueQuestion, bearings: bool = True,
     return _torques(setting, question.balance, flows[0], question.bearings, verdict, neglected)
 
 
-def _overrunning(setting: LoadCase, flow: FlowPattern) -> tuple[str, ...]:
-    """Return the one-way clutches that hold but transmit a torque in the sense in which they overrun. If there are
-    none, return the clutches whose torque is undetermined.
-    """
+def _overrunning(setting: LoadCase, balance: TorqueBalance, flow: FlowPattern) -> tuple[str, ...]:
+    """Return the holding one-way clutches whose torque would make them overrun, or else is undetermined."""
     senses = setting.case.senses
-    held = [each for each in _held(setting, flow) if each.links in senses]
+    held = [each for each in _held(setting, balance, flow) if each.links in senses]
     wrong = [each for each in held if each.torques and senses[each.links] * each.torques[-1] < 0]
     return tuple(each.clutch or "" for each in wrong or held if wrong or each.torques is None)
 
 
 def _with_reason(question: TorqueQuestion, lacking: TorqueVerdict) -> TorqueVerdict:
-    """Return one verdict that states which torque could be requested, and what prevents a balance without this torque.
-
-    The first statement is omitted if no further torque can be requested.
-    """
+    """Return the verdict `lacking`, preceded by the torques that could be requested if there are any."""
     if question.undecided is None:
         return lacking
     untried = [link for link in question.undecided.candidates if link not in question.links]
@@ -663,7 +615,9 @@ def build_balance(
     """Build the torque balance of a train with known and unknown torques; it has no losses if `means` is None."""
     case, train = setting.case, setting.train
     meshes = tuple(_mesh(setting, circuit, means[circuit.id] if means else None) for circuit in setting.circuits)
-    locks = _locks(setting)
+    locks = [(a, b) for a, b in case.locks if a != b]
+    # reactions that do not act on the frame
+    bases = {link: base for link in requested if (base := setting.reacts_on(link)) != train.frame}
     held = {*requested, *case.fixed, *(link for lock in locks for link in lock)}
     shares = find_shares(train, setting.circuits, {*held, *known})
     shared = {name for _, parts in shares for name in parts}
@@ -676,31 +630,13 @@ def build_balance(
         meshes,
         known,
         requested,
-        _brakes(setting),
+        tuple(link for link in case.fixed if link != train.frame),
         tuple(((a, setting.sense(a)), (b, setting.sense(b))) for a, b in locks),
         find_ties(setting.circuits, meshes, _acting(known, pivots), {train.frame} | held | planets),
         shares,
-        _reactions(setting, requested),
+        {link: (base, -setting.sense(link) * setting.sense(base)) for link, base in bases.items()},
         case.senses,
     )
-
-
-def _reactions(setting: LoadCase, requested: Iterable[str]) -> dict[str, tuple[str, int]]:
-    """Return, for each unknown torque whose reaction does not act on the frame, the link on which the reaction acts,
-    and the sign of the reaction to a unit torque.
-    """
-    bases = ((link, setting.reacts_on(link)) for link in requested)
-    return {
-        link: (base, -setting.sense(link) * setting.sense(base)) for link, base in bases if base != setting.train.frame
-    }
-
-
-def _brakes(setting: LoadCase) -> tuple[str, ...]:
-    return tuple(link for link in setting.case.fixed if link != setting.train.frame)
-
-
-def _locks(setting: LoadCase) -> tuple[tuple[str, str], ...]:
-    return tuple((a, b) for a, b in setting.case.locks if a != b)
 
 
 def _mesh(setting: LoadCase, circuit: Circuit, means: MeanEfficiencies | None) -> LoadedPair:
@@ -772,7 +708,7 @@ def _torques(
             for mesh, circuit in zip(balance.meshes, setting.circuits, strict=True)
         },
         bearings,
-        _held(setting, flow),
+        _held(setting, balance, flow),
         neglected,
         reactions,
         {each.name: each.slip for each in setting.case.one_way if not each.holds},
@@ -808,25 +744,19 @@ def _pair(setting: LoadCase, mesh: LoadedPair, circuit: Circuit, flow: FlowPatte
     )
 
 
-def _held(setting: LoadCase, flow: FlowPattern) -> tuple[HoldingTorque, ...]:
-    """Return the brakes and locks with their torques, each about the axis of its link.
-
-    The torque of a lock on its second link is the reaction to the torque on its first link.
-    """
-    solved = flow.solved
-    found = []
-    for link in _brakes(setting):
-        torque = solved.brakes.get(link)
-        found.append(_holding(setting, (link,), None if torque is None else (_load(setting.arms, link, torque),)))
-    for (a, b), torque in zip(_locks(setting), solved.locks, strict=True):
-        both = None
-        if torque is not None:
-            both = _load(setting.arms, a, setting.sense(a) * torque), _load(setting.arms, b, -setting.sense(b) * torque)
-        found.append(_holding(setting, (a, b), both))
-    return tuple(found)
-
-
-def _holding(setting: LoadCase, links: tuple[str, ...], torques: tuple[Fraction, ...] | None) -> HoldingTorque:
-    case = setting.case
-    cause = case.causes.get(links, links)
-    return HoldingTorque(links, torques, case.clutches.get(cause), cause if cause != links else ())
+def _held(setting: LoadCase, balance: TorqueBalance, flow: FlowPattern) -> tuple[HoldingTorque, ...]:
+    """Return the brakes and locks with their torques, each about the axis of its link."""
+    case, arms, found = setting.case, setting.arms, dict[tuple[str, ...], list[tuple[Fraction, ...] | None]]()
+    for link in balance.held:
+        torque = flow.solved.brakes.get(link)
+        found.setdefault((link,), []).append(None if torque is None else (_load(arms, link, torque),))
+    for ((a, sense), (b, other)), torque in zip(balance.locks, flow.solved.locks, strict=True):
+        # the torque on the second link is the reaction to the torque on the first
+        both = None if torque is None else (_load(arms, a, sense * torque), _load(arms, b, -other * torque))
+        found.setdefault((a, b), []).append(both)
+    causes = {links: case.causes.get(links, links) for links in found}
+    return tuple(
+        HoldingTorque(links, torques, case.clutches.get(causes[links]), causes[links] if causes[links] != links else ())
+        for links, each in found.items()
+        for torques in each
+    )

@@ -94,16 +94,6 @@ class LoadedPair:
         reactions = (-left - right,) if len(self.links) == 3 else (-left, -right)
         return tuple(sense * torque for sense, torque in zip(self.senses, (left, right, *reactions), strict=True))
 
-    def relative_signs(self, other: LoadedPair, alike: bool) -> tuple[int, int]:
-        """Return the sign of the torque on each of the two links relative to the torque of `other`, an equal pair with
-        the same unknown torque. A reversed axis of a planet changes the sign.
-
-        alike   True if both pairs have their links in the same order
-        """
-        coefficients = (other.a, other.b) if alike else (other.b, other.a)
-        first, second = (-1 if a * b < 0 else 1 for a, b in zip((self.a, self.b), coefficients, strict=True))
-        return first, second
-
     def power(self, multiplier: Fraction) -> Fraction:
         """Return the power that flows from the first link to the second relative to the carrier, before losses if the
         first link drives; see equation (4).
@@ -262,11 +252,14 @@ class TorqueBalance:
         sides = lossy[0].sides if lossy else (0,)
         # sides of the other meshes refer to the first lossy one
         blank = TorqueUnknown({}, meshes, sides, turn, bool(lossy) and lossy[0].efficiency(sides[0]) <= 0)
-        pieces = {
-            side: _row(entry for mesh in meshes for entry in self._entries(mesh, blank.side_of(mesh, side)))
-            for side in dict.fromkeys((0, *sides))
-        }
-        return TorqueUnknown(pieces, meshes, sides, turn, blank.barred)
+        pieces = {}
+        for side in dict.fromkeys((0, *sides)):
+            torques = [mesh.torques(blank.side_of(mesh, side)) for mesh in meshes]
+            entries = zip(meshes, torques, strict=True)
+            pieces[side] = _row(
+                (row, own[at] * factor) for mesh, own in entries for row, at, factor in self.places(mesh)
+            )
+        return replace(blank, pieces=pieces)
 
     def places(self, mesh: LoadedPair) -> Iterator[tuple[int, int, Fraction]]:
         """Yield the entries of a mesh's torques in the balance: index of the row, index of the link in `links`, and
@@ -274,10 +267,6 @@ class TorqueBalance:
         """
         yield from ((self._at[link], at, Fraction(1)) for at, link in enumerate(mesh.links) if link in self._at)
         yield from ((row, mesh.links.index(link), factor) for row, link, factor in self._parts.get(mesh.id, ()))
-
-    def _entries(self, mesh: LoadedPair, side: int) -> Iterator[tuple[int, Fraction]]:
-        torques = mesh.torques(side)
-        yield from ((row, torques[at] * factor) for row, at, factor in self.places(mesh))
 
 
 def _direction(entries: Sequence[tuple[int, int, Fraction]], known: Fraction) -> tuple[object, ...]:
@@ -322,15 +311,6 @@ def idle_pairs(balance: TorqueBalance) -> set[str]:
         else:
             rows.update(row for column in columns for row in column.pieces[0])
     return idle
-
-
-def without_pairs(balance: TorqueBalance, names: set[str]) -> TorqueBalance:
-    """Return the torque balance without the pairs in `names`."""
-    return replace(
-        balance,
-        meshes=tuple(mesh for mesh in balance.meshes if mesh.id not in names),
-        ties=tuple(tied for tied in balance.ties if names.isdisjoint(tied)),
-    )
 
 
 def generic_balance(balance: TorqueBalance) -> TorqueBalance:

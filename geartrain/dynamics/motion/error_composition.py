@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from math import gcd, lcm
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -159,18 +159,7 @@ class ErrorSamples(NamedTuple):
         return short_repr(self)
 
 
-class ErrorSampler(Protocol):
-    """Protocol of objects that compute transmission errors of outputs, for at most `chunk` positions in one call."""
-
-    @property
-    def chunk(self) -> int:
-        """Maximum number of positions that can be evaluated in one call."""
-
-    def at(self, turns: Floats) -> ErrorSamples:
-        """Return errors [rad] and rates [1] of the outputs at positions of the input [revolutions]."""
-
-
-def evaluate(sampler: ErrorSampler, turns: Floats) -> ErrorSamples:
+def evaluate(sampler: ErrorComposition | ErrorDifference, turns: Floats) -> ErrorSamples:
     """Return the errors [rad] and rates [1] of the outputs at any number of input positions [revolutions]. They are
     computed in chunks.
     """
@@ -183,8 +172,8 @@ def evaluate(sampler: ErrorSampler, turns: Floats) -> ErrorSamples:
 class ErrorDifference:
     """Difference of the output errors of two composed motions with the same outputs, at equal input positions."""
 
-    one: ErrorSampler
-    other: ErrorSampler
+    one: ErrorComposition
+    other: ErrorComposition
 
     @property
     def chunk(self) -> int:
@@ -279,11 +268,6 @@ class ErrorComposition:
             (joint.carrier, -source.forward * source.carrier_sense),
         )
 
-    def seen_driver(self, source: PairErrorSource) -> SeenLink:
-        """Return a source's driver and its carrier as a link and its reference link, in the same form as an output."""
-        joint = self.spread.joints[source.pair]
-        return SeenLink(joint.driver, joint.carrier, source.driver_sense * source.carrier_sense)
-
     @cached_property
     def chunk(self) -> int:
         """Maximum number of positions that can be evaluated in one call, which limits the memory for long trains."""
@@ -320,7 +304,9 @@ class ErrorComposition:
             S[row] += phase.cycles(source.cycles) * source.transmission.period + source.start
             turning[row] += source.mean
         if step.coupled:
-            error[own], rate[own], turning = solve_coupled_errors(self._coupled(step), S, turning)
+            names, transmissions = tuple(each.id for each in sources), tuple(each.transmission for each in sources)
+            pairs = CoupledErrors(names, transmissions, np.array([float(each.sense) for each in sources]), step.own)
+            error[own], rate[own], turning = solve_coupled_errors(pairs, S, turning)
         else:
             (source,) = sources
             value, tau = source.transmission.error_and_speed(S[0])
@@ -328,15 +314,6 @@ class ErrorComposition:
             rate[own] = source.sense * (tau - float(source.transmission.ratio)) * turning[0]
         yield from (
             source.id for source, speed in zip(sources, turning, strict=True) if np.min(speed) < -REST * source.mean
-        )
-
-    def _coupled(self, step: CompositionStep) -> CoupledErrors:
-        sources = [self.sources[at] for at in step.sources]
-        return CoupledErrors(
-            tuple(source.id for source in sources),
-            tuple(source.transmission for source in sources),
-            np.array([float(source.sense) for source in sources]),
-            step.own,
         )
 
 

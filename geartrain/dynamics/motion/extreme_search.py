@@ -17,7 +17,7 @@ from geartrain.dynamics.motion.error_composition import common_period, evaluate
 from geartrain.dynamics.motion.kink_positions import KinkSearch
 
 if TYPE_CHECKING:
-    from geartrain.dynamics.motion.error_composition import ErrorComposition, ErrorSampler, ErrorSamples
+    from geartrain.dynamics.motion.error_composition import ErrorComposition, ErrorDifference
     from geartrain.dynamics.motion.run_statistics import RunningStatistics
     from geartrain.numerics.arrays import Bools, Floats, Indices
 
@@ -55,7 +55,10 @@ class _Candidates(NamedTuple):
 
 
 def count_extremes(
-    compositions: Sequence[ErrorComposition], sampler: ErrorSampler, turns: float, tallies: Sequence[RunningStatistics]
+    compositions: Sequence[ErrorComposition],
+    sampler: ErrorComposition | ErrorDifference,
+    turns: float,
+    tallies: Sequence[RunningStatistics],
 ) -> frozenset[str]:
     """Include the extremes over a run from position 0 to `turns` [revolutions] in `tallies`, the statistics of the
     outputs. Return the names of the pairs whose driver turns against its mean sense of rotation at some position.
@@ -79,10 +82,9 @@ def count_extremes(
     for start, end in pieces(searches, low, high, max(1, sampler.chunk // 3)):
         found = evaluate(sampler, np.concatenate([start, (start + end) / 2, end]))
         reversing |= found.reversing_drivers
-        values = _signed(found)
+        values = np.stack([found.error, -found.error, found.rate, -found.rate], axis=1).reshape(len(maxima), 3, -1)
         # NaN marks positions where no teeth touch
-        maxima = np.fmax(maxima, np.fmax.reduce(values, axis=1))
-        values = values.reshape(len(values), 3, -1)
+        maxima = np.fmax(maxima, np.fmax.reduce(values, axis=(1, 2)))
         promise = _promise(*np.moveaxis(values, 1, 0))
         sought, piece = np.nonzero(promise > (maxima + _tolerance(maxima))[:, None])
         kept.append(_Candidates(sought, promise[sought, piece], start[piece], end[piece]))
@@ -112,15 +114,6 @@ def pieces(searches: Sequence[KinkSearch], low: float, high: float, size: int) -
         yield from ((first[at : at + size], last[at : at + size]) for at in range(0, len(first), size))
 
 
-def _signed(found: ErrorSamples) -> Floats:
-    """Return the quantities whose maxima are searched: errors, negated errors, rates and negated rates of each output.
-
-    The shape is (4 outputs, n).
-    """
-    values = np.stack([found.error, -found.error, found.rate, -found.rate], axis=1)
-    return values.reshape(-1, len(found.turns))
-
-
 def _promise(first: Floats, middle: Floats, last: Floats) -> Floats:
     """Return an estimate of the maximum in each piece from the values at both ends and in the middle. Smooth functions
     rarely exceed this estimate.
@@ -143,7 +136,7 @@ def _tolerance(maxima: Floats) -> Floats:
     return np.maximum(_SURE * ranges, _ROUNDING)
 
 
-def _locate(sampler: ErrorSampler, maxima: Floats, given: _Candidates) -> None:
+def _locate(sampler: ErrorComposition | ErrorDifference, maxima: Floats, given: _Candidates) -> None:
     """Update the maxima in place with the maxima inside the pieces of the candidates, which are found by
     subdivision.
     """

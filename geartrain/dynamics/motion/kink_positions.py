@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geartrain.dynamics.motion.error_composition import REST, ErrorComposition, InputPhase, evaluate
+from geartrain.dynamics.motion.error_composition import REST, ErrorComposition, InputPhase, SeenLink, evaluate
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.results import short_repr
 from geartrain.numerics.roots import roots_by_false_position
@@ -176,9 +176,10 @@ class KinkSearch:
         """Kinks of each pair on which an output depends, with the motion of the pair's driver."""
         found = []
         for source in self.composition.used:
+            joint = self.composition.spread.joints[source.pair]
+            seen = SeenLink(joint.driver, joint.carrier, source.driver_sense * source.carrier_sense)
             # no offsets: a pointer that is set does not turn any driver
-            drivers = replace(self.composition, outputs=(self.composition.seen_driver(source),), offsets=())
-            found.append(PairKinks(source, drivers))
+            found.append(PairKinks(source, replace(self.composition, outputs=(seen,), offsets=())))
         return tuple(found)
 
     @cached_property

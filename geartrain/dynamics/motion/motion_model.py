@@ -37,7 +37,6 @@ from geartrain.numerics.results import Key, Result, Shown, Tabular, brief, impor
 if TYPE_CHECKING:
     from numpy.random import Generator
 
-    from geartrain.dynamics.motion.error_composition import ErrorSampler
     from geartrain.dynamics.motion.error_propagation import ErrorPath, ErrorPropagation
     from geartrain.numerics.arrays import Floats
 
@@ -108,18 +107,6 @@ class TransmissionErrorCurve(Tabular, Result):
 _MAIN = 3  # outputs in a summary
 
 
-def _refuse_jumps(composition: ErrorComposition) -> None:
-    """Raise `GearTrainError` if the driver of an instantaneous step is itself moved by this step, because its position
-    is then not unique.
-    """
-    for step in composition.steps:
-        jumping = [composition.sources[at].id for at in step.sources if composition.sources[at].transmission.at_once]
-        if step.coupled and jumping:
-            what = f"the step of '{jumping[0]}' turns its own driver"
-            why = "an instantaneous step does not define the position of the driver during the step"
-            raise GearTrainError(Problem(what, why, "give `over`, or let the driver of the coupling be the input"))
-
-
 class Motion(Shown):
     """Motion of a train, including the errors of its teeth and pins, as a function of the revolutions of its input.
 
@@ -154,11 +141,7 @@ class Motion(Shown):
 
     PAGE = "report.motion_report:motion_document"
 
-    def __init__(
-        self,
-        train: MotionProblem,
-        outputs: Mapping[str, tuple[str, str]],
-    ) -> None:
+    def __init__(self, train: MotionProblem, outputs: Mapping[str, tuple[str, str]]) -> None:
         self._problem, self.outputs = train, outputs
         self._errors = PairErrors(train, {link for ends in outputs.values() for link in ends})
         self._index = self._errors.index
@@ -167,7 +150,15 @@ class Motion(Shown):
         self._without: tuple[str, ...] = ()
         self._shown = tuple(outputs)  # outputs that a plot shows
         self._ideal: Motion | None = None  # motion whose errors are subtracted
-        self._refuse_loops()
+        for loop, real in train.contradictions():
+            path = " - ".join((*loop.links, loop.links[0]))
+            raise GearTrainError(
+                Problem(
+                    f"the pairs {', '.join(loop.pairs)} form a loop, {path}, that locks with real teeth",
+                    f"its mean speeds agree, but the errors of {', '.join(real)} would have to cancel at every instant",
+                    f"omit a pair of the loop, such as `--without {loop.pairs[-1]}`",
+                )
+            )
 
     def _summary(self) -> str:
         name = "" if self._declaration is None else self._declaration.name
@@ -204,10 +195,7 @@ class Motion(Shown):
         return self._composed(1)
 
     def _with_sources(self, pairs: Collection[str]) -> ErrorComposition:
-        """Return the error composition for the declared sense of the input, with the given pairs as additional sources.
-
-        Pairs with constant ratio can thus be given other transmission functions.
-        """
+        """Return the error composition for the declared sense of the input, with the given pairs as further sources."""
         return self._composed(1, pairs)
 
     @cached_property
@@ -240,7 +228,12 @@ class Motion(Shown):
         """
         backlash, (teeth, pins) = self._errors.backlash(way), self._start
         found = ErrorComposition(self._errors.spread, tuple(self._errors.sources(way, besides)), self._seen)
-        _refuse_jumps(found)
+        for step in found.steps:
+            jumping = [found.sources[at].id for at in step.sources if found.sources[at].transmission.at_once]
+            if step.coupled and jumping:
+                what = f"the step of '{jumping[0]}' turns its own driver"
+                why = "an instantaneous step does not define the position of the driver during the step"
+                raise GearTrainError(Problem(what, why, "give `over`, or let the driver of the coupling be the input"))
         sources = tuple(
             replace(
                 each,
@@ -272,17 +265,6 @@ class Motion(Shown):
         that the output's error at position 0 is 0.
         """
         return {name: seen.difference(-self._start[0]) for name, seen in zip(self.outputs, self._seen, strict=True)}
-
-    def _refuse_loops(self) -> None:
-        for loop, real in self._problem.contradictions():
-            path = " - ".join((*loop.links, loop.links[0]))
-            raise GearTrainError(
-                Problem(
-                    f"the pairs {', '.join(loop.pairs)} form a loop, {path}, that locks with real teeth",
-                    f"its mean speeds agree, but the errors of {', '.join(real)} would have to cancel at every instant",
-                    f"omit a pair of the loop, such as `--without {loop.pairs[-1]}`",
-                )
-            )
 
     def _with_angles(self, angles: Mapping[str, float]) -> Motion:
         """Return the motion with different initial angles of some links [rad]."""
@@ -373,7 +355,7 @@ class Motion(Shown):
         """
         return self._forward if turns >= 0 else self._backward
 
-    def _sampler(self, turns: float) -> ErrorSampler:
+    def _sampler(self, turns: float) -> ErrorComposition | ErrorDifference:
         """Return the sampler of the errors of a run, which is one composition or the difference of two."""
         own = self._composition(turns)
         return own if self._ideal is None else ErrorDifference(own, self._ideal._composition(turns))

@@ -142,12 +142,13 @@ class MotionProblem:
         """Return the loops closed by redundant pairs around which the transmission errors vary, each with the names of
         the pairs that cause these errors.
         """
-        found = ((loop, [pair for pair in loop.pairs if self._ripples(pair)]) for loop in self.loops)
-        return [(loop, real) for loop, real in found if real]
-
-    def _ripples(self, pair: str) -> bool:
-        mesh = self.meshes.get(pair)
-        return any(joint.coupling.name == pair for joint in self.couplings) if mesh is None else not mesh.rigid
+        found = []
+        for loop in self.loops:
+            meshes = {pair: self.meshes.get(pair) for pair in loop.pairs}
+            real = [pair for pair, mesh in meshes.items() if (pair in self.periods if mesh is None else not mesh.rigid)]
+            if real:
+                found.append((loop, real))
+        return found
 
 
 def find_motion_problem(

@@ -10,7 +10,7 @@ modulate each other.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from math import pi
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
@@ -82,9 +82,7 @@ def find_spectrum(
 
     superposed = Superposition(motion._composition(turns))
     harmonics = [_harmonics(superposed, at) for at in range(len(superposed.sources))]
-    found = {}
-    for at, name in enumerate(motion.outputs):
-        found[name] = _expected(superposed, harmonics, at)
+    found = {name: _expected(superposed, harmonics, at) for at, name in enumerate(motion.outputs)}
     # lines of all outputs are measured in one pass through the run
     orders = sorted({line.order for lines in found.values() for line in lines})
     if not orders:
@@ -93,11 +91,8 @@ def find_spectrum(
         return {name: [] for name in found}
     measured = _measure(motion, turns, samples, orders, on_done)
     return {
-        name: [
-            SpectrumLine(line.order, line.shares, line.expected, measured[at, orders.index(line.order)])
-            for line in found[name]
-        ]
-        for at, name in enumerate(motion.outputs)
+        name: [replace(line, measured=measured[at, orders.index(line.order)]) for line in lines]
+        for at, (name, lines) in enumerate(found.items())
     }
 
 
@@ -174,10 +169,6 @@ def _measure(
 
 MOST_TURNS = 10**12
 """Maximum number of revolutions. Beyond it, positions in float64 do not resolve single teeth."""
-
-
-def _ignore(_: int) -> None:
-    pass
 
 
 @dataclass
@@ -292,7 +283,7 @@ class MotionRun(Tabular, Pictured):
             found |= {head: [row[at] for row in rows] for at, head in enumerate(heads)}
         return found
 
-    def run(self, on_done: OnDone = _ignore) -> None:
+    def run(self, on_done: OnDone = lambda _: None) -> None:
         """Evaluate the outputs at every position, and search for extremes between the positions.
 
         Parameters
@@ -317,7 +308,7 @@ class MotionRun(Tabular, Pictured):
         compositions, sampler = [each._composition(self.turns) for each in motions], self.motion._sampler(self.turns)
         self.reversing_drivers |= count_extremes(compositions, sampler, self.turns, self.statistics)
 
-    def run_random_phases(self, count: int, seed: int, on_done: OnDone = _ignore) -> None:
+    def run_random_phases(self, count: int, seed: int, on_done: OnDone = lambda _: None) -> None:
         """Repeat the run with random phases of the pairs that declare no phase.
 
         Parameters
@@ -340,7 +331,7 @@ class MotionRun(Tabular, Pictured):
             other.run(on_done)
             self.phase_statistics.append(other.statistics)
 
-    def find_spectra(self, on_done: OnDone = _ignore) -> None:
+    def find_spectra(self, on_done: OnDone = lambda _: None) -> None:
         """Compute the spectrum of every output at exact orders of the input.
 
         Parameters

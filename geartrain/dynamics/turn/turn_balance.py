@@ -410,8 +410,10 @@ class TurnBalance:
             touching = {name: row for name, row in zip(self.flanked, coasting, strict=True) if row.any()}
             state = self._state(self.motion.at(turns[left], touching), resting, static)
             state, layers, best = self._balanced(state)
-            result, found = self._position_torques(state, layers, best), self._coasting(best)
-            result = result._replace(unresolved=np.asarray(resting.any(axis=0)))
+            result = self._position_torques(state, layers, best)._replace(unresolved=np.asarray(resting.any(axis=0)))
+            # coast flanks that are loaded, shape (pairs, n)
+            pressed = best.values[[self.of_pair[name] for name in self.flanked]]
+            found = best.valid & (pressed < -FAINT * np.max(np.abs(best.values), axis=0, initial=0.0))
             if round_ == 0:
                 first = result
             changed = (found != coasting).any(axis=0)
@@ -426,17 +428,11 @@ class TurnBalance:
         order = np.argsort(np.concatenate([at for at, _ in converged]))
         return some(joined([part for _, part in converged]), order)
 
-    def _coasting(self, best: BalanceLayer) -> Bools:
-        """Return a boolean mask of the positions at which the coast flanks of each pair are loaded, shape
-        (pairs, n).
-        """
-        pressed = best.values[[self.of_pair[name] for name in self.flanked]]
-        faint = FAINT * np.max(np.abs(best.values), axis=0, initial=0.0)
-        found: Bools = best.valid & (pressed < -faint)
-        return found
-
     def _state(self, motion: LinkMotion, resting: Bools, static: bool) -> _State:
-        contacts = {name: self._contact_state(each, motion) for name, each in self.contacts.items()}
+        contacts = {}
+        for name, each in self.contacts.items():
+            turning = each.way * self._speed(motion, each.ends[0], each.bases[0])
+            contacts[name] = DriverState(motion.angles.get(name, np.zeros(0)), turning)
         forces: dict[str, dict[int, PairForce]] = {}
         for column in self.columns:
             if column.meshes:
@@ -444,10 +440,6 @@ class TurnBalance:
                 sides = (1, -1) if contact.two_sided else (1,)
                 forces[contact.name] = {side: contact.torques(side, contacts[contact.name], static) for side in sides}
         return _State(motion, contacts, forces, dict(zip(self.bearings, resting, strict=True)), static)
-
-    def _contact_state(self, contact: PairContact, motion: LinkMotion) -> DriverState:
-        turning = contact.way * self._speed(motion, contact.ends[0], contact.bases[0])
-        return DriverState(motion.angles.get(contact.name, np.zeros(0)), turning)
 
     def _speed(self, motion: LinkMotion, link: str, carrier: str) -> Floats:
         """Return the speed of a link relative to `carrier`, about the reference direction of parallel axes; it is
@@ -597,7 +589,9 @@ class TurnBalance:
         found = {}
         for first, mesh in ((column.meshes[0], mesh) for column in self.columns for mesh in column.meshes):
             alike = self.contacts[mesh.id].first == self.contacts[first.id].first
-            found[mesh.id] = alike, mesh.relative_signs(first, alike)
+            a, b = (first.a, first.b) if alike else (first.b, first.a)
+            # a reversed axis of a planet changes the sign
+            found[mesh.id] = alike, (-1 if mesh.a * a < 0 else 1, -1 if mesh.b * b < 0 else 1)
         return found
 
     def _for_planet(self, name: str, force: PairForce) -> tuple[Floats, Floats]:

@@ -74,19 +74,6 @@ class RunCells:
         found: Floats = ((self.high - self.low)[:, None] * _BOOLE).ravel()
         return found
 
-    def roughness(self, values: Floats) -> Floats:
-        """Return the estimated error of Simpson's rule on the halves of each cell, shape (cells,).
-
-        values   integrand at the positions of the cells
-        """
-        found: Floats = np.abs(values.reshape(-1, NODES) @ _HALVED) * (self.high - self.low)
-        return found
-
-    @property
-    def middles(self) -> Floats:
-        """Middle position of each cell [revolutions]."""
-        return np.asarray((self.low + self.high) / 2)
-
     def divided(self, cell: Indices, at: Floats) -> RunCells:
         """Return the parts that result from dividing cells at the positions `at` [revolutions].
 
@@ -221,18 +208,16 @@ class TurnRun:
         if depth < _ROUNDS:
             signs = self.signs(found, scales)
             kinks, places = find_kinks(lambda turns: self.signs(self.train.at(turns), scales), cells, signs)
-        coarse = self._coarse(cells, found, total)
+        # estimated error of Simpson's rule on the halves of each cell, for input power and losses
+        width = cells.high - cells.low
+        integrands = np.stack([found.powers[: len(self.train.requested)].sum(axis=0), found.losses.sum(axis=0)])
+        rough = np.abs(np.nan_to_num(integrands).reshape(2, -1, NODES) @ _HALVED).max(axis=0) * width
+        coarse = rough > total * (_ACCURACY * width / self.span + _ROUNDING)
         # a cell with a kink is divided there first
         coarse[kinks] = False
         wide = np.flatnonzero(coarse)
-        return np.concatenate([kinks, wide]), np.concatenate([places, cells.middles[wide]])
-
-    def _coarse(self, cells: RunCells, found: PositionTorques, total: float) -> Bools:
-        """Return a boolean mask of the cells that are too wide for accurate integrals of input power or losses."""
-        integrands = found.powers[: len(self.train.requested)].sum(axis=0), found.losses.sum(axis=0)
-        rough = np.max([cells.roughness(np.nan_to_num(each)) for each in integrands], axis=0)
-        found_coarse: Bools = rough > total * (_ACCURACY * (cells.high - cells.low) / self.span + _ROUNDING)
-        return found_coarse
+        middles = (cells.low[wide] + cells.high[wide]) / 2
+        return np.concatenate([kinks, wide]), np.concatenate([places, middles])
 
     @property
     def cells(self) -> RunCells:

@@ -17,7 +17,7 @@ from geartrain.errors import GearTrainError, Problem
 from geartrain.numerics.containers import ItemwiseMapping
 from geartrain.teeth.gear_mesh import GearMesh
 from geartrain.teeth.meshing_wheels import MeshingWheels, PairSize
-from geartrain.train import GearPair, Train, Wheel
+from geartrain.train import GearPair, Train
 
 if TYPE_CHECKING:
     from geartrain.kinematics.buildability.pitch_distances import PairOutline
@@ -102,44 +102,27 @@ def all_meshes(meshes: Mapping[str, GearMesh]) -> tuple[GearMesh, ...]:
 
 def _meshing_wheels(train: Train, gear: GearPair, place: str) -> MeshingWheels:
     """Return the wheels of a pair with the data that tooth forms require."""
-    first, second = (train.wheels[name][1] for name in gear.pair)
+    first, second = wheels = [train.wheels[name][1] for name in gear.pair]
     friction = train.friction_of(gear)
-    return MeshingWheels(
-        gear,
-        place,
-        (first.count or 0, second.count or 0),
-        (_kind(first), _kind(second)),
-        (first.internal, second.internal),
-        None if friction is None else friction.sliding,
-        _pitch_distance(first, second),
-        None if friction is None else friction.law,
-        helix=(first.helix, second.helix),
-        width=_width(train, first, second),
-    )
-
-
-def _kind(wheel: Wheel) -> str:
-    """Return the kind of a wheel; for spur wheels with a helix angle, the kind is "helical"."""
-    return "helical" if wheel.is_helical else wheel.kind
-
-
-def _width(train: Train, *wheels: Wheel) -> float | None:
-    """Return the minimum face width of the given wheels [m]; None unless all widths are declared."""
-    declared = [wheel.thickness or train.thickness for wheel in wheels]
-    given = [width.si for width in declared if width is not None]
-    return min(given) if len(given) == len(wheels) else None
-
-
-def _pitch_distance(*wheels: Wheel) -> float | None:
-    """Return the sum of the pitch radii of the given wheels [m]; None unless all of them declare a module with
-    a unit.
-    """
-    halves = [
+    kinds = ["helical" if wheel.is_helical else wheel.kind for wheel in wheels]
+    widths = [width.si for wheel in wheels if (width := wheel.thickness or train.thickness) is not None]
+    radii = [
         wheel.transverse_module * wheel.count / 2
         for wheel in wheels
         if wheel.transverse_module is not None and wheel.count is not None
     ]
-    return sum(halves) if len(halves) == len(wheels) else None
+    return MeshingWheels(
+        gear,
+        place,
+        (first.count or 0, second.count or 0),
+        (kinds[0], kinds[1]),
+        (first.internal, second.internal),
+        None if friction is None else friction.sliding,
+        sum(radii) if len(radii) == 2 else None,
+        None if friction is None else friction.law,
+        helix=(first.helix, second.helix),
+        width=min(widths) if len(widths) == 2 else None,
+    )
 
 
 def find_couplings(train: Train, couplings: Iterable[Coupling]) -> tuple[CouplingMesh, ...]:

@@ -142,14 +142,6 @@ class ContactLoad:
         """Tangential force at the pitch line [N]."""
         return self.torque / (self.path.pitch.R1 * self.module)
 
-    def tooth_pairs(self, X: float) -> list[float]:
-        """Return the positions of all tooth pairs in contact while one of them is at X [module]."""
-        p, (approach, recess) = self.path.pitch.p, self.path.arcs
-        # rounding must not lose a pair at the ends of the path
-        slack = 1e-9 * p
-        first, last = ceil((-approach - X - slack) / p), floor((recess - X + slack) / p)
-        return [X + k * p for k in range(first, last + 1)] or [X]
-
     def forces(self, X: Floats) -> tuple[Floats, Floats]:
         """Return the force of one tooth pair at each position X [N], and the number of tooth pairs that share the
         torque.
@@ -158,13 +150,17 @@ class ContactLoad:
         """
         if self.base_helix:
             return self.tangential / self.path.at(X).cos_psi / self.lines, np.full(X.shape, self.lines)
-        cosines, counts = [], []
-        for each in X.tolist():
-            found = self.path.at(np.clip(self.tooth_pairs(each), -self.path.arcs[0], self.path.arcs[1])).cos_psi
-            # equal forces: the torque divides by the sum of the cosines of all pairs in contact
-            cosines.append(float(found.sum()))
-            counts.append(len(found))
-        return self.tangential / np.array(cosines), np.array(counts)
+        p, (approach, recess) = self.path.pitch.p, self.path.arcs
+        most = ceil((approach + recess) / p)
+        # one row for each tooth pair that may be in contact while another one is at X
+        pairs = X + p * np.arange(-most, most + 1)[:, None]
+        # rounding must not lose a pair at the ends of the path
+        touching = (pairs >= -approach - 1e-9 * p) & (pairs <= recess + 1e-9 * p)
+        touching[most] = True
+        cosines = np.zeros(pairs.shape)
+        cosines[touching] = self.path.at(np.clip(pairs[touching], -approach, recess)).cos_psi
+        # equal forces: the torque divides by the sum of the cosines of all pairs in contact
+        return self.tangential / cosines.sum(axis=0), touching.sum(axis=0)
 
     def pressures(self, X: Floats) -> tuple[Floats, Floats, Floats]:
         """Return pressure [MPa], force [N] and number of tooth pairs in contact at positions X along the path [module].

@@ -254,21 +254,15 @@ class PairUnderLoad:
         path = load.path
         low, high = load.single()
         outer = high if own.gear == 1 else low
-        worst = 0.0
-        for X in sorted({*np.linspace(-path.arcs[0], path.arcs[1], _POSITIONS).tolist(), outer}):
-            # the boundary of single contact is evaluated on the side where one tooth pair carries the whole load
-            inside = min(max(X, low + 1e-7), high - 1e-7) if abs(X - outer) < 1e-9 else X
-            worst = max(worst, self._stress_at(own, load, inside))
-        return tip, worst
-
-    def _stress_at(self, own: WheelUnderLoad, load: ContactLoad, X: float) -> float:
-        place = np.array([X])
-        # one position of contact at a time
-        force = float(load.forces(place)[0][0])
-        (radius,), _ = load.path.pitch.polar(own.gear, load.path.flank(own.gear, place))
-        arm = abs(load.path.pitch.axle_of(own.gear)) * float(load.path.at(place).cos_psi[0])
-        section = own.side.weakest_section(own.side.load_at(float(radius), arm))
-        return section.stress(force * arm * self.module, self.width, self.module)
+        X = np.append(np.linspace(-path.arcs[0], path.arcs[1], _POSITIONS), outer)
+        # the boundary of single contact is evaluated on the side where one tooth pair carries the whole load
+        X = np.where(np.abs(X - outer) < 1e-9, np.clip(X, low + 1e-7, high - 1e-7), X)
+        force, _ = load.forces(X)
+        radii, _ = path.pitch.polar(own.gear, path.flank(own.gear, X))
+        arms = abs(path.pitch.axle_of(own.gear)) * path.at(X).cos_psi
+        torques = force * arms * self.module
+        stresses = own.side.bending_factors(radii, arms) * torques / (self.width * self.module**2)
+        return tip, float(stresses.max())
 
     # ------------------------------------------------------------------------------------------------- ISO and wear
 

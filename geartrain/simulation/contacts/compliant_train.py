@@ -30,7 +30,6 @@ if TYPE_CHECKING:
     from geartrain.kinematics.circuits import Circuit
     from geartrain.numerics.arrays import Floats
     from geartrain.numerics.quantity import Quantity
-    from geartrain.simulation.contacts.contact_model import ContactPair
     from geartrain.teeth.coupling import Coupling
     from geartrain.train import GearPair
 
@@ -89,45 +88,37 @@ class CompliantTrain(TrainModel):
             )
             fix = "declare the stiffness of pairs or the train, such as `stiffness: 20 N m/rad` (pins: only N m/rad)"
             raise QuestionError(Problem(what, why, fix))
-        stiffness, damping = np.zeros(len(self.model.pairs)), np.zeros(len(self.model.pairs))
-        for at, pair in enumerate(self.model.pairs):
-            own = self.compliances[pair.name]
-            stiffness[at] = own.stiffness
-            # damping that is not declared follows from the damping ratio: c = 2 zeta sqrt(k m)
-            damping[at] = (
-                2 * own.ratio * sqrt(own.stiffness * self._inertia(self._row(pair)))
-                if own.damping is None
-                else own.damping
-            )
-        return ToothCompliance(stiffness, damping)
+        own = [self.compliances[pair.name] for pair in self.model.pairs]
+        # damping that is not declared follows from the damping ratio: c = 2 zeta sqrt(k m)
+        damping = [
+            2 * each.ratio * sqrt(each.stiffness * inertia) if each.damping is None else each.damping
+            for each, inertia in zip(own, self._inertias, strict=True)
+        ]
+        return ToothCompliance(np.array([each.stiffness for each in own]), np.array(damping))
 
     @cached_property
     def free(self) -> list[int]:
         """Indices of the coordinates whose speed is not prescribed."""
         return [at for at in range(len(self.coordinates)) if at not in self.model.given]
 
-    def _row(self, pair: ContactPair) -> Floats:
-        """Return the coefficients by which the opening speed of a pair depends on the coordinate speeds, at its mean
-        speed ratio.
-        """
-        return pair.opening_row(len(self.coordinates), pair.front.slope)
+    @cached_property
+    def _rows(self) -> list[Floats]:
+        """Coefficients of the opening speed of each pair in the coordinate speeds, at the mean speed ratio."""
+        return [pair.opening_row(len(self.coordinates), pair.front.slope) for pair in self.model.pairs]
 
-    def _inertia(self, row: Floats) -> float:
-        """Return the effective inertia of a pair [kg m2], 1/(r M^-1 r^T), where r is the row returned by `_row` and M
-        is the mass matrix.
-
-        The result is 0 if all speeds in the row are prescribed.
+    @cached_property
+    def _inertias(self) -> list[float]:
+        """Effective inertia 1/(r M^-1 r^T) of each pair [kg m2], with its row r and the mass matrix M; 0 if all speeds
+        in the row are prescribed.
         """
-        free = row[self.free]
-        ease = float(free @ np.linalg.solve(self.mass[np.ix_(self.free, self.free)], free)) if free.any() else 0.0
-        return 1 / ease if ease else 0.0
+        rows, mass = (row[self.free] for row in self._rows), self.mass[np.ix_(self.free, self.free)]
+        return [1 / float(row @ np.linalg.solve(mass, row)) if row.any() else 0.0 for row in rows]
 
     @cached_property
     def matrices(self) -> tuple[Floats, Floats, Floats]:
         """Mass matrix [kg m2], damping matrix [N m s/rad] and stiffness matrix [N m/rad] of the free coordinates."""
         stiffness, damping = np.zeros_like(self.mass), np.array(self.model.viscous)
-        for pair, k, c in zip(self.model.pairs, *self.yields, strict=True):
-            row = self._row(pair)
+        for row, k, c in zip(self._rows, *self.yields, strict=True):
             stiffness += k * np.outer(row, row)
             damping += c * np.outer(row, row)
         for spring in self.model.springs:
@@ -163,12 +154,9 @@ class CompliantTrain(TrainModel):
 
         It is the larger of the frequency of the fastest mode and half the decay rate of the most damped pair.
         """
-        rates = [0.0]
-        for pair, c in zip(self.model.pairs, self.yields.damping, strict=True):
-            inertia = self._inertia(self._row(pair))
-            # a strongly damped pair decays at the rate c/m
-            rates.append(float(c) / inertia / 2 if inertia else 0.0)
-        return max(float(np.sqrt(self.vibration[0][-1])), *rates)
+        # a strongly damped pair decays at the rate c/m
+        rates = [float(c) / m / 2 for c, m in zip(self.yields.damping, self._inertias, strict=True) if m]
+        return max([float(np.sqrt(self.vibration[0][-1])), *rates])
 
     # ----------------------------------------------------------------------------------- stiffness and damping of pairs
 
@@ -222,9 +210,7 @@ class CompliantTrain(TrainModel):
         wheel = first if driver is not None and driver.wheel == second else second
         mesh = self._meshes.get(gear.name)
         own = self.train.wheels[wheel][1]
-        module = mesh.wheels.module if mesh is not None else None
-        if module is None:
-            module = own.transverse_module
+        module = (None if mesh is None else mesh.wheels.module) or own.transverse_module
         if module is None or own.count is None:
             return None
         radius = module * own.count / 2
@@ -233,15 +219,17 @@ class CompliantTrain(TrainModel):
         return radius
 
     def _estimate(self, gear: GearPair) -> tuple[float, str] | None:
-        """Return the estimated stiffness of involute teeth of known width and metal [N m/rad], and a note on the
-        method, or None for other teeth.
-        """
+        """Return the estimated stiffness of involute teeth [N m/rad] and a note on its method; None for other teeth."""
         mesh, arm = self._meshes.get(gear.name), self._arm(gear)
         if mesh is None or arm is None or not isinstance(mesh.tooth_form, Involute):
             return None
         wheels = [self.train.wheels[name][1] for name in gear.pair]
         widths = [each.thickness or self.train.thickness for each in wheels]
-        moduli = [_youngs_modulus(each.density or self.train.density) for each in wheels]
+        densities = [each.density or self.train.density for each in wheels]
+        moduli = [
+            None if rho is None else next((E for low, high, E in _DENSITIES if low <= rho.si <= high), None)
+            for rho in densities
+        ]
         if None in widths or None in moduli:
             return None
         # the narrower wheel limits the width of contact
@@ -304,12 +292,3 @@ def damping_ratio(restitution: float) -> float:
     wanted = max(restitution, _MINIMUM)
     # the root is bracketed: at a ratio of 10 the coefficient is 0.002, below the minimum
     return float(brentq(lambda ratio: restitution_at(ratio) - wanted, 0.0, 10.0, xtol=1e-14)) if wanted < 1 else 0.0
-
-
-def _youngs_modulus(density: Quantity | None) -> float | None:
-    """Return Young's modulus of the metal with the given density [N/m2], or None if the density is outside the known
-    ranges.
-    """
-    if density is None:
-        return None
-    return next((modulus for low, high, modulus in _DENSITIES if low <= density.si <= high), None)

@@ -152,7 +152,7 @@ class ContactModel:
     springs: Sequence[Spring] = ()
     loaded: LoadedBearings | None = None
     """Forces on the bearings whose friction depends on these forces; None if there are no such bearings."""
-    start: Floats | None = field(default=None)
+    start: Floats | None = None
 
     @property
     def fall_times(self) -> list[float]:
@@ -181,9 +181,7 @@ class ContactModel:
 
     @cached_property
     def _functions(self) -> tuple[list[TabledFunction], list[list[int]], list[list[int]]]:
-        """Distinct tabulated functions, and for each pair the indices of its transmission functions and of its friction
-        functions.
-        """
+        """Distinct tabulated functions, and indices of the transmission and of the friction functions of each pair."""
         # functions shared by several pairs are tabulated once, by identity
         known: dict[int, int] = {}
         functions: list[TabledFunction] = []

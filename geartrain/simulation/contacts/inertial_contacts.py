@@ -63,9 +63,7 @@ class CarriedTorques(NamedTuple):
 
 
 class _State(NamedTuple):
-    """Speeds and accelerations of all links at n positions for an input speed of 1 rad/s, and the coupling between the
-    pairs.
-    """
+    """Motion of all links at n positions for an input speed of 1 rad/s, and the coupling between pair errors."""
 
     speed: Floats
     acceleration: Floats
@@ -102,9 +100,7 @@ class InertialContacts:
 
     @cached_property
     def _response(self) -> Floats:
-        """Response matrix R: angle of each link per unit transmission error of each pair [rad/rad], shape (links,
-        pairs).
-        """
+        """Matrix R of angles of links per unit transmission error of each pair [rad/rad], shape (links, pairs)."""
         return self.motion._propagation.response
 
     def _inverse(self, slope: Floats) -> Floats:
@@ -206,9 +202,7 @@ class InertialContacts:
             yield self._senses[:, None] * np.einsum("nji,jn->in", state.inverse, self._response.T @ force)
 
     def _without_crank_power(self, requested: Floats, speed: Floats) -> Floats:
-        """Return the torques on the links minus the driving torque of the crank, such that the total virtual power is
-        0.
-        """
+        """Return the torques on the links minus the crank's driving torque, so that the virtual power is 0."""
         # a prescribed input absorbs any torque, so no correction is needed
         if self.acting.crank is None:
             return requested
@@ -327,9 +321,7 @@ def find_inertial_loads(
 
 
 def _is_cranked(train: Train, case: StateCase) -> bool:
-    """Return True if a crank that is not the only input drives the train, and no constant driving torque is
-    declared.
-    """
+    """Return True if a crank drives the train that is neither its only input nor driven by a declared torque."""
     steady = case.drive is not None and case.drive.steady_torque is not None
     return train.crank is not None and train.crank not in case.inputs and len(case.inputs) == 1 and not steady
 

@@ -134,9 +134,7 @@ class _Bodies:
         return replace(own, value=own.value + carried, carried=carried, missing=tuple(missing))
 
     def _sliding(self, link: str) -> LinkInertia:
-        """Return the moment of inertia that is equivalent to the mass of a sliding link and of the links that it
-        carries.
-        """
+        """Return the inertia that is equivalent to the mass of a sliding link and of the links that it carries."""
         tree, line = self.train.tree, self.train.tree.lines[link]
         masses = {each: self._mass(each) for each in self.declared.links if tree.moving(each, line) == link}
         missing = tuple(f"the mass of '{each}' is not known" for each, mass in masses.items() if mass is None)

@@ -44,9 +44,7 @@ def tooth_arms(mesh: GearMesh) -> Arms | None:
 
 
 def _flank_arms(mesh: GearMesh, transmission: TransmissionFunction) -> tuple[TabledFunction, TabledFunction] | None:
-    """Return the friction terms of one flank for its driving sense and for the opposite sense, or None if there is no
-    friction.
-    """
+    """Return the friction terms of one flank for its driving and its opposite sense; None without friction."""
     if not mesh.computes_losses or not mesh.has_friction:
         return None
     losses = mesh.losses

@@ -147,9 +147,7 @@ def _refuse_rate_beyond_beats(train: Train, problem: MotionProblem, drive: Power
 def _declared_rate(
     train: Train, case: StateCase, problem: MotionProblem, passed: Fraction | None, scale: float | None
 ) -> float:
-    """Return the speed of the driving link [rad/s]. It follows from the declared rate or, if there is none, from the
-    escapement, the hand, or `scale`.
-    """
+    """Return the speed of the driving link [rad/s] from the declared rate, the escapement, the hand, or `scale`."""
     unit = radians_per_second(train, case)
     if unit is not None:
         return unit * float(problem.speeds[problem.driving_link])

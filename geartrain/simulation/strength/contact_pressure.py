@@ -347,9 +347,7 @@ class CrossedWheels:
         return asin(min(size(cross(first, second)), 1.0))
 
     def _bounds(self, at: int) -> dict[str, float]:
-        """Return the possible limits of the path of contact from the pitch point towards the tip of one wheel [mm],
-        keyed by their cause.
-        """
+        """Return the limits of the path from the pitch point to the tip of one wheel [mm], keyed by their cause."""
         alpha, lean = self.pressure_angle, self.helix[at]
         tip = self.radii[at] + self.addenda[at] * self.module
         # (r + s sin a)^2 + (s cos a cos b)^2 = tip^2

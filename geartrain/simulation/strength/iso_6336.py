@@ -365,7 +365,8 @@ class ToothSide:
         """Return the maximum bending stress of the tooth divided by torque/(width module^2) [1], for each of several
         forces that act at the radii `radii`, along lines at the distances `arms` from the axis [module].
         """
-        return self._section_factors(self._lines_of_action(radii, arms)[0]).max(axis=1)
+        apexes, _ = self._lines_of_action(radii, arms)
+        return np.asarray(self._section_factors(apexes).max(axis=1))
 
     def load_at_tip(self) -> ToothLoad:
         """Return the load on a tooth due to a force at the end of the flank, normal to its last chord. It is used for

@@ -134,9 +134,7 @@ class ToothForces:
         return self.setting.train.wheels[circuit.wheels[at]][1]
 
     def _radius(self, circuit: Circuit, at: int) -> float:
-        """Return the pitch radius of a wheel [mm]: half the normal module times the tooth number, divided by the cosine
-        of the helix angle.
-        """
+        """Return the pitch radius of a wheel [mm] from its normal module, tooth number and helix angle."""
         wheel = self._wheel(circuit, at)
         normal = self.modules[circuit.wheels[at]] / wheel.slant
         return _MM * normal * (wheel.count or 0) / 2 / cos(wheel.helix)
@@ -147,9 +145,7 @@ class ToothForces:
         return NORMAL_ANGLE if form is None or form.rack_angle is None else form.rack_angle
 
     def _rolling_radius(self, circuit: Circuit, at: int) -> float:
-        """Return the operating pitch radius of a wheel [mm], which differs from the pitch radius for involutes with
-        profile shift.
-        """
+        """Return the operating pitch radius of a wheel [mm], which a profile shift of involutes changes."""
         radius, mesh = self._radius(circuit, at), self.meshes.get(circuit.id)
         if mesh is None:
             return radius
@@ -169,9 +165,7 @@ class ToothForces:
         return push, 0.0 - push * lean, None if apart is None else outwards * abs(push) * apart
 
     def _skew(self, circuit: Circuit, at: int, load: float, drives: bool) -> tuple[float, WheelParts]:
-        """Return the radius of a wheel on crossed axes [mm] and the forces on it, including friction along the teeth
-        [N].
-        """
+        """Return the radius of a wheel on crossed axes [mm], and the forces on it with friction along its teeth [N]."""
         helix = self.setting.helix_angles(circuit) or (0.0, 0.0)
         friction = self.setting.train.friction_of(self.setting.gears[circuit.id])
         angle, radius = self._angle(circuit), self._radius(circuit, at)
@@ -181,9 +175,7 @@ class ToothForces:
         return radius, helical_force(load / radius, helix[at], angle, sense * friction_angle(sliding, angle))
 
     def _middle(self, circuit: Circuit, at: int, crossing: float) -> ConeMiddle:
-        """Return the pitch cones of a bevel pair at the middle of its teeth, or at the outer pitch circle if the width
-        is not known.
-        """
+        """Return the pitch cones of a bevel pair at mid-width, or at the outer circle if the width is unknown."""
         own, mate = self._wheel(circuit, at), self._wheel(circuit, 1 - at)
         widths = [_MM * width.si for each in (own, mate) if (width := face_width(self.setting.train, each)) is not None]
         # angles of the pitch cones depend only on the tooth numbers and the shaft angle

@@ -237,9 +237,7 @@ class StrengthQuestion:
         )
 
     def _all_neglected(self) -> tuple[NeglectedEffect, ...]:
-        """Return the neglected effects: omitted pairs in the order of the declaration, then arbors, then torque
-        variations.
-        """
+        """Return the neglected effects: pairs in declared order, then arbors, then torque variations."""
         swinging = [each for each in self.torques.neglected if each.what == "variation within a turn"]
         if self.over is None:
             why = "stresses follow from mean torques; `--peak-turns` uses the maximum over some turns"
@@ -354,9 +352,7 @@ class StrengthQuestion:
         return PairUnderLoad(mesh, (found[0], found[1]), middle, width, self.wear, spurs, swing, notes)
 
     def _teeth_in(self, mesh: GearMesh, name: str) -> CutTooth | WheelTeeth | None:
-        """Return the teeth of a wheel cut for all its mates, or only for the mate in this pair if another pair of the
-        wheel has faults.
-        """
+        """Return the teeth of a wheel cut for all its mates, or only for this pair if other pairs have faults."""
         if (cut := self.teeth.get(name)) is not None or not self._pair_with_faults(mesh, name):
             return cut
         try:
@@ -365,9 +361,7 @@ class StrengthQuestion:
             return None
 
     def _pair_with_faults(self, mesh: GearMesh, name: str) -> str | None:
-        """Return the name of another pair of a wheel whose faults prevent the wheel from being cut for all mates, or
-        None if there is none.
-        """
+        """Return the name of another pair with faults in which a wheel cannot be cut; None if there is none."""
         # only a wheel that could not be cut has an unusable outline
         others = (each for each in self.meshes if each is not mesh and name in each.gears and name not in self.teeth)
         return next((other.name for other in others if other.faults), None)
@@ -419,9 +413,7 @@ class StrengthQuestion:
         return wheel.material or self.declared.material or ""
 
     def _turns(self, torque: PairTorque, at: int) -> float | None:
-        """Return the number of revolutions of one wheel relative to the carrier during the service life, or None if it
-        is unknown.
-        """
+        """Return the revolutions of one wheel relative to the carrier during the service life; None if unknown."""
         if self.scale is None:
             return None
         relative = self.setting.relative(torque.links[at], torque.links[2])

@@ -123,17 +123,18 @@ def simulate(
         return done
 
     skipped = go(skip, False)
-    start, before = _kinetic(system, state), state.angle.copy()
-    pressed = _stored(system, model.transmissions, state, yields)
+    before = state.angle.copy()
+    start, pressed = _energies(system, model.transmissions, state, yields)
     ends = [*range(0, plan.steps, plan.block or plan.steps or 1), plan.steps]
     marks, counted = [_mark(record, state)], 0
-    for begin, end in pairwise(ends if skipped == skip else ()):
-        counted += (done := go(end - begin, True))
+    for first, last in pairwise(ends if skipped == skip else ()):
+        counted += (done := go(last - first, True))
         marks.append(_mark(record, state))
-        if done < end - begin:
+        if done < last - first:
             break
+    end, elastic = _energies(system, model.transmissions, state, yields)
     # energy still stored in teeth is not dissipated
-    pressed = _stored(system, model.transmissions, state, yields) - pressed
+    pressed = elastic - pressed
     record.energy[STEP] -= pressed
     kept = min(int(record.numbers[IMPACTS]), _ROOM)
     done = int(record.numbers[SAMPLES])
@@ -148,7 +149,7 @@ def simulate(
         record.impacts[:kept],
         tuple(int(each) for each in record.numbers),
         start,
-        _kinetic(system, state),
+        end,
         state.angle - before,
         pressed,
         None if yields is None else teeth.peak,
@@ -260,14 +261,12 @@ def compliant_teeth(pairs: int, yields: ToothCompliance | None) -> CompliantTeet
     return CompliantTeeth(stiffness, damping, np.zeros(pairs), np.full(pairs, -1, dtype=np.int64))
 
 
-def _stored(
+def _energies(
     system: ContactSystem, transmissions: PairTables, state: ContactState, yields: ToothCompliance | None
-) -> float:
-    """Return the elastic energy stored in compliant teeth [J]."""
-    if yields is None:
-        return 0.0
-    found = 0.0
-    for m, stiffness in enumerate(yields.stiffness):
+) -> tuple[float, float]:
+    """Return the kinetic energy of a train and the elastic energy stored in its compliant teeth [J]."""
+    elastic = 0.0
+    for m, stiffness in enumerate(() if yields is None else yields.stiffness):
         row = slice(system.pair_at[m], system.pair_at[m + 1])
         angle = state.angle[system.pair_of[row]]
         S = float(system.start_driver[m] + system.pair_driver[row] @ angle)
@@ -281,9 +280,5 @@ def _stored(
         pressed = (
             gaps[:1] if system.two_sided[m] else [min(gap, 0.0) * on for gap, on in zip(gaps, touches, strict=True)]
         )
-        found += float(stiffness) / 2 * sum(gap**2 for gap in pressed)
-    return found
-
-
-def _kinetic(system: ContactSystem, state: ContactState) -> float:
-    return float(state.speed @ system.mass @ state.speed / 2)
+        elastic += float(stiffness) / 2 * sum(gap**2 for gap in pressed)
+    return float(state.speed @ system.mass @ state.speed / 2), elastic

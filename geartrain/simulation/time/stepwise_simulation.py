@@ -304,9 +304,7 @@ class Simulation(Shown):
         return 1
 
     def _run_steps(self, record: RunRecord, steps: int, stride: int) -> None:
-        """Advance the simulation by `steps` steps. A single sample, which is never completed, accumulates all
-        impulses.
-        """
+        """Advance by `steps` steps, whose impulses are added up in one sample, which is never completed."""
         ahead = max(steps, 1) * self.step + float(self._state.clock[0])
         # a stride beyond the steps keeps the sample open
         rules = step_rules(self._model, self._state, StepPlan(self.step, 0, steps, stride + 1), ahead)

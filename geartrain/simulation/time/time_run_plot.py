@@ -74,15 +74,11 @@ def time_run_figure(run: TimeRun, title: str = "") -> Figure:
         panel.tick_params(labelbottom=False)
     if panels:
         _name(panels[-1], _across_text(run))
-        _key(panels[0], bool(pairs))
+        panels[0].scatter([], [], s=24, c=RED, marker="^", label="impact")
+        if pairs:
+            panels[0].fill_between([], [], [], color=PALE, alpha=0.6, label="coast flank")
+        legend_above(panels[0], 2)
     return headed(figure, title)
-
-
-def _key(panel: Axes, gaps: bool) -> None:
-    panel.scatter([], [], s=24, c=RED, marker="^", label="impact")
-    if gaps:
-        panel.fill_between([], [], [], color=PALE, alpha=0.6, label="coast flank")
-    legend_above(panel, 2)
 
 
 def _across(run: TimeRun) -> Floats:
@@ -95,9 +91,7 @@ def _across_text(run: TimeRun) -> str:
 
 
 def _loose(run: TimeRun) -> list[str]:
-    """Return the names of at most `_PAIRS` pairs with backlash that are out of contact for the longest times, in the
-    order of the train.
-    """
+    """Return the names of at most `_PAIRS` pairs with backlash that are longest out of contact, in declared order."""
     names = [
         name
         for row, name in enumerate(run.gaps.labels[0])
@@ -168,19 +162,9 @@ def _impacts(panel: Axes, run: TimeRun, contact: str, stretch: slice) -> None:
     near = (at >= across[stretch.start]) & (at <= across[stretch.stop - 1]) & (energy > 0)
     if near.any():
         # matplotlib's size is an area, so the area of a marker grows with the energy
-        size = 4 + 36 * energy[near] / energy.max()
+        size, y = 4 + 36 * energy[near] / energy.max(), np.full(near.sum(), 0.05)
         foot = panel.get_xaxis_transform()
-        panel.scatter(
-            at[near],
-            np.full(near.sum(), 0.05),
-            s=size,
-            c=RED,
-            marker="^",
-            transform=foot,
-            linewidths=0,
-            zorder=4,
-            clip_on=False,
-        )
+        panel.scatter(at[near], y, s=size, c=RED, marker="^", transform=foot, linewidths=0, zorder=4, clip_on=False)
 
 
 def _ahead(panel: Axes, run: TimeRun, moving: list[str]) -> None:
@@ -211,28 +195,20 @@ def _spectrum(panel: Axes, run: TimeRun, moving: list[str]) -> None:
         panel.set_ylim(_DEEPEST * top, 60 * top)
         panel.set_xscale("log")
         panel.xaxis.set_major_formatter(lambda at, _: f"{at:g}")
-        panel.set_xlim(max(float(drawn[-1][0, 0]), abs(run.rate) / tau / 2), float(drawn[-1][0, -1]))
-        _minor_numbers(panel)
+        low, high = max(float(drawn[-1][0, 0]), abs(run.rate) / tau / 2), float(drawn[-1][0, -1])
+        panel.set_xlim(low, high)
+        # an axis of few decades needs labels between the powers of ten, such as 20, 30 and 50
+        few = high < _DECADES * low
+        panel.xaxis.set_minor_formatter(lambda at, _: f"{at:g}" if few and f"{at:e}"[0] in "235" else "")
         for at, amplitude, source in _named(run.spectra[moving[0]]):
             over = max(float(size[abs(heard / at - 1) < _CLEAR - 1].max(initial=0.0)) for heard, size in drawn)
-            if panel.get_xlim()[0] < at < panel.get_xlim()[1] and amplitude > _DEEPEST * top:
+            if low < at < high and amplitude > _DEEPEST * top:
                 write(panel, at, 1.4 * over, source, rotation=60, ha="left", va="bottom", fontsize=FINE)
     _name(panel, "frequency (Hz)", "amplitude (deg)", f"spectrum; lines of {short(moving[0])} are labelled")
 
 
-def _minor_numbers(panel: Axes) -> None:
-    """Label the minor ticks of a logarithmic axis as 20, 30 and 50 instead of 2 x 10^1 if the axis spans few powers of
-    ten.
-    """
-    low, high = panel.get_xlim()
-    few = high < _DECADES * low
-    panel.xaxis.set_minor_formatter(lambda at, _: f"{at:g}" if few and f"{at:e}"[0] in "235" else "")
-
-
 def _named(peaks: Sequence[SpectrumPeak]) -> Iterator[tuple[float, float, str]]:
-    """Yield frequency [Hz], amplitude [deg] and source of the strongest lines whose source is known, without close
-    neighbours.
-    """
+    """Yield frequency [Hz], amplitude [deg] and source of the strongest known lines without close neighbours."""
     taken: list[float] = []
     for peak in peaks:
         near = any(1 / _CLEAR < peak.frequency / each < _CLEAR for each in taken)

@@ -167,9 +167,7 @@ def find_outlines(meshes: Sequence[GearMesh]) -> dict[str, PairOutline]:
 
 
 def _in_order(meshes: Iterable[GearMesh]) -> Iterator[GearMesh]:
-    """Yield the gear meshes in breadth-first order. Each mesh, except the first of a connected set, shares a wheel with
-    an earlier mesh.
-    """
+    """Yield the gear meshes in breadth-first order, in which each mesh shares a wheel with an earlier one if it can."""
     at: dict[str, list[GearMesh]] = {}
     for mesh in (meshes := tuple(meshes)):
         for wheel in mesh.gear.pair:

@@ -257,9 +257,7 @@ class _Toothing:
         ]
 
     def _escapement_sense(self, name: str) -> int:
-        """Return the sense in which an escapement lets its escape wheel turn, 1 or -1 (1 if the sense is unknown);
-        return 0 for other wheels.
-        """
+        """Return the sense, 1 or -1, in which an escapement lets its escape wheel turn; 0 for other wheels."""
         link, wheel = self.declared.wheels[name]
         if self.declared.escapement is None or not self.declared.escapement.has_wheel(link, wheel.count):
             return 0

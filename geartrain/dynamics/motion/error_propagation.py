@@ -93,9 +93,7 @@ def solve_coupled_errors(pairs: CoupledErrors, base: Floats, turning: Floats) ->
 
 @np.errstate(invalid="ignore")  # inf - inf where nothing touches
 def _newton(pairs: CoupledErrors, base: Floats) -> tuple[Floats, Floats]:
-    """Return the errors of coupled pairs [rad], found by Newton's method, and the slopes of their transmission
-    functions [1].
-    """
+    """Return the errors of coupled pairs [rad] and the slopes of their functions [1], found by Newton's method."""
     tolerance = _CONVERGED * (1 + np.max(np.abs(base), initial=0.0) + np.abs(pairs.gain).sum(axis=1).max())
     active = np.arange(base.shape[1])
     delta, slopes = pairs.transmissions_at(base, active)

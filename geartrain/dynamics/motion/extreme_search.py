@@ -34,9 +34,7 @@ _ROUNDS = 6  # rounds of subdivision: each narrows the interval by 4
 
 
 class _Candidates(NamedTuple):
-    """Pieces of the run in which an error or rate may exceed the maximum found so far. Each has the index of the
-    quantity, its estimated maximum, and both ends of the piece.
-    """
+    """Pieces of a run in which an error or rate may exceed its maximum so far, with its index, estimate and ends."""
 
     sought: Indices
     promise: Floats
@@ -48,9 +46,7 @@ class _Candidates(NamedTuple):
         return _Candidates(self.sought[which], self.promise[which], self.low[which], self.high[which])
 
     def exceeding(self, maxima: Floats) -> _Candidates:
-        """Return the candidates whose estimated maximum exceeds the maximum found so far. Candidates that repeat an
-        equal maximum are omitted.
-        """
+        """Return the candidates with an estimate above the maximum found so far, without repeated equal maxima."""
         return self.chosen(self.promise > (maxima + _tolerance(maxima))[self.sought])
 
 
@@ -115,9 +111,7 @@ def pieces(searches: Sequence[KinkSearch], low: float, high: float, size: int) -
 
 
 def _promise(first: Floats, middle: Floats, last: Floats) -> Floats:
-    """Return an estimate of the maximum in each piece from the values at both ends and in the middle. Smooth functions
-    rarely exceed this estimate.
-    """
+    """Return an estimate of the maximum in each piece from three values, which smooth functions rarely exceed."""
     highest, lowest = (each.reduce([first, middle, last]) for each in (np.maximum, np.minimum))
     bend, rise = 2 * middle - first - last, np.abs(last - first)
     # vertex of the parabola through the three values, if it is between the ends
@@ -137,9 +131,7 @@ def _tolerance(maxima: Floats) -> Floats:
 
 
 def _locate(sampler: ErrorComposition | ErrorDifference, maxima: Floats, given: _Candidates) -> None:
-    """Update the maxima in place with the maxima inside the pieces of the candidates, which are found by
-    subdivision.
-    """
+    """Update the maxima in place with the maxima inside the candidate pieces, which are found by subdivision."""
     for _ in range(_ROUNDS):
         given = given.exceeding(maxima)
         rows = np.arange(len(given.sought))

@@ -110,9 +110,7 @@ class PairKinks:
         return self._crossings(steps, low, high)
 
     def _cut_where_it_turns(self, steps: InputSteps, slowest: Floats) -> InputSteps:
-        """Return the steps, divided at the positions at which the driver reverses. These positions are found by
-        bisection.
-        """
+        """Return the steps, divided at the positions at which the driver reverses, which are found by bisection."""
         slow = slowest < _SLOW * self.source.mean
         ends = steps.low[slow, None] + (steps.high - steps.low)[slow, None] * (np.arange(_PARTS + 1) / _PARTS)
         ends[:, -1] = steps.high[slow]  # exact, despite rounding of the sum

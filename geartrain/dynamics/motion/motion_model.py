@@ -200,9 +200,7 @@ class Motion(Shown):
 
     @cached_property
     def _unset(self) -> ErrorComposition:
-        """Error composition before the pointers are set; every link has the position that follows from the transmission
-        functions.
-        """
+        """Error composition before pointers are set: positions of links follow from the transmission functions."""
         return replace(self._forward, offsets=())
 
     @cached_property
@@ -350,9 +348,7 @@ class Motion(Shown):
             yield sampler.at(turns * (at / (samples - 1)))
 
     def _composition(self, turns: float) -> ErrorComposition:
-        """Return the error composition for a run of `turns` revolutions; if `turns` is negative, the coast flanks are
-        in contact.
-        """
+        """Return the error composition for `turns` revolutions; coast flanks are in contact if `turns` is negative."""
         return self._forward if turns >= 0 else self._backward
 
     def _sampler(self, turns: float) -> ErrorComposition | ErrorDifference:

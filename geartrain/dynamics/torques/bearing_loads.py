@@ -109,10 +109,6 @@ class BearingLoads:
             end = self.setting.tree.above(end)
         return end is not None
 
-    def _has_shoulder(self, end: str) -> bool:
-        links = self.setting.train.links
-        return any(links[link].shoulder_friction and self._inside(link, end) for link in self.links)
-
     def _pairs(self) -> Iterator[AxisForce]:
         setting, train = self.setting, self.setting.train
         for circuit in setting.circuits:
@@ -129,17 +125,16 @@ class BearingLoads:
                 self._leave_out(circuit, "the direction of the force of these teeth is unknown")
                 continue
             first, second = (point for point in points if point is not None)
+            wheels = [train.wheels[name] for name in circuit.wheels]
+            thrusting = [end for end, wheel in wheels if wheel.is_helical]
+            shoulders = [link for link in self.links if train.links[link].shoulder_friction]
+            if any(self._inside(link, end) for link in shoulders for end in thrusting):
+                why = "thrusts of helical teeth on shoulders are not included"
+                self._left_out.setdefault(why, []).append(circuit.id)
             # about the reference direction of parallel axes, as the signs of the torques
-            if any(
-                train.wheels[name][1].is_helical and self._has_shoulder(train.wheels[name][0])
-                for name in circuit.wheels
-            ):
-                self._left_out.setdefault("thrusts of helical teeth on shoulders are not included", []).append(
-                    circuit.id
-                )
             way = scaled((axes[0] or Axis()).way, setting.axes.sign(labels[0]))
             line = across(scaled(minus(second, first), _MM), way)
-            i, j = (train.wheels[name][1] for name in circuit.wheels)
+            i, j = (wheel for _, wheel in wheels)
             square = float(np.dot(line, line)) * (-1 if i.internal or j.internal else 1)
             yield AxisForce(
                 circuit.id,
@@ -254,9 +249,7 @@ class BearingLoads:
         return found
 
     def _turned(self, vectors: Floats, angles: Floats) -> Floats:
-        """Return the forces `vectors` rotated by `angles` [rad] about the axes of their carriers by Rodrigues' formula,
-        shape (forces, 3, n).
-        """
+        """Return force vectors rotated by angles [rad] about their carriers' axes, shape (forces, 3, n) (Rodrigues)."""
         way = self.ways(force.carrier for force in self.forces)
         inside = way * (vectors * way).sum(axis=1, keepdims=True)
         turn = angles[:, None]
@@ -297,9 +290,8 @@ class BearingLoads:
         return {link: (torque, load) for link, torque, load in rows}
 
     def _responses(self, balance: TorqueBalance, flow: FlowPattern, applied: Mapping[str, Fraction]) -> Floats | None:
-        """Return the carrier torque of each force, shape (forces, 1 + links). The first column is without
-        load-dependent friction; the other columns are for a unit friction torque in each bearing. Equal planets have
-        one column, which belongs to the first of them.
+        """Return the carrier torque of each force, shape (forces, 1 + links): without load-dependent friction, and for
+        a unit friction torque in each bearing, or in all bearings of equal planets (column of the first planet).
         """
         like = equal_planets(balance)
         known: dict[str, LinearForm] = {link: {_KNOWN: torque} for link, torque in balance.known.items()}
@@ -337,9 +329,7 @@ class BearingLoads:
 
 
 def _share(own: float | None, other: float | None, place: float | None) -> float:
-    """Return the fraction of a force at the position `place` that the bearing at `own` carries, by the law of the
-    lever; the other bearing is at `other` [m].
-    """
+    """Return the fraction of a force at `place` [m] that the bearing at `own` carries if the second is at `other`."""
     if own is None or other is None:
         return 1.0
     return 0.5 if place is None else (other - place) / (other - own)

@@ -253,9 +253,7 @@ def _sources(setting: LoadCase) -> Iterator[tuple[str, ...]]:
 
 
 def _spread(load: Mapping[str, Fraction], like: Mapping[str, tuple[str, ...]]) -> dict[str, Fraction]:
-    """Return a load that is repeated on all planets equal to the loaded planet. The torque on other links is multiplied
-    by the number of these planets.
-    """
+    """Return a load repeated on all equal planets, and multiplied by their number on all other links."""
     most = max((len(like.get(link, (link,))) for link in load), default=1)
     return {
         peer: torque * (1 if link in like else most)

@@ -281,9 +281,7 @@ class LoadCase:
 
     @cached_property
     def _rubbing(self) -> Mapping[tuple[str, str], Fraction]:
-        """Positive friction torques of bearings that do not depend on the load, by link and the link that
-        carries it.
-        """
+        """Positive load-independent friction torques of bearings, by link and by the link that carries it."""
         own = [(link, self.tree.borne_by(link), self.bearing(link)) for link in self.train.links if self.bearing(link)]
         couplings = (each for each in self.circuits if each.kind != "gear")
         jumpers = ((each.i, each.carrier, self.couplings[each.id].friction_torque) for each in couplings)

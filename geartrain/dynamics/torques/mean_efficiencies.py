@@ -61,9 +61,7 @@ def _of_circuit(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
 
 
 def _of_screw(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies | None:
-    """Return the efficiencies of a worm drive or of crossed helical gears; None if the helix angles or the friction are
-    unknown.
-    """
+    """Return the efficiencies of a worm drive or crossed helical pair; None for unknown helix angles or friction."""
     gear = setting.gears[circuit.id]
     friction = setting.train.friction_of(gear)
     if friction is None or friction.sliding is None:
@@ -80,9 +78,7 @@ def _of_screw(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies | None:
 
 
 def _of_coupling(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
-    """Return the efficiencies of a coupling; the first value is for the declared driven link as the driver. They are 1
-    for a pin follower, whose mean power is 0.
-    """
+    """Return the efficiencies of a coupling, first with its driven link as the driver; 1 for pin followers."""
     coupling = setting.couplings[circuit.id]
     if (losses := coupling.losses) is not None and circuit.b:
         both = losses.backward.base, losses.forward.base
@@ -100,9 +96,7 @@ def _of_both(ahead: SlidingEfficiency, back: SlidingEfficiency) -> MeanEfficienc
 
 
 def _mean(efficiency: float | None) -> Fraction:
-    """Return a mean efficiency as a fraction with 15 digits. Return 0 for None, which means that friction locks the
-    pair.
-    """
+    """Return a mean efficiency as a fraction with 15 digits; 0 for None, which means that friction locks the pair."""
     if efficiency is None:
         return Fraction(0)
     # rounding in the quadrature may exceed 1 slightly; decimal digits keep 0.98 equal to 49/50
@@ -128,9 +122,7 @@ def apply_mean_efficiencies(
 
 
 def _given(balance: TorqueBalance) -> dict[str, int]:
-    """Return 1 or -1 for each pair whose torque follows from the balance of one of its links: 1 for the first link, -1
-    for the second link.
-    """
+    """Return 1 or -1 for each pair whose torque follows from the balance of its first link (1) or second link (-1)."""
     found: dict[str, int] = {}
     for block in balance.parts:
         # rows beyond those of the links are declared shares, not balances

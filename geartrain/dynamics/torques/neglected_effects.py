@@ -127,9 +127,7 @@ def _of_couplings(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[Neglec
 def _teeth(
     setting: LoadCase, busy: Sequence[Circuit], means: Mapping[str, MeanEfficiencies]
 ) -> Iterator[NeglectedEffect]:
-    """Yield the effect of friction that is declared for teeth without a tooth form, or for worms with an unknown helix
-    angle.
-    """
+    """Yield the effect of friction declared for teeth without a tooth form, or for worms of unknown helix angle."""
     bare: dict[str, list[str]] = {_NO_FORM: [], _NO_HELIX: [], _NO_SLIDING: []}
     for circuit in busy:
         gear, mesh = setting.gears.get(circuit.id), setting.meshes.get(circuit.id)
@@ -148,9 +146,7 @@ def _teeth(
 
 
 def _slides(setting: LoadCase, circuit: Circuit) -> bool:
-    """Return True if a pair is a worm drive or a crossed helical pair, for which tooth forms do not give a mean
-    loss.
-    """
+    """Return True for a worm drive or a crossed helical pair, whose mean loss does not follow from its tooth form."""
     wheels = [setting.train.wheels[name][1] for name in circuit.wheels]
     helical = any(wheel.is_helical for wheel in wheels) and not setting.axes.are_parallel(setting.axis_labels(circuit))
     return helical or any(wheel.kind == "worm" for wheel in wheels)

@@ -135,9 +135,7 @@ class _Decision:
         return ClutchPattern(holding, case, setting, slips, moves)
 
     def _clutch(self, name: str) -> tuple[Clutch, str, str, int]:
-        """Return a clutch, its first link (the frame for a brake), its second link, and the sense in which it overruns
-        (1 or -1).
-        """
+        """Return a clutch, its two links (a brake has the frame first), and its overrunning sense, 1 or -1."""
         clutch = self.train.declaration.clutches[name]
         first, second = clutch.locks or (self.train.declaration.frame, clutch.fixes or "")
         (sense,) = clutch.senses
@@ -171,9 +169,7 @@ class _Decision:
 
     @cached_property
     def _loads(self) -> Mapping[str, tuple[str, str] | None]:
-        """Loads that are applied one at a time: an output, given by its two links, or None for all declared loads
-        together.
-        """
+        """Loads applied one at a time: both links of an output, or None for all declared loads together."""
         declared, case = self.train.declaration, self._patterns[()].case
         if case.loads:
             return {" and ".join(case.loads): None}
@@ -229,9 +225,7 @@ class _Decision:
         return tuple(name for name in pattern.holding if pattern.case.clutches[self._clutch(name)[0].links] in joined)
 
     def _reversed(self, pattern: ClutchPattern, deciding: Mapping[str, Torques | None]) -> Iterator[str]:
-        """Yield a note for each load that would release a clutch if this load drove the train instead of being
-        driven.
-        """
+        """Yield a note for each load that would release a clutch by driving the train instead of being driven."""
         for load, forward in deciding.items():
             if forward is None or not pattern.holding:
                 continue
@@ -411,8 +405,6 @@ class _Decision:
 
 
 def _joined(names: Sequence[str], verb: str = "") -> str:
-    """Return names joined by commas and `and`, followed by the verb in its singular or plural form; empty if there are
-    no names.
-    """
+    """Return names joined by commas and `and`, then the verb in its singular or plural form; empty without names."""
     text = " and ".join(filter(None, (", ".join(names[:-1]), *names[-1:])))
     return f"{text} {verb}{'s' if len(names) == 1 else ''}" if verb and names else text

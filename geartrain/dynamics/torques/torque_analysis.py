@@ -498,9 +498,7 @@ def drive(setting: LoadCase, load: str, source: str) -> Torques:
 
 
 def _requested(setting: LoadCase, loads: Mapping[str, Fraction], solve_for: str | None) -> TorqueQuestion:
-    """Return the question with as many links with unknown torque as there are inputs, or fewer if the choice is not
-    unique.
-    """
+    """Return the question with as many unknown torques as inputs, or with fewer if the choice is not unique."""
     inputs, enter = setting.case.inputs, power_inputs(setting)
     free = tuple(link for link in enter if link not in loads)
     needed = len(inputs)
@@ -662,9 +660,7 @@ def _acting(loads: Mapping[str, Fraction], bearing_friction: Mapping[str, Fracti
 
 
 def _bearing_friction(setting: LoadCase, bearings: Sequence[BearingTorque]) -> dict[str, Fraction]:
-    """Return the total friction torque of bearings on each link, by link, including reactions on links that carry
-    bearings.
-    """
+    """Return the friction torque of bearings on each link, including reactions on links that carry bearings."""
     found: dict[str, Fraction] = {}
     for bearing in bearings:
         for link, torque in ((bearing.link, bearing.torque), (bearing.carrier, bearing.reaction)):
@@ -717,9 +713,7 @@ def _torques(
 
 
 def _load(arms: Mapping[str, Fraction], link: str, torque: Fraction) -> Fraction:
-    """Return the force [N] on a sliding link that a torque represents. For a link that turns, the torque is returned
-    unchanged.
-    """
+    """Return the force [N] on a sliding link that a torque represents; for a link that turns, the torque itself."""
     return torque / arms[link] if link in arms else torque
 
 

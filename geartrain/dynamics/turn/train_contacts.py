@@ -12,7 +12,7 @@ f, its efficiency when the driven side drives is therefore eta'(f) = 1/eta(-f), 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 import numpy as np
@@ -318,11 +318,20 @@ def find_contacts(
     """
     found = {}
     for circuit in setting.circuits:
-        source = positions.sources.get(circuit.id)
-        contact = _contact(setting, circuit, source, teeth.get(circuit.id))
-        if source is not None:
-            contact = replace(contact, way=positions.way * source.forward, sense=positions.way * source.sense)
-        found[circuit.id] = contact
+        source, mesh = positions.sources.get(circuit.id), teeth.get(circuit.id)
+        first = circuit.kind == "gear" and (mesh is None or mesh.driver == circuit.wheels[0])
+        if circuit.kind == "gear":
+            losses = _gear_losses(setting, circuit, first, source, mesh)
+        else:
+            losses = _coupling_losses(setting, circuit)
+        if source is None:
+            own, other = (circuit.a, circuit.b) if first else (circuit.b, circuit.a)
+            sense = -1 if circuit.a * circuit.b > 0 else 1
+            found[circuit.id] = PairContact(circuit, first, 1, sense, abs(own / other), losses)
+        else:
+            way, sense = positions.way * source.forward, positions.way * source.sense
+            ratio = float(source.transmission.ratio)
+            found[circuit.id] = PairContact(circuit, first, way, sense, ratio, losses, source)
     return found
 
 
@@ -341,19 +350,6 @@ def _by_friction(setting: LoadCase, mesh: GearMesh) -> bool:
     return gear.efficiency is None and setting.has_friction(gear)
 
 
-def _contact(setting: LoadCase, circuit: Circuit, source: PairErrorSource | None, mesh: GearMesh | None) -> PairContact:
-    first = circuit.kind == "gear" and (mesh is None or mesh.driver == circuit.wheels[0])
-    losses = (
-        _coupling_losses(setting, circuit) if circuit.kind != "gear" else _losses(setting, circuit, first, source, mesh)
-    )
-    if source is not None:
-        return PairContact(
-            circuit, first, source.forward, source.sense, float(source.transmission.ratio), losses, source
-        )
-    own, other = (circuit.a, circuit.b) if first else (circuit.b, circuit.a)
-    return PairContact(circuit, first, 1, -1 if circuit.a * circuit.b > 0 else 1, abs(own / other), losses)
-
-
 def _coupling_losses(setting: LoadCase, circuit: Circuit) -> ContactLosses:
     coupling, joint = setting.couplings[circuit.id], setting.joints.get(circuit.id)
     if (declared := coupling.losses) is not None:
@@ -365,22 +361,14 @@ def _coupling_losses(setting: LoadCase, circuit: Circuit) -> ContactLosses:
     return PinFriction(joint.transmission.friction, friction.static, joint.transmission)
 
 
-def _losses(
+def _gear_losses(
     setting: LoadCase, circuit: Circuit, first: bool, source: PairErrorSource | None, mesh: GearMesh | None
 ) -> ContactLosses:
     """Return the losses of a gear pair: tooth friction that depends on position, or a constant efficiency."""
-    if source is not None and mesh is not None and _by_friction(setting, mesh):
-        return _tooth_friction(setting, circuit, source, mesh)
-    return _constant_efficiency(setting, circuit, first)
-
-
-def _constant_efficiency(setting: LoadCase, circuit: Circuit, first: bool) -> ContactLosses:
-    means = find_mean_efficiencies(setting, circuit).load
-    driver, driven = (float(each) for each in (means if first else means[::-1]))
-    return ContactLosses() if driver == driven == 1 else BasicEfficiency(driver, driven)
-
-
-def _tooth_friction(setting: LoadCase, circuit: Circuit, source: PairErrorSource, mesh: GearMesh) -> ToothFriction:
+    if source is None or mesh is None or not _by_friction(setting, mesh):
+        means = find_mean_efficiencies(setting, circuit).load
+        driver, driven = (float(each) for each in (means if first else means[::-1]))
+        return ContactLosses() if driver == driven == 1 else BasicEfficiency(driver, driven)
     transmission, coefficient = mesh.wheels.friction_law, mesh.friction or 0.0
     turned = -1 if any(mesh.wheels.internal) else 1
     declared = setting.train.friction_of(setting.gears[circuit.id]) if mesh.has_shape else None

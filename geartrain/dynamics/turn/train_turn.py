@@ -194,15 +194,11 @@ class _RunResults:
         return -1 if setting.sense(link) * (setting.relative(link, setting.reacts_on(link)) or 0) < 0 else 1
 
     def _torque(self, found: PositionTorques) -> Floats:
-        """Return the torque at the reported link in the solution with minimum loss, positive in the link's mean sense
-        of rotation.
-        """
+        """Return the torque at the reported link in the solution with minimum loss, positive in its mean sense."""
         return np.asarray(self._way * found.torque[self._row] / self._arm)
 
     def _highest(self, found: PositionTorques) -> Floats:
-        """Return the torque at the reported link in the solution with maximum loss, positive in the link's mean sense
-        of rotation.
-        """
+        """Return the torque at the reported link in the solution with maximum loss, positive in its mean sense."""
         return np.asarray(self._way * found.highest[self._row] / self._arm)
 
     @property
@@ -305,9 +301,7 @@ class _RunResults:
         return PlaceInRun(turns, turns / speed * float(train.unit_days) if speed else None)
 
     def _extreme(self, way: int, static: bool) -> TorqueExtreme | None:
-        """Return the maximum torque (`way` 1) or the minimum torque (`way` -1), refined between positions; None if no
-        value is finite.
-        """
+        """Return the refined maximum torque (`way` 1) or minimum torque (`way` -1); None if it is not finite."""
         torque = self._highest if way > 0 else self._torque
         values = torque(self.run.standing if static else self.run.found)
         extreme = find_extreme(lambda turns: torque(self.run.train.at(turns, static)), self.run.cells, way, values)
@@ -370,9 +364,7 @@ class _RunResults:
 
 
 def _changes(signs: Floats, closes: bool) -> int:
-    """Return the number of sign changes in a sequence after its zeros are removed. If `closes` is True, a change from
-    its end to its beginning is included.
-    """
+    """Return the number of sign changes in a sequence without its zeros, which is periodic if `closes` is True."""
     own = signs[signs != 0]
     if not len(own):
         return 0

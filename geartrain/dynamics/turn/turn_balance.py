@@ -147,9 +147,7 @@ def _solve(
 
 
 def _divided(coefficient: Floats | None, known: Floats) -> tuple[Floats, Bools]:
-    """Return the solution of an equation with one unknown, and a boolean mask of the positions at which the coefficient
-    is not 0.
-    """
+    """Return the solution of an equation with one unknown, and a mask of the positions with a nonzero coefficient."""
     if coefficient is None:
         return np.zeros_like(known), known[0] == 0
     # a coefficient may be 0 at dead points; without a load the torque is 0 there too
@@ -162,9 +160,7 @@ def _divided(coefficient: Floats | None, known: Floats) -> tuple[Floats, Bools]:
 def _eliminated(
     own: Sequence[ColumnPieces], block: Block, layer: BalanceLayer, sides: Sequence[int]
 ) -> tuple[Floats, Bools]:
-    """Return the torques that solve several rows, computed by LAPACK. If they are not unique, the torques of minimum
-    norm are returned.
-    """
+    """Return the torques that solve several rows, of minimum norm if they are not unique, and a mask as in `_solve`."""
     known = layer.rows[list(block.rows)]
     scale = np.max(np.abs(layer.values), axis=0, initial=0.0)
     size = known.shape[1]
@@ -442,9 +438,7 @@ class TurnBalance:
         return _State(motion, contacts, forces, dict(zip(self.bearings, resting, strict=True)), static)
 
     def _speed(self, motion: LinkMotion, link: str, carrier: str) -> Floats:
-        """Return the speed of a link relative to `carrier`, about the reference direction of parallel axes; it is
-        exactly 0 at rest.
-        """
+        """Return the speed of a link relative to `carrier`, about the reference axis direction; exactly 0 at rest."""
         rows = self.motion.links
         found = motion.speeds[rows[link]] - motion.speeds[rows[carrier]]
         scale = np.max(np.abs(motion.speeds), axis=0, initial=0.0)
@@ -514,9 +508,7 @@ class TurnBalance:
         return bearings.friction(bearings.loads(reactions, angles, leans), self.balance)
 
     def _member_torques(self, name: str, best: BalanceLayer, state: _State) -> tuple[Floats, Floats]:
-        """Return the torques of a pair on its first link and on its second link, about the reference direction of
-        parallel axes.
-        """
+        """Return the torques of a pair on its first and second link, about the reference axis direction."""
         column = self.columns[self.of_pair[name]]
         pressed, forces = best.values[self.of_pair[name]], state.forces[column.meshes[0].id]
         ahead, back = (self._for_planet(name, forces.get(side, forces[1])) for side in (1, -1))
@@ -547,18 +539,14 @@ class TurnBalance:
         return found
 
     def _rubbing(self, state: _State, link: str, speed: Floats) -> Floats:
-        """Return the magnitude of a bearing's friction torque. The viscous drag is 0 for static friction and at
-        rest.
-        """
+        """Return the magnitude of a bearing's friction torque, without viscous drag at rest."""
         own, loaded = self.bearings[link], state.loaded.get(link, np.zeros(len(speed)))
         if state.static:
             return own.static + loaded
         return np.where(state.resting[link], 0.0, own.sliding + loaded + own.drag * np.abs(speed))
 
     def _pieces(self, column: TorqueUnknown, state: _State) -> ColumnPieces:
-        """Return the coefficients of one unknown torque in each row. For equal planets, the coefficients of the first
-        planet are returned.
-        """
+        """Return the coefficients of one unknown torque in each row, for the first of several equal planets."""
         if not column.meshes:
             size = len(state.motion.turns)
             rows = {row: np.full(size, float(value)) for row, value in column.pieces[0].items()}

@@ -199,9 +199,7 @@ class TurnRun:
     def _cuts(
         self, cells: RunCells, found: PositionTorques, scales: RunScales, total: float, depth: int
     ) -> tuple[Indices, Floats]:
-        """Return the cell indices and the positions at which cells are to be divided. The positions are kinks, and
-        middles of cells that are too wide.
-        """
+        """Return cell indices and positions of cuts, which are kinks and the middles of cells that are too wide."""
         if depth == _DEPTH:
             return _NONE
         kinks, places = _NONE

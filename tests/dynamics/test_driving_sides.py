@@ -34,11 +34,7 @@ links:
   planet: {{wheels: {{p: 18}}}}
   carrier: {{wheels: {{o: 48}}}}
   out: {{wheels: {{c: 16}}}}
-revolutes:
-  - {{pair: [frame, sun], axis: main}}
-  - {{pair: [frame, carrier], axis: main}}
-  - {{pair: [carrier, planet], axis: P}}
-  - {{pair: [frame, out], axis: O}}
+revolutes: {{main: [frame, sun, carrier], P: [carrier, planet], O: [frame, out]}}
 gears:
   - {{pair: [s, p]}}
   - {{pair: [p, ring]}}

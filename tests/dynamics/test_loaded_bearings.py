@@ -17,12 +17,11 @@ import pytest
 from scipy.optimize import fsolve
 
 import geartrain
-from geartrain.dynamics.motion.motion_problem import find_motion_problem
+from geartrain.dynamics.motion import find_motion_problem
 from geartrain.dynamics.torques.torque_results import TorqueVerdict
-from geartrain.dynamics.turn.train_turn import find_turn_balance
-from geartrain.simulation.steps.contact_solution import BEARINGS, IMPACT_COUNT, UNSOLVED, WORK_DRIVE
-from geartrain.simulation.steps.simulation import StepPlan, simulate
-from geartrain.simulation.time.train_in_time import model_in_time
+from geartrain.dynamics.turn import find_turn_balance
+from geartrain.simulation.steps import BEARINGS, IMPACT_COUNT, UNSOLVED, WORK_DRIVE, StepPlan, simulate
+from geartrain.simulation.time import model_in_time
 
 MU = 0.15
 STANDARD = 9.80665  # m/s2

@@ -16,10 +16,9 @@ from scipy.optimize import brentq
 
 from geartrain import GearTrainError, load
 from geartrain.dynamics import ErrorSamples, MotionRun, RunningStatistics
-from geartrain.dynamics.motion.error_propagation import CoupledErrors, solve_coupled_errors
-from geartrain.dynamics.motion.superposition import Superposition
+from geartrain.dynamics.motion import CoupledErrors, Superposition, solve_coupled_errors
 from geartrain.kinematics.speeds import solve
-from geartrain.simulation.contacts.separation_rate import find_tooth_impacts
+from geartrain.simulation.contacts import find_tooth_impacts
 from geartrain.teeth import Ideal
 
 # a driver of the study starts where the pair before holds it back: the phases (pitches) at which its teeth are then
@@ -106,11 +105,7 @@ links:
   right: {wheels: {r: 44}}
   planet: {wheels: {p: 20, q: 18}}
   arm: {wheels: {y: 60}}
-revolutes:
-  - {pair: [frame, left], axis: A}
-  - {pair: [frame, right], axis: A}
-  - {pair: [frame, arm], axis: A}
-  - {pair: [arm, planet], axis: P}
+revolutes: {A: [frame, left, right, arm], P: [arm, planet]}
 gears: [{pair: [l, p], driver: l}, {pair: [q, r], driver: q}]
 tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}
 inputs: {left: 1, arm: 1/3}
@@ -283,10 +278,7 @@ def test_sensitivities_are_the_change_of_an_output_with_a_tooth_count(name: str)
 
 OPPOSED = """
 axes: {A: {direction: [0, 0, 1]}, B: {direction: [0, 0, %s]}}
-links:
-  frame: {}
-  a: {wheels: {p: 20}}
-  b: {wheels: {w: 60}}
+links: {frame: {}, a: {wheels: {p: 20}}, b: {wheels: {w: 60}}}
 revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
 gears: [{pair: [p, w]}]
 tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}
@@ -423,17 +415,8 @@ def test_the_picture_shows_where_a_pointer_goes_back() -> None:
 
 
 REVERSED_PIN = """
-links:
-  frame: {}
-  a: {wheels: {p: 24}}
-  k: {wheels: {w: 36}}
-  out: {wheels: {x: 30}}
-  last: {wheels: {y: 40}}
-revolutes:
-  - {pair: [frame, a], axis: A}
-  - {pair: [frame, k], axis: B}
-  - {pair: [frame, out], axis: C}
-  - {pair: [frame, last], axis: D}
+links: {frame: {}, a: {wheels: {p: 24}}, k: {wheels: {w: 36}}, out: {wheels: {x: 30}}, last: {wheels: {y: 40}}}
+revolutes: {A: [frame, a], B: [frame, k], C: [frame, out], D: [frame, last]}
 gears: [{pair: [p, w]}, {pair: [x, y]}]
 couplings: [{id: pin, kind: KIND, pin: k, slot: out, pin_radius: RADIUS mm, offset: 5 mm}]
 tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}

@@ -46,10 +46,7 @@ revolutes: {main: [axle, ring, cage, hub], P: [cage, planet]}
 gears: [s ~ p, p ~ r]
 clutches: {R: {locks: [ring, hub], one_way: forward, teeth: 24}, P: {locks: [cage, hub], one_way: forward}}
 outputs: {hub: {}}
-states:
-  high: {inputs: {cage: 1}}
-  normal: {inputs: {ring: 1}}
-  low: {inputs: {ring: 1}, free: [R]}
+states: {high: {inputs: {cage: 1}}, normal: {inputs: {ring: 1}}, low: {inputs: {ring: 1}, free: [R]}}
 """
 # O3: a Simpson set whose second carrier may only turn forward
 SIMPSON = """
@@ -66,12 +63,7 @@ states:
 # O4: a chain drives one cog by its front and the other by its back
 RETRO = """
 frame: f
-links:
-  f: {}
-  chain: {wheels: {c: 44}}
-  a: {wheels: {cog a: 18}}
-  b: {wheels: {cog b: 26}}
-  wheel: {}
+links: {f: {}, chain: {wheels: {c: 44}}, a: {wheels: {cog a: 18}}, b: {wheels: {cog b: 26}}, wheel: {}}
 revolutes: {C: [f, chain], W: [f, a, b, wheel]}
 couplings: [{kind: belt, around: [c, cog a]}, {kind: belt, around: [c, cog b], reversed: [cog b]}]
 clutches: {A: {locks: [a, wheel], one_way: forward}, B: {locks: [b, wheel], one_way: forward}}

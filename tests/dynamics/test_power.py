@@ -22,9 +22,7 @@ from geartrain.train import Train
 
 RING = """
 extends: planetary-24-18-60
-gears:
-  - {pair: [s, p], efficiency: 0.98}
-  - {pair: [p, ring], efficiency: 0.99}
+gears: [{pair: [s, p], efficiency: 0.98}, {pair: [p, ring], efficiency: 0.99}]
 loads: {carrier: -10 N m}
 """
 CLOCK = """
@@ -35,20 +33,13 @@ gears:
   - {pair: [c60, t8], efficiency: 0.95}
   - {pair: [t56, e7], efficiency: 0.94}
   - {pair: [mw6, h72], efficiency: 0.97}
-links:
-  centre: {bearing: 2 N mm}
-  third: {bearing: 0.5 N mm}
-  hour: {bearing: 4 N mm}
+links: {centre: {bearing: 2 N mm}, third: {bearing: 0.5 N mm}, hour: {bearing: 4 N mm}}
 loads: {escape: -0.1 N mm}
 """
 SPLIT = """
 extends: prius-power-split
-gears:
-  - {pair: [s30, p23], efficiency: 0.98}
-  - {pair: [p23, r78], efficiency: 0.99}
-states:
-  cruising: {loads: {MG2: -80 N m}}
-  boost: {inputs: {engine: 1, MG1: -1/2}, loads: {MG2: -80 N m}}
+gears: [{pair: [s30, p23], efficiency: 0.98}, {pair: [p23, r78], efficiency: 0.99}]
+states: {cruising: {loads: {MG2: -80 N m}}, boost: {inputs: {engine: 1, MG1: -1/2}, loads: {MG2: -80 N m}}}
 """
 REVERSE = """
 extends: zf-8hp70
@@ -57,10 +48,7 @@ states:
 """
 RUBBING_PLANET = RING + "links: {planet: {bearing: 0.5 N m}, carrier: {bearing: 0.2 N m}}\n"
 SHARED = """
-links:
-  frame: {}
-  a: {wheels: {a1: 20, a2: 20}}
-  b: {wheels: {b1: 30, b2: 30}}
+links: {frame: {}, a: {wheels: {a1: 20, a2: 20}}, b: {wheels: {b1: 30, b2: 30}}}
 revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
 gears: [{pair: [a1, b1]}, {pair: [a2, b2]}]
 inputs: {a: 1}

@@ -219,9 +219,7 @@ def test_an_unknown_form_or_key_is_told_with_those_there_are() -> None:
 CHAIN = """
 links: {{frame: {{}}, a: {{wheels: {{a20: 20}}}}, b: {{wheels: {{b60: 60, b24: 24}}}}, c: {{wheels: {{c36: 36}}}}}}
 revolutes: [{{pair: [frame, a], axis: A}}, {{pair: [frame, b], axis: B}}, {{pair: [frame, c], axis: C}}]
-gears:
-  - {{pair: [a20, b60], tooth_form: {first}}}
-  - {{pair: [b24, c36], tooth_form: {second}}}
+gears: [{{pair: [a20, b60], tooth_form: {first}}}, {{pair: [b24, c36], tooth_form: {second}}}]
 inputs: {{a: 1}}
 """
 RIPPLING = "{form: triangular, half_angle: 30 deg, window: 0.5}"

@@ -23,11 +23,7 @@ links:
   planet: {{wheels: {{p: {p}, q: {q}}}}}
   ring: {{wheels: {{r: {r}}}}}
   arm: {{}}
-revolutes:
-  - {{pair: [frame, sun], axis: A}}
-  - {{pair: [frame, ring], axis: A}}
-  - {{pair: [frame, arm], axis: A}}
-  - {{pair: [arm, planet], axis: P}}
+revolutes: {{A: [frame, sun, ring, arm], P: [arm, planet]}}
 gears: [{{pair: [s, p], efficiency: {e}}}, {{pair: [q, r], efficiency: {f}}}]
 {rest}
 """

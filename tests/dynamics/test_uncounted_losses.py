@@ -191,11 +191,7 @@ def test_a_train_of_real_teeth_asks_the_crank_for_the_mean_of_its_positions() ->
 
 
 BOTH = """
-links:
-  frame: {}
-  a: {wheels: {x: 24}}
-  b: {wheels: {y: 36}}
-  c: {bearing: 0.5 N m}
+links: {frame: {}, a: {wheels: {x: 24}}, b: {wheels: {y: 36}}, c: {bearing: 0.5 N m}}
 revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}, {pair: [frame, c], axis: C}]
 gears: [{id: G, pair: [x, y], tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}, friction: 0.1}]
 couplings: [{id: P, kind: pin_and_slot, pin: b, slot: c, pin_radius: 10 mm, offset: 5 mm, friction: 0.2}]

@@ -18,7 +18,7 @@ import geartrain
 from geartrain.errors import DeclarationError, QuestionError
 from geartrain.report import collect_report
 from geartrain.simulation import PairStrength, TrainStrength
-from geartrain.simulation.strength.train_strength import maximum_moment
+from geartrain.simulation.strength import maximum_moment
 
 PAIR = """
 links:

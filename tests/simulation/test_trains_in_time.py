@@ -379,11 +379,7 @@ links:
   planet: {wheels: {p: 30, q: 28}, inertia: 6e-6 kg m2, bearing: 1 N mm}
   out:    {wheels: {o: 42, s: 50}, inertia: 9e-6 kg m2, bearing: 1.5 N mm}
   last:   {wheels: {t: 20}, inertia: 2e-6 kg m2, bearing: 0.5 N mm, drag: 1e-4 N m s/rad}
-revolutes:
-  - {pair: [frame, arm], axis: A}
-  - {pair: [arm, planet], axis: P}
-  - {pair: [frame, out], axis: A}
-  - {pair: [frame, last], axis: B}
+revolutes: {A: [frame, arm, out], P: [arm, planet], B: [frame, last]}
 tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}
 gears: [{pair: [f, p]}, {pair: [q, o]}, {pair: [s, t]}]
 inputs: {arm: 1}

@@ -18,12 +18,16 @@ from scipy.integrate import solve_ivp
 from geartrain import GearTrain
 from geartrain.errors import QuestionError
 from geartrain.simulation import find_vibration_modes
-from geartrain.simulation.contacts.compliant_train import damping_ratio
-from geartrain.simulation.contacts.contact_model import Bearing, ContactModel, ContactPair, ToothCompliance
-from geartrain.simulation.contacts.pair_tables import tabled_angle
-from geartrain.simulation.contacts.train_model import SlackPin
-from geartrain.simulation.steps.contact_solution import GAP, TIME_APART
-from geartrain.simulation.steps.simulation import StepPlan, simulate
+from geartrain.simulation.contacts import (
+    Bearing,
+    ContactModel,
+    ContactPair,
+    SlackPin,
+    ToothCompliance,
+    damping_ratio,
+    tabled_angle,
+)
+from geartrain.simulation.steps import GAP, TIME_APART, StepPlan, simulate
 from geartrain.teeth import PinToSlotTransmission
 from geartrain.teeth.transmission import ExactRatio
 

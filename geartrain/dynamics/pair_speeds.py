@@ -1,8 +1,5 @@
-"""Pitch-line speed of a gear pair, which is required for friction that depends on speed.
-
-Relative to the carrier, the pitch-line speed is V = |w_i - w_k| r_i, equation (17a) of docs/torques.md. The angular
-speeds w follow from the `rate` of the train or from inputs with units, and the pitch radius r_i from the modules of the
-wheels.
+"""Pitch-line speed of a gear pair, V = |w_i - w_k| r_i, for friction that depends on speed (equation (17a) of
+docs/torques.md).
 """
 
 from __future__ import annotations

@@ -289,10 +289,8 @@ class _Toothing:
                 yield PairBacklash(gear.name, gear.pair, arc * size, angles, *self._contact(gear))
 
     def _contact(self, gear: GearPair) -> tuple[float | None, str]:
-        """Return the contact ratio of conjugate teeth at their design centre distance, and advice on how to increase
-        it.
-
-        The ratio is None for other teeth, and for pairs at a different centre distance.
+        """Return the contact ratio of conjugate teeth at their design centre distance, else None, and advice on how to
+        increase it.
         """
         mesh = self._mesh(gear)
         if gear.name in self.waves or gear.name in self.apart:
@@ -309,9 +307,8 @@ class _Toothing:
         return self._standard_pair(first, second, gear.pair[0])[:2]
 
     def _backlash(self, gear: GearPair) -> float | None:
-        """Return the backlash of a pair along the pitch circles at its actual centre distance [modules].
-
-        The result is None if the wheels are displaced and their transmission function depends on the centre distance.
+        """Return the backlash of a pair along the pitch circles at its centre distance [modules]; None for displaced
+        wheels whose transmission function depends on this distance.
         """
         mesh, displaced = self._mesh(gear), gear.name in self.apart and gear.name not in self.waves
         if not displaced:

@@ -1,9 +1,7 @@
-"""Composition of tooth and pin errors: the error of every pair propagates to the links and to the driver angles of
-other pairs.
+"""Composition of tooth and pin errors, equations (2) to (5) of docs/motion.md.
 
-`ErrorComposition` evaluates equations (2) to (4) of docs/motion.md. The error of a pair depends on the angle of its
-driver, which includes the errors of other pairs. In the order of solution, these other pairs come first, so that a
-single pass composes the transmission functions exactly. Errors of coupled pairs are solved simultaneously (5).
+The error of a pair depends on its driver's angle, which includes the errors of other pairs. In the order of solution
+these come first, so that a single pass composes the transmission functions exactly.
 """
 
 from __future__ import annotations

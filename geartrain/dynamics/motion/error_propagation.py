@@ -1,14 +1,8 @@
 """Propagation of the errors of pairs to links: exact solution of equation (2) of docs/motion.md (section 2).
 
-For a pair of links i and j on carrier k, a (e_i - e_k) + b (e_j - e_k) = c delta, where e is the error of a link's
-angle, delta the error of the pair's driven side, and c its coefficient a or b. This is the Willis system without the
-mean speeds. One elimination gives the error of every link as a sum over the errors of pairs.
-
-Coupled pairs, as around a differential, are solved simultaneously by Newton's method with step halving, equation (5) of
-docs/motion.md, for delta_m = sense_m error_m(S_m + gain_m delta), at all positions at once. Here S_m is the driver
-angle of pair m without these errors. Transmission functions have kinks, so a step that does not reduce the residual is
-halved. If step halving fails, a single pair is solved by bisection, because Newton's method cannot leave a dwell, in
-which the driven wheel is at rest while its driver turns.
+One elimination gives the error of every link as a sum over the errors of pairs. Coupled pairs, as around a
+differential, are solved simultaneously by Newton's method with step halving, equation (5), because transmission
+functions have kinks. If halving fails, as in a dwell of a single pair, bisection is used.
 """
 
 from __future__ import annotations
@@ -127,11 +121,8 @@ def _newton(pairs: CoupledErrors, base: Floats) -> tuple[Floats, Floats]:
 
 @np.errstate(invalid="ignore")
 def _bisected(pairs: CoupledErrors, base: Floats, columns: Ints) -> tuple[Floats, Floats]:
-    """Return the error delta [rad] and the slope [1] of a single pair, found by bisection. The residual of equation (5)
-    increases with delta up to a dead centre.
-
-    If the transmission function jumps at the solution, as for cut teeth that collide, the position of the jump is
-    returned with slope 0. Without contact, the error is infinite, like the value of the transmission function.
+    """Return the error [rad] and the slope [1] of a single pair, found by bisection: at a jump of its transmission
+    function its position and slope 0, without contact an infinite error.
     """
     if len(pairs.transmissions) > 1:
         raise _refusal(pairs.names, _NO_FIT)

@@ -1,9 +1,7 @@
-"""Extreme errors and rates of outputs over a run of the input. Extremes at kinks and smooth extremes are both found.
+"""Extreme errors and rates of outputs over a run of the input, at kinks and between them.
 
-The kinks of all transmission functions divide the run into pieces on which errors and rates are smooth. Each piece is
-evaluated in the middle and at its ends, where one-sided limits are taken because rates jump at kinks. A maximum between
-these positions is located only if it may exceed all of them. The result does not depend on the positions at which a run
-is sampled.
+The kinks of all transmission functions divide the run into smooth pieces, which are evaluated at their ends and in the
+middle. A maximum between these positions is located only if it may exceed all of them.
 """
 
 from __future__ import annotations

@@ -1,11 +1,7 @@
-"""Positions of the input at which pairs pass kinks of their transmission functions. All errors are smooth between these
-positions.
+"""Positions of the input at which pairs pass kinks of their transmission functions. All errors are smooth between them.
 
-A transmission function lists the angles of its driver at which it has kinks. The driver of pair m has the angle S_m(x),
-equation (3) of docs/motion.md, which includes the errors of earlier pairs. The position x of a kink satisfies S_m(x) =
-kink + an integer number of periods. The values of S_m at the ends of a narrow step determine the number of kinks in
-this step, and each kink is located by the method of false position. If a driver reverses, the step is divided at the
-reversal.
+The driver angle of a pair, equation (3) of docs/motion.md, includes the errors of earlier pairs. Its values at the ends
+of a narrow step give the number of kinks in the step, and each kink is located by the method of false position.
 """
 
 from __future__ import annotations

@@ -176,10 +176,7 @@ class Motion(Shown):
         return self._errors.spread
 
     def _path(self, pair: str) -> ErrorPath:
-        """Return the links through which the errors of a pair or coupling propagate.
-
-        Raise `QuestionError` if the pair is redundant, because the effect of its errors is then not unique.
-        """
+        """Return the links through which the errors of a pair propagate. Raise `QuestionError` for a redundant pair."""
         if pair in self._propagation.pairs:
             return self._propagation.joints[self._propagation.pairs.index(pair)]
         why = (
@@ -219,10 +216,8 @@ class Motion(Shown):
         )
 
     def _composed(self, way: int, besides: Collection[str] = ()) -> ErrorComposition:
-        """Return the error composition for one direction `way` of the input, 1 or -1, with the pairs in `besides` as
-        further sources.
-
-        Every pointer is set at position 0, with the input turning in the declared sense.
+        """Return the error composition for the sense `way` of the input, 1 or -1, with the pairs `besides` as further
+        sources and every pointer set at position 0.
         """
         backlash, (teeth, pins) = self._errors.backlash(way), self._start
         found = ErrorComposition(self._errors.spread, tuple(self._errors.sources(way, besides)), self._seen)
@@ -245,11 +240,7 @@ class Motion(Shown):
 
     @cached_property
     def _start(self) -> tuple[Floats, Floats]:
-        """Angles by which the errors of teeth turn each link at position 0 of the input, and angles by which the errors
-        of pins turn it [rad].
-
-        The angles are linear in the errors of the pairs, because all driver angles are known.
-        """
+        """Angles by which the errors of teeth, and of pins, turn each link at position 0 of the input [rad]."""
         deltas = np.zeros((len(self._errors.spread.pairs), 2))
         pins = {joint.coupling.name for joint in self._problem.couplings}
         for each in self._errors.sources(1):

@@ -1,10 +1,5 @@
-"""Run of a motion over a number of revolutions of the input, with its statistics and spectrum.
-
-The spectrum by exact orders of the input follows section 5 of docs/motion.md. A pair has `cycles` periods per
-revolution of the input, an exact rational number, so its harmonic k has the order k times `cycles`. To first order, the
-amplitude of a spectral line is the amplitude of the pair's harmonic times the output's sensitivity. The amplitude in
-the composed motion is also computed, by a Fourier sum with a Hann window. The two amplitudes differ because pairs
-modulate each other.
+"""Run of a motion over a number of revolutions of the input, with its statistics and its spectrum by exact orders of
+the input (docs/motion.md, section 5).
 """
 
 from __future__ import annotations
@@ -97,9 +92,8 @@ def find_spectrum(
 
 
 def _harmonics(superposed: Superposition, at: int) -> Complex:
-    """Return the complex amplitudes of a pair's error at harmonics 1, 2, ... of its period [rad].
-
-    The phases are relative to the beginning of the run.
+    """Return the complex amplitudes of a pair's error at harmonics 1, 2, ... of its period [rad], from the start of the
+    run.
     """
     source = superposed.sources[at]
     pitches = source.transmission.pitch_count
@@ -142,9 +136,8 @@ def _expected(superposed: Superposition, harmonics: list[Complex], output: int) 
 def _measure(
     motion: Motion, turns: float, samples: int, orders: list[Fraction], on_done: Callable[[int], None]
 ) -> Floats:
-    """Return the amplitudes [rad] of the total output errors at the given orders, shape (outputs, orders).
-
-    A Hann window is applied unless the length of the run is an integer number of periods.
+    """Return the amplitudes of the output errors at the given orders [rad], shape (outputs, orders), with a Hann window
+    unless the run is an integer number of periods.
     """
     closes = bool(motion.period) and (Fraction(turns) / (motion.period or 1)).denominator == 1
     sums = np.zeros((len(motion.outputs), len(orders)), dtype=complex)
@@ -350,11 +343,8 @@ class MotionRun(Tabular, Pictured):
         return ["turns", *(f"{name} {what}" for name, heads in units for what in heads)]
 
     def _values(self, passage: ErrorSamples) -> list[Floats]:
-        """Return the table columns for the positions in `passage`: revolutions of the input, then the angle [rad],
-        error [rad] and speed [1] of each output. For an output that slides, they are travel [mm], error [mm] and speed
-        [mm/turn].
-
-        An angle is the sum of the initial angle, the mean motion and the error.
+        """Return the table columns for the positions in `passage`: revolutions of the input, then angle [rad], error
+        [rad] and speed [1] of each output (of a sliding output travel [mm], error [mm] and speed [mm/turn]).
         """
         found = [passage.turns]
         for at, (tally, start) in enumerate(zip(self.motion._statistics(), self.motion._start_angles, strict=True)):
@@ -363,10 +353,7 @@ class MotionRun(Tabular, Pictured):
         return found
 
     def _check_resumed(self, row: str, rows: int) -> None:
-        """Raise an error if `row`, the last comma-separated row of a partial table, does not belong to this run.
-
-        rows   number of rows of the partial table
-        """
+        """Raise an error if `row`, the last line of a partial table with `rows` rows, does not belong to this run."""
         # same order of operations as in `_stretches`, so that the float and its text are identical
         turns = self.turns * ((rows - 1) / (self.samples - 1))
         if rows > self.samples or row.split(",")[0] != repr(turns):

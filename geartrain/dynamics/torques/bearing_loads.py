@@ -1,12 +1,9 @@
 """Forces of gear pairs on the axes of their wheels, and the bearing friction that is proportional to these forces.
 
-A pair on parallel axes exerts a force on one wheel and the opposite force on the other. The moments of the force about
-the two axes are the torques T_i and T_j of the pair, so its component perpendicular to the line of centres is (T_i +
-T_j)/a, where a is the centre distance, for any point of contact and any friction. Its component along the line of
-centres is proportional to this component. The resultant R of all forces on a link and on the links that it carries
-loads the bearing of this link. The friction torque of the bearing is rho |R|, where rho = r mu/sqrt(1 + mu^2) is the
-radius of the friction circle, r the pivot radius and mu the coefficient of friction; see equations (26) to (28) of
-docs/torques.md, section 6.
+With the torques T_i and T_j of a pair about its axes and the centre distance a, the component of its force
+perpendicular to the line of centres is (T_i + T_j)/a, for any point of contact. The friction torque of a bearing under
+the resultant R is rho |R|, where rho is the radius of the friction circle; see equations (26) to (28) of
+docs/torques.md.
 """
 
 from __future__ import annotations

@@ -1,15 +1,9 @@
-"""Driver of each gear pair and coupling, from the power that flows through it relative to its carrier.
+"""Driver of each gear pair and coupling, from the power that flows through it relative to its carrier (docs/torques.md,
+section 3, "Who drives a pair").
 
-The rules are in docs/torques.md, section 3, "Who drives a pair". If loads are declared, torques determine the driver of
-all pairs that transmit a load. Otherwise the motion of every pointer on a dial is assumed to be resisted by an unknown
-torque. Without losses, the multiplier x of a pair is linear in these torques T_o >= 0 of the pointers o, x = sum c_o
-T_o. If all c_o of a pair have the same sign, the power flows in one direction for any torques of the pointers. If their
-signs differ, the direction is undetermined. For pairs that transmit no power to a pointer, resistance is assumed at the
-outputs on shafts, then at all outputs, at all shafts, and finally at every joint. The result does not depend on the
-order of declaration.
-
-The coefficients c_o are exact. One elimination treats all loads at once: each load is a symbol, and every unknown
-torque is a linear form of the symbols.
+If loads are declared, torques determine the drivers. Otherwise unknown torques T_o >= 0 are assumed to resist the
+motion of the outputs o. Without losses, the multiplier of a pair is linear in them, x = sum c_o T_o, so that the
+direction of power flow is known if all c_o have the same sign. One elimination gives the exact c_o of all loads.
 """
 
 from __future__ import annotations
@@ -238,10 +232,8 @@ def _directions(setting: LoadCase, loads: UnitLoads) -> dict[str, FlowDirections
 
 
 def _sources(setting: LoadCase) -> Iterator[tuple[str, ...]]:
-    """Yield the possible sets of links with unknown torque. The number of links in each set equals the number of
-    inputs.
-
-    If the crank is not an input, the sets are all combinations of the crank with further links.
+    """Yield the possible sets of links with unknown torque, as many links as inputs; if the crank is not an input, each
+    set is the crank with further links.
     """
     links, inputs = power_inputs(setting), tuple(setting.case.inputs)
     if len(links) == 1 and not setting.speeds.get(links[0]):

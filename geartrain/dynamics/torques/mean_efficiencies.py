@@ -1,10 +1,7 @@
-"""Mean efficiency of a pair. It is declared, or computed from the pair's teeth or pin by equations (17) to (20) of
-docs/torques.md.
+"""Mean efficiency of a pair, declared or computed from its teeth or pin by equations (17) to (20) of docs/torques.md.
 
-Over a revolution, the torques on the two links of a pair cannot both be constant. Let tau be the speed ratio and eta
-the efficiency at each position. If the driver's torque is constant, the mean efficiency is mean(eta). If the driven
-side's torque is constant, it is mean(tau)/mean(tau/eta). A torque is constant if it follows from the balance of its own
-link only.
+With the speed ratio tau and the efficiency eta at each position, the mean efficiency is mean(eta) if the driver's
+torque is constant, and mean(tau)/mean(tau/eta) if the driven side's torque is constant.
 """
 
 from __future__ import annotations

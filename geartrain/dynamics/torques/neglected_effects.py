@@ -43,8 +43,11 @@ def find_neglected_effects(
     """
     busy = [circuit for circuit in setting.circuits if circuit.id not in set(idle)]
     found = [*_pins(setting, busy), *_teeth(setting, busy, means)]
-    open_ = [circuit for circuit in busy if setting.turn(circuit) is None]
-    if lossy := tuple(each.id for each in open_ if means[each.id] != MeanEfficiencies() or _by_speed(setting, each)):
+    open_ = [circuit.id for circuit in busy if setting.turn(circuit) is None]
+    # pairs whose friction depends on the speed of their teeth
+    laws = {name for name, mesh in setting.meshes.items() if mesh.wheels.friction_law is not None}
+    laws = {name for name in laws if setting.gears[name].efficiency is None}
+    if lossy := tuple(name for name in open_ if means[name] != MeanEfficiencies() or name in laws):
         why = "their driving side depends on speeds that are not determined"
         found.append(NeglectedEffect("losses of pairs", lossy, why))
     found += _of_couplings(setting, busy)
@@ -150,12 +153,6 @@ def _slides(setting: LoadCase, circuit: Circuit) -> bool:
     wheels = [setting.train.wheels[name][1] for name in circuit.wheels]
     helical = any(wheel.is_helical for wheel in wheels) and not setting.axes.are_parallel(setting.axis_labels(circuit))
     return helical or any(wheel.kind == "worm" for wheel in wheels)
-
-
-def _by_speed(setting: LoadCase, circuit: Circuit) -> bool:
-    """Return True if the loss of a pair follows from friction of its teeth that depends on their speed."""
-    tooth = setting.meshes.get(circuit.id)
-    return tooth is not None and setting.gears[circuit.id].efficiency is None and tooth.wheels.friction_law is not None
 
 
 def _bearings(setting: LoadCase, included: bool) -> Iterator[NeglectedEffect]:

@@ -1,17 +1,9 @@
 """Behaviour of the one-way clutches (freewheels, overrunning clutches, ratchets) of a train in one state.
 
-A clutch between links a and b permits relative rotation in the sense s = 1 (forward) or -1 (backward). It satisfies the
-complementarity conditions s (w_b - w_a) >= 0, s T >= 0 and T (w_b - w_a) = 0, where w are speeds and T is the torque on
-b. The patterns of holding clutches are enumerated. A pattern is rejected if its speeds contradict each other, if the
-slip of an overrunning clutch is not positive (at equal speeds a clutch holds), if a holding clutch transmits a torque
-in the sense in which it overruns, or if the loads set the train in motion. Speeds are exact, and torques include
-declared losses.
-
-If no loads are declared, each output in turn is assumed to resist its rotation. An output that no pattern can drive is
-ignored.
-
-If an oscillating link drives another link stepwise through a clutch, the clutch is regarded as overrunning
-(`SteppedLink`).
+A clutch between links a and b permits relative rotation in the sense s = 1 (forward) or -1 (backward):
+s (w_b - w_a) >= 0, s T >= 0 and T (w_b - w_a) = 0, with speeds w and the torque T on b. The patterns of holding
+clutches are enumerated with exact speeds and with torques that include declared losses. If no loads are declared, each
+output in turn is assumed to resist its rotation.
 """
 
 from __future__ import annotations
@@ -328,11 +320,8 @@ class _Decision:
 
     @cached_property
     def _varying(self) -> Mapping[str, Sequence[Circuit]]:
-        """Variable-ratio couplings on which the slip of each clutch depends, by clutch. Clutches that depend on no such
-        coupling are omitted.
-
-        The equation of each coupling is assigned a symbol. A slip depends on the coupling if its expression contains
-        this symbol.
+        """Variable-ratio couplings whose equation, marked by a symbol, occurs in the slip of a clutch, by clutch;
+        clutches without such a coupling are omitted.
         """
         setting = self._patterns[()].setting
         varying = [each for each in setting.circuits if each.swings] if setting is not None else []

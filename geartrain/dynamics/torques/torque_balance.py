@@ -231,11 +231,7 @@ class TorqueBalance:
 
     @cached_property
     def _parts(self) -> Mapping[str, Sequence[tuple[int, str, Fraction]]]:
-        """Rows of declared shares that contain the torque of a mesh, by name of the mesh.
-
-        Such a row states that the torque of a mesh on the link divided by its share is equal to the torque of the first
-        mesh divided by its share.
-        """
+        """Rows of declared shares with the torque of a mesh, by mesh: torque over share is that of the first mesh."""
         found: dict[str, list[tuple[int, str, Fraction]]] = {}
         row = len(self.links)
         for link, shares in self.shares:

@@ -1,12 +1,9 @@
-"""Contacts of all pairs of a train in one load case: transmission function, friction and driving side.
+"""Contacts of all pairs of a train in one load case: transmission function, friction and driving side (docs/torques.md,
+section 17).
 
-The theory is in section 17 of docs/torques.md.
-
-The multiplier x of a pair is the torque on its driven side, in the mean sense of its rotation. The drive flanks are in
-contact for x >= 0, and the coast flanks for x <= 0. Let tau be the speed ratio of the flank in contact at this
-position. The torque on the driven side is x n, and the torque from the driver is x tau d, where n and d are 1 without
-friction. Friction reverses with the sliding velocity. If a flank has the efficiency eta(f) at a coefficient of friction
-f, its efficiency when the driven side drives is therefore eta'(f) = 1/eta(-f), equation (23).
+The multiplier x of a pair is the torque on its driven side in the mean sense of its rotation: drive flanks touch for
+x >= 0, coast flanks for x <= 0. A flank with the efficiency eta(f) at the coefficient of friction f has the efficiency
+1/eta(-f) if the driven side drives, equation (23).
 """
 
 from __future__ import annotations
@@ -338,9 +335,7 @@ def find_contacts(
 def mean_friction_pairs(
     setting: LoadCase, sources: Mapping[str, PairErrorSource], teeth: Mapping[str, GearMesh]
 ) -> Iterator[str]:
-    """Yield the names of redundant pairs with tooth friction. Their mean friction is used because the motion does not
-    determine their position.
-    """
+    """Yield the redundant pairs with tooth friction, whose mean friction is used because their position is unknown."""
     names = {circuit.id for circuit in setting.circuits} - sources.keys()
     return (name for name in teeth if name in names and _by_friction(setting, teeth[name]))
 

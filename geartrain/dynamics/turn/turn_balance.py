@@ -294,10 +294,7 @@ class PositionTorques(NamedTuple):
 
 
 class _State(NamedTuple):
-    """State of a train at some positions: link speeds, driver angles of pairs, and torques of pairs by side.
-
-    If there are several equal planets, torques are stored only for the first of them.
-    """
+    """Link speeds, driver angles and pair torques by side at some positions, for the first of several equal planets."""
 
     motion: LinkMotion
     contacts: Mapping[str, DriverState]
@@ -391,12 +388,9 @@ class TurnBalance:
         return tuple(name for name, contact in self.contacts.items() if contact.has_flanks)
 
     def _chunk(self, turns: Floats, static: bool) -> PositionTorques:
-        """Return the torques at some positions. The flanks in contact are determined iteratively, starting with the
-        drive flanks.
-
-        If a link would turn backwards on its drive flanks and forwards on its coast flanks, it is at rest in the
-        backlash between them, and its bearing has no torque. If no choice of flanks is consistent, the result for the
-        drive flanks is returned.
+        """Return the torques at some positions, with the flanks in contact found iteratively from the drive flanks on.
+        A link that would turn backwards on drive flanks and forwards on coast flanks rests in its backlash, and its
+        bearing has no torque. Without consistent flanks, the result for the drive flanks is returned.
         """
         left: Indices = np.arange(len(turns))
         coasting, resting = (np.zeros((len(names), len(turns)), bool) for names in (self.flanked, self.bearings))
@@ -459,11 +453,8 @@ class TurnBalance:
     # -------------------------------------------------------------------------------------------------- the balance
 
     def _balanced(self, state: _State) -> tuple[_State, list[BalanceLayer], BalanceLayer]:
-        """Return the state including the load-dependent friction of bearings, all solutions, and the solution with
-        minimum loss.
-
-        The friction is found by fixed-point iteration, which is damped if it converges slowly, because friction may
-        relieve a bearing. If the iteration diverges at a position, no torques balance there.
+        """Return the state with the load-dependent friction of bearings, found by damped fixed-point iteration, all
+        solutions, and the one with minimum loss. Positions at which the iteration diverges have no solution.
         """
         pieces = [self._pieces(column, state) for column in self.columns]
         for round_ in range(_MOST_LOADED):

@@ -1,10 +1,7 @@
-"""Run over several revolutions: positions at which torques are computed. They are chosen so that integrals are
-accurate.
+"""Run over several revolutions: positions at which torques are computed, chosen so that integrals are accurate.
 
-The run is divided into cells at equally spaced positions and at every kink. Each cell has three further positions
-inside. Torques are smooth within a cell and are integrated by Boole's rule. Where a transmission function has a kink, a
-motion reverses or the flank in contact changes, a cell ends and both one-sided limits are computed. A cell is bisected
-until bisection no longer changes the result of Simpson's rule.
+Cells end at equally spaced positions and at every kink, where both one-sided limits are computed. They are bisected
+until Simpson's rule no longer changes, and integrated by Boole's rule.
 """
 
 from __future__ import annotations

@@ -1,14 +1,8 @@
-"""Train with compliant teeth: the contacts of `TrainModel` with stiffness and damping of each contact, and the
-vibration modes.
+"""Train with compliant teeth: the contacts of `TrainModel` with stiffness and damping, and the vibration modes.
 
-Small vibrations about closed contacts satisfy M x'' + C x' + K x = 0, equation (19) of docs/dynamics.md, with the mass
-matrix M, the damping matrix C, and the stiffness matrix K = sum k r^T r over all pairs and the springs of drives. The
-row vector r gives the opening speed of a pair of stiffness k, at its mean speed ratio, from the speeds of the
-coordinates.
-
-Stiffness and damping are declared or estimated. A stiffness k along the line of action is k r^2 about the driven
-wheel's axis, where r is the lever arm of that line: the base radius of involute teeth, the pitch radius of others.
-Damping is converted in the same way, or follows from restitution: docs/dynamics.md (16) and (17).
+Small vibrations satisfy M x'' + C x' + K x = 0, equation (19) of docs/dynamics.md. A stiffness k along the line of
+action is k r^2 about the driven wheel's axis, with its lever arm r: the base radius of involute teeth, the pitch radius
+of others. Damping is declared, or follows from restitution: equations (16) and (17).
 """
 
 from __future__ import annotations

@@ -252,10 +252,8 @@ class ContactModel:
         )
 
     def _compliance(self, row: Floats) -> float:
-        """Return the compliance of a contact with rigid flanks [1/(kg m2)].
-
-        The compliance is 0 if a free coordinate moves the contact. If not, it is a small value that keeps the equations
-        from being singular.
+        """Return the compliance of a contact with rigid flanks [1/(kg m2)]: 0 if a free coordinate moves the contact,
+        otherwise a small value that keeps the equations regular.
         """
         if any(value and at not in self.given for at, value in enumerate(row)):
             return 0.0

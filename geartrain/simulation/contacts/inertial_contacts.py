@@ -1,17 +1,9 @@
 """Torques that each pair must transmit to keep its flanks in contact during motion: docs/dynamics.md, equations (1) to
 (6).
 
-While all drive flanks are in contact, the links follow `motion`. Let pair m, with driver angle S_m and speed ratio tau
-of mean value `mean`, be displaced virtually: its driven side moves ahead by p_m, the input is fixed, and every other
-pair keeps touching. Its error is then delta_m = sense (tau - mean) dS_m + p_m, so that links move by e = R J^-1 p. R is
-the response of the links to pair errors, and J = I - diag(sense (tau - mean)) G the matrix of (5) in docs/motion.md. By
-d'Alembert's principle the total virtual work is zero. The torque that the flanks must carry, lambda = -sum (T - J_l
-theta'') e over all links with torque T, inertia J_l and acceleration theta'', is
-
-    lambda_m(x, w) = D_m(x) + V_m(x) w + A_m(x) w^2
-
-at position x and input speed w, with loads and dry friction of bearings in D, viscous drag in V, and inertia in A. The
-separation speed is the minimum w > 0, over all positions, at which lambda_m vanishes.
+By the principle of virtual work, the flanks of a pair carry the torque D(x) + V(x) w + A(x) w^2 at the position x and
+the input speed w, with loads and dry friction of bearings in D, viscous drag in V, and inertia in A. The separation
+speed is the minimum w > 0, over all positions, at which it vanishes.
 """
 
 from __future__ import annotations
@@ -104,10 +96,8 @@ class InertialContacts:
         return self.motion._propagation.response
 
     def _inverse(self, slope: Floats) -> Floats:
-        """Return the inverse of the matrix J = I - diag(slope) G, which couples the transmission errors of the pairs,
-        shape (n, pairs, pairs).
-
-        The gains G are the angles of the drivers per unit transmission error of each pair.
+        """Return the inverse of J = I - diag(slope) G, shape (n, pairs, pairs), with the gains G: angles of the drivers
+        per unit transmission error of each pair.
         """
         found = np.tile(np.eye(len(self.pairs)), (slope.shape[1], 1, 1))
         found[:, [source.pair for source in self.sources]] -= slope.T[:, :, None] * self.motion._forward.gains
@@ -193,9 +183,8 @@ class InertialContacts:
         return CarriedTorques(*self._carried(state, forces))
 
     def _carried(self, state: _State, forces: Sequence[Floats]) -> Iterator[Floats]:
-        """Yield the torques that the pairs transmit under the torques `forces` (f) on the links: sense J^-T R^T f.
-
-        J is the matrix that couples the transmission errors of the pairs, and R is the response matrix of the links.
+        """Yield the torques sense J^-T R^T f that pairs transmit under the torques f on the links, with the matrices J
+        of `_inverse` and R of `_response`.
         """
         for requested in forces:
             force = self._without_crank_power(requested, state.virtual)
@@ -332,9 +321,8 @@ def torques_have_units(train: Train, case: StateCase) -> bool:
 
 
 def _torques(train: Train, case: StateCase) -> tuple[dict[str, Quantity], dict[str, Quantity]]:
-    """Return the declared load torques and the bearing friction torques, each keyed by link.
-
-    Loads on inputs do no virtual work unless a crank drives the train, so they are omitted.
+    """Return load torques and bearing friction torques, each by link, without loads on inputs, which do no virtual work
+    unless a crank drives the train.
     """
     # torques on a prescribed input do no virtual work
     still = {train.frame} if _is_cranked(train, case) else {train.frame, *case.inputs}

@@ -1,9 +1,7 @@
 """Moments of inertia of links, which are declared or computed from the plates from which their wheels are cut.
 
-A wheel of density rho and thickness t has the moment of inertia rho t (integral of r^2 dA) over its outline, computed
-exactly by Green's theorem. The outline includes the teeth that are drawn and cut. The wheel is a plate without spokes.
-A planet of mass m at a distance r from its carrier's axis adds m r^2 to the inertia of the carrier; the planet's own
-moment of inertia refers to its own axis.
+A wheel of density rho and thickness t has the moment of inertia rho t (integral of r^2 dA) over its outline, without
+spokes, by Green's theorem. A planet of mass m at a distance r from its carrier's axis adds m r^2 to the carrier.
 """
 
 from __future__ import annotations
@@ -190,10 +188,7 @@ class _Bodies:
         return find_cut_teeth(self.train).wheels
 
     def _orbit(self, carrier: str, planet: str) -> float | None:
-        """Return the distance of a planet's axis from the carrier's axis [m], or None if it is not known.
-
-        It is the centre distance of a pair that consists of a wheel of the planet and a wheel about the carrier's axis.
-        """
+        """Return the centre distance [m] of a planet's wheel and a wheel about its carrier's axis; None if unknown."""
         from geartrain.dynamics.gear_meshes import find_sizes
 
         tree = self.train.tree

@@ -120,9 +120,8 @@ def find_time_case(
 
 
 def _refuse_rate_beyond_beats(train: Train, problem: MotionProblem, drive: PowerInput, passed: Fraction) -> None:
-    """Raise `QuestionError` if a prescribed speed would make an escape wheel pass more than one tooth per beat.
-
-    passed   speed of the escape wheel relative to its bearing link, divided by the speed of the driving link
+    """Raise `QuestionError` if a prescribed speed makes an escape wheel, which turns `passed` times per revolution of
+    the driving link, pass more than one tooth per beat.
     """
     beats = train.escapement
     if beats is None or not problem.ratio(drive.link):

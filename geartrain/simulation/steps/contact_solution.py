@@ -2,12 +2,8 @@
 
     M (v+ - v) = h T + sum f_c P_c,   r_c v+ + P_c/s_c = k_c  for every c that touches        docs/dynamics.md (11)
 
-Here M is the mass matrix, v and v+ are the speeds before and after the step of length h, and T the torques. The impulse
-P_c of contact c acts on the coordinates with the coefficients f_c. The row r_c gives the opening speed of the contact
-from the speeds, k_c is the bound of that speed, and 1/s_c is the compliance. The speeds v+ and the impulses P_c are the
-solution of one system of linear equations (13). The compliance is 0 for rigid teeth and stops. Contacts between
-prescribed coordinates, whose speeds are known, have a compliance that is small compared with any inverse mass, so that
-the system is regular.
+The speeds v+ and the impulses P_c of the contacts are the solution of one system of linear equations (13), with the row
+r_c of the opening speed, its bound k_c and the compliance 1/s_c, which is 0 for rigid teeth.
 """
 
 from __future__ import annotations

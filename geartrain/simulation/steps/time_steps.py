@@ -1,29 +1,12 @@
-"""Time steps of constant length: nonsmooth time stepping for rigid teeth, the midpoint rule for compliant teeth.
+"""Time steps of constant length h: nonsmooth time stepping (Moreau and Jean) for rigid teeth, the midpoint rule for
+compliant teeth.
 
-Rigid teeth use the nonsmooth time stepping of Moreau and Jean. Contacts without rebound are enforced at the position
-level, equation (12) of docs/dynamics.md. For a pair with driver angle S, driven angle q, gap g and coefficient of
-restitution e, and a step of length h, the transmission function F* and the speed ratio tau* are evaluated at S* = S + h
-dS/dt. Then
+Rigid contacts are enforced at the position level, equation (12) of docs/dynamics.md, so that gaps do not drift. The
+complementarity problem of touching contacts and sticking bearings is solved by block pivoting, and by Murty's method if
+that does not converge. Identical steps of a train at rest are computed together, up to the next beat of an escapement.
 
-    dq/dt+ - tau* dS/dt+ >= k,   k = (F* - tau* h dS/dt - q)/h,   for a closing contact k = max(k, -e dg/dt-),
-
-so that gaps do not drift (- and + mark speeds before and after the step). The complementarity problem of touching
-contacts and sticking bearings is solved iteratively, starting from the solution of the previous step. All wrong contact
-states are changed at once (block pivoting). If this does not converge, only the state with the lowest index is changed
-in each iteration (Murty's method).
-
-Identical steps of a train at rest are computed together, up to the next beat of an escapement. Between two beats a
-clock rests most of the time: its stop is active, bearings stick, and torques do not change. A step that starts and ends
-without speed, and in which no contact state changes, is followed by an identical step.
-
-Compliant teeth have a stiffness k and a damping c, equations (15) and (18) of docs/dynamics.md. Their impulse is
-
-    P = h max(0, -k g - c dg/dt)   where g < 0,
-
-with gap and closing speed in the middle of the step. Both are linear in the speeds at the end of the step, because the
-transmission function is evaluated at the extrapolated position. A touching pair is therefore a row with the compliance
-1/s, s = h^2 k/4 + h c/2, in the equations of rigid contacts. The rule is of second order and conserves the energy of
-vibrations.
+Compliant teeth of stiffness k and damping c have the impulse P = h max(0, -k g - c dg/dt) at the gap g < 0, equations
+(15) and (18), with gap and speed in the middle of the step: a row with the compliance 1/s, s = h^2 k/4 + h c/2.
 """
 
 from __future__ import annotations

@@ -215,16 +215,19 @@ class ContactLoad:
         pressure, force, counts = self.pressures(X)
         # infinite pressure at a cusp is reported by name, not as the worst position
         worst = int(np.argmax(np.where(np.isfinite(pressure), pressure, -1.0)))
-        found = [self._place(name, each) for name, each in sorted(named.items(), key=lambda each: each[1])]
+        nudge = 1e-7 * p  # into the interval where fewer tooth pairs carry the load
+        nudges = {"inner single contact of gear 1": nudge, "inner single contact of gear 2": -nudge}
+        names = sorted(named, key=named.__getitem__)
+        own = self.pressures(np.array([named[name] + nudges.get(name, 0.0) for name in names]))
+        found = [
+            ContactPlace(name, named[name] / p, tooth_pairs, each_force, each_pressure)
+            for name, each_pressure, each_force, tooth_pairs in zip(
+                names, *(each.tolist() for each in own), strict=True
+            )
+        ]
         far = "worst" if not self.has_cusp else f"worst, excluding {_CUSP:g} pitch about the pitch point"
         last = ContactPlace(far, float(X[worst] / p), counts[worst].item(), float(force[worst]), float(pressure[worst]))
         return (*found, last)
-
-    def _place(self, name: str, X: float) -> ContactPlace:
-        nudge = 1e-7 * self.path.pitch.p  # into the interval where fewer tooth pairs carry the load
-        towards = {"inner single contact of gear 1": nudge, "inner single contact of gear 2": -nudge}.get(name, 0.0)
-        pressure, force, counts = self.pressures(np.array([X + towards]))
-        return ContactPlace(name, X / self.path.pitch.p, counts[0].item(), float(force[0]), float(pressure[0]))
 
 
 def base_helix_angle(helix: float, pressure_angle: float) -> float:
@@ -399,9 +402,9 @@ class CrossedWheels:
         back, front = self.ends
         places = np.linspace(-back, front, _POINTS)[1:-1].tolist()
         # the ends of the path are excluded: a pair carries no load there
-        fewest = min(self.tooth_pairs(place) for place in places)
-        found = [self.ellipse(place, force, factor) for place in places if self.tooth_pairs(place) == fewest]
-        return max(found)
+        counts = [self.tooth_pairs(place) for place in places]
+        fewest = [place for place, count in zip(places, counts, strict=True) if count == min(counts)]
+        return max(self.ellipse(place, force, factor) for place in fewest)
 
 
 # ----------------------------------------------------------------------------------------------------------------- wear

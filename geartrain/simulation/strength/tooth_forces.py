@@ -86,10 +86,8 @@ class ToothForces:
 
     @staticmethod
     def _both(loads: Sequence[float], radii: Sequence[float], cosines: Sequence[float]) -> list[tuple[float, float]]:
-        """Return the radius and the tangential force of each of the two wheels. The forces are opposite, equation (32)
-        of docs/strength.md.
-
-        cosines   cosine of the angle of each pitch cone: 1 for parallel axes, -1 for a ring gear
+        """Return the radius and the tangential force of both wheels, equation (32) of docs/strength.md, for the cosines
+        of their pitch cone angles: 1 for parallel axes, -1 for a ring gear.
         """
         others = cosines[::-1]
         lever = sum(radius * other for radius, other in zip(radii, others, strict=True))
@@ -107,12 +105,13 @@ class ToothForces:
         wheels = [self._wheel(circuit, at) for at in (0, 1)]
         widths = [face_width(self.setting.train, wheel) for wheel in wheels]
         first, second = (float("inf") if width is None else _MM * width.si for width in widths)
+        addenda = self.involute_of(circuit).addendum
         return CrossedWheels(
             (self._radius(circuit, 0), self._radius(circuit, 1)),
             self.setting.helix_angles(circuit) or (0.0, 0.0),
             _MM * self.modules[circuit.wheels[0]] / wheels[0].slant,
             self._angle(circuit),
-            self._addenda(circuit),
+            (float(addenda[0].value), float(addenda[1].value)),
             (first, second),
         )
 
@@ -122,10 +121,6 @@ class ToothForces:
         """
         form = self.setting.train.form_of(self.setting.gears[circuit.id])
         return form if isinstance(form, Involute) else Involute(form="involute")
-
-    def _addenda(self, circuit: Circuit) -> tuple[float, float]:
-        first, second = self.involute_of(circuit).addendum
-        return float(first.value), float(second.value)
 
     def _is_parallel(self, circuit: Circuit) -> bool:
         return self.setting.axes.are_parallel(self.setting.axis_labels(circuit))

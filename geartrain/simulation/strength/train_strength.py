@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import hypot, inf, pi, sqrt
@@ -430,29 +430,22 @@ class StrengthQuestion:
             for name, pair in pairs.items()
             if name in straight
         }
+        known = {each.pair for each in forces}
+        torques = {name: each for name, each in self.torques.pairs.items() if each.multiplier or each.loose}
+        # pairs that transmit torque but whose tooth forces are unknown
+        unknown = [gear for gear in self.declared.gears if gear.name in torques and gear.name not in known]
         for link, part in self.declared.links.items():
             if part.arbor is None:
                 continue
-            if unknown := self._without_force(part.wheels, forces):
+            missing = next((gear.name for gear in unknown if not set(part.wheels).isdisjoint(gear.pair)), None)
+            if missing is not None:
                 why = (
-                    f"the force of pair '{unknown[0]}' is not known: it has no `module`, or one wheel is a contrate "
-                    "wheel"
+                    f"the force of pair '{missing}' is not known: it has no `module`, or one wheel is a contrate wheel"
                 )
                 self.neglected[f"arbor {link}"] = NeglectedEffect("strength", (f"arbor {link}",), why)
                 continue
             own = [each for each in forces if each.wheel in part.wheels]
             yield arbor_strength(link, part.arbor, material_named(self.declared, part.arbor.material), own, steepest)
-
-    def _without_force(self, wheels: Collection[str], forces: Sequence[WheelForce]) -> list[str]:
-        """Return the names of the pairs of given wheels that transmit torque but whose tooth forces are unknown."""
-        known = {each.pair for each in forces}
-        loaded = (gear for gear in self.declared.gears if not set(wheels).isdisjoint(gear.pair))
-        torques = self.torques.pairs
-        return [
-            gear.name
-            for gear in loaded
-            if gear.name not in known and (torques[gear.name].multiplier or torques[gear.name].loose)
-        ]
 
 
 # ------------------------------------------------------------------------------------------ arbors between two bearings

@@ -184,10 +184,8 @@ class SkewPair:
             return None
 
     def _root_stress(self, at: int, force: float) -> float | None:
-        """Return the root stress of a tooth under a normal force at its tip [MPa], or None if the virtual wheels cannot
-        be cut.
-
-        The force [N] is distributed over a length of twice its lever arm, at most the length of the tooth.
+        """Return the root stress under a normal force at the tip [MPa], distributed over at most twice its lever arm
+        and at most the length of the tooth; None if the virtual wheels cannot be cut.
         """
         if self._pair is None:
             return None

@@ -287,10 +287,7 @@ class Simulation(Shown):
         self._read(record, steps)
 
     def _apply_new_speed(self) -> int:
-        """Set prescribed coordinates to a new speed. Return 1 if a speed changes, and 0 if no speed changes.
-
-        If a speed changes, the momentum must be corrected in the first step.
-        """
+        """Set prescribed coordinates to a new speed. Return 1 if a first step must correct the momentum, else 0."""
         if self.drive_kind != "rate":
             return 0
         jump = np.zeros(len(self._torque))

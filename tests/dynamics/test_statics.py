@@ -84,8 +84,6 @@ def test_naming_the_link_that_is_requested_for_anyway_changes_nothing() -> None:
     loads = "left: -10 N m, right: -10 N m"
     found = axle("case: 1, left: 1", loads, "solve_for: case").torques()
     assert found == axle("case: 1, left: 1", loads).torques()
-    assert found.verdict.kind == "determined"
-    assert found.external["case"] == 20
 
 
 @pytest.mark.parametrize("number", [2, 3, 4])

@@ -88,13 +88,7 @@ def test_a_shaft_angle_lies_between_the_ways_in_which_both_wheels_face(
 @pytest.mark.parametrize(
     ("form", "p", "w", "axes", "words"),
     [
-        (
-            INVOLUTE,
-            "{teeth: 2, kind: worm}",
-            "60",
-            "",
-            ("pair 'p~w'", "the thread of a worm", "tooth_form: {form: ideal}"),
-        ),
+        (INVOLUTE, "{teeth: 2, kind: worm}", "60", "", ("the thread of a worm", "tooth_form: {form: ideal}")),
         (INVOLUTE, "{teeth: 20, kind: bevel}", "{teeth: 60, kind: bevel}", "", ("shaft angle", "`axes`")),
         (INVOLUTE, "{teeth: 20, kind: bevel}", "{teeth: 60, kind: contrate}", "", ("pitch cones", "ideal")),
         (INVOLUTE, "2", "60", "", ("a wheel of 2 teeth", "at least 3")),

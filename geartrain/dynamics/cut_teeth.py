@@ -72,7 +72,7 @@ def not_cut(wheel: str, problem: Problem) -> Problem:
 
 
 def _places(declared: Train) -> Mapping[str, _Place]:
-    """Return a nominal place of each wheel: its module is 1, and its cone angle is 0 only if its teeth are plane."""
+    """Return a nominal placement of each wheel: module 1 mm, and a cone angle that is 0 only for plane teeth."""
     bevels = {name for name, (_, wheel) in declared.wheels.items() if wheel.kind == "bevel"}
     meshing = {name for gear in declared.gears if not bevels.isdisjoint(gear.pair) for name in gear.pair}
     return {

@@ -86,9 +86,7 @@ def find_meshes(train: Train, shaft_angle: ShaftAngle = lambda _: None) -> Mappi
 
 
 def all_meshes(meshes: Mapping[str, GearMesh]) -> tuple[GearMesh, ...]:
-    """Return all meshes after building the teeth of every pair. Raise `GearTrainError` with the problems of all invalid
-    pairs.
-    """
+    """Return all meshes with the teeth of every pair built. Raise `GearTrainError` with all problems found."""
     problems: list[Problem] = []
     for name in meshes:
         try:
@@ -101,7 +99,7 @@ def all_meshes(meshes: Mapping[str, GearMesh]) -> tuple[GearMesh, ...]:
 
 
 def _meshing_wheels(train: Train, gear: GearPair, place: str) -> MeshingWheels:
-    """Return the wheels of a pair with the data that tooth forms require."""
+    """Return the two wheels of a gear pair with the data from which tooth forms compute teeth, such as tooth counts."""
     first, second = wheels = [train.wheels[name][1] for name in gear.pair]
     friction = train.friction_of(gear)
     kinds = ["helical" if wheel.is_helical else wheel.kind for wheel in wheels]
@@ -152,9 +150,7 @@ def find_sizes(meshes: Iterable[GearMesh]) -> dict[str, PairSize]:
 
 
 def find_outlines(meshes: Sequence[GearMesh]) -> dict[str, PairOutline]:
-    """Return the outlines of the cut teeth of all pairs that have a declared tooth form and parallel axes, by name of
-    the pair.
-    """
+    """Return the tooth outlines of all pairs with a declared tooth form and parallel axes, by name of the pair."""
     from geartrain.dynamics.wheel_teeth import CHORD
     from geartrain.kinematics.buildability.pitch_distances import PairOutline
 

@@ -72,9 +72,7 @@ def at_speed(mesh: GearMesh, speed: float | None) -> GearMesh:
 
 
 def at_own_speeds(meshes: Sequence[GearMesh], setting: LoadCase | None) -> tuple[GearMesh, ...]:
-    """Return the meshes with the friction coefficients at their pitch-line speeds in one load case, if these speeds are
-    known.
-    """
+    """Return the meshes with the friction coefficients at their pitch-line speeds, if these speeds are known."""
     if setting is None:
         return tuple(meshes)
     circuits = {circuit.id: circuit for circuit in setting.circuits}

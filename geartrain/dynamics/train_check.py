@@ -16,9 +16,7 @@ if TYPE_CHECKING:
 
 
 def find_build_findings(train: TrainMechanics) -> tuple[BuildFinding, ...]:
-    """Return all findings on parts that cannot be built, and on parts whose design is inadvisable
-    (docs/buildability.md).
-    """
+    """Return all findings on parts that cannot be built or whose design is inadvisable (docs/buildability.md)."""
     declared = train.declaration
     # only tooth forms need numpy; other declarations are checked without it
     if not any(map(declared.form_of, declared.gears)) or find_spec("numpy") is None:

@@ -62,18 +62,14 @@ class TrainMechanics(Shown):
 
     @property
     def signs(self) -> Mapping[str, int]:
-        """Sign of each link's axis, by link: -1 if it points against the reference direction of its parallel axes, 1 if
-        it does not.
-        """
+        """Sign of each link's axis: -1 if it points against the reference direction of parallel axes, else 1."""
         return self.kinematics.signs
 
     # ------------------------------------------------------------------------------------------------- equal planets
 
     @property
     def unfolded(self) -> TrainMechanics:
-        """Train in which each of several equal planets is a separate link, so that they share loads; self if no link
-        has copies.
-        """
+        """Train in which equal planets are separate links, which share loads; self if no link has copies."""
         # not cached if it is the train itself, because that would be a reference cycle
         return self._with_copies if has_copies(self.declaration) else self
 
@@ -117,9 +113,7 @@ class TrainMechanics(Shown):
 
     @cached_property
     def meshes(self) -> tuple[GearMesh, ...]:
-        """Gear pairs with a declared tooth form, each with the driving wheel of the first state in which it is
-        determined.
-        """
+        """Gear pairs with a declared tooth form and the driver of the first state in which it is determined."""
         ways = self.driven_ways.values()
         return tuple(next((way for way, _ in each if way.who.known), each[0][0]) for each in ways)
 

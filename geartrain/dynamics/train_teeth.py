@@ -45,9 +45,7 @@ STANDARD = "standard"
 
 
 class ToothingPlace(Protocol):
-    """Protocol of a placed wheel: its module [mm] and the half angle of its pitch cone [rad], which determine its
-    teeth.
-    """
+    """Protocol of a placed wheel: module [mm] and half angle of the pitch cone [rad], which determine its teeth."""
 
     @property
     def module(self) -> float:
@@ -226,7 +224,7 @@ class _Toothing:
         return TrainTeeth(found, problems, approximations, flat, tuple(self._backlashes(found)))
 
     def requirements(self, name: str) -> list[PairRequirement]:
-        """Return what each pair of a wheel requires of its teeth. Raise `GearTrainError` if they cannot be cut."""
+        """Return the teeth that each pair of a wheel requires. Raise `GearTrainError` if they cannot be cut."""
         wheel, place = self._wheel(name), self.places[name]
         if not self._is_flat(name):
             kind = wheel.kind if wheel.kind != "spur" else "bevel" if place.cone else "worm wheel"
@@ -277,7 +275,7 @@ class _Toothing:
         return WheelTeeth(name, z, cut.kind, first.form, first.words, cut.tip, cut.root, cut.tooth, cut.pins)
 
     def _backlashes(self, found: Mapping[str, WheelTeeth]) -> Iterator[PairBacklash]:
-        """Yield the backlash of each pair in which both wheels are cut."""
+        """Yield the backlash of each pair of which both wheels have teeth."""
         for gear in self.declared.gears:
             if not set(gear.pair) <= set(found):
                 continue
@@ -289,8 +287,8 @@ class _Toothing:
                 yield PairBacklash(gear.name, gear.pair, arc * size, angles, *self._contact(gear))
 
     def _contact(self, gear: GearPair) -> tuple[float | None, str]:
-        """Return the contact ratio of conjugate teeth at their design centre distance, else None, and advice on how to
-        increase it.
+        """Return the contact ratio of a pair of conjugate teeth, and advice on how to increase it. The ratio is None
+        for other teeth, and for pairs at a different centre distance than designed.
         """
         mesh = self._mesh(gear)
         if gear.name in self.waves or gear.name in self.apart:
@@ -307,8 +305,8 @@ class _Toothing:
         return self._standard_pair(first, second, gear.pair[0])[:2]
 
     def _backlash(self, gear: GearPair) -> float | None:
-        """Return the backlash of a pair along the pitch circles at its centre distance [modules]; None for displaced
-        wheels whose transmission function depends on this distance.
+        """Return the backlash of a gear pair along its pitch circles [module]; None if the wheels are displaced and
+        their transmission function depends on the centre distance.
         """
         mesh, displaced = self._mesh(gear), gear.name in self.apart and gear.name not in self.waves
         if not displaced:

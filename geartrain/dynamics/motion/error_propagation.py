@@ -87,7 +87,9 @@ def solve_coupled_errors(pairs: CoupledErrors, base: Floats, turning: Floats) ->
 
 @np.errstate(invalid="ignore")  # inf - inf where nothing touches
 def _newton(pairs: CoupledErrors, base: Floats) -> tuple[Floats, Floats]:
-    """Return the errors of coupled pairs [rad] and the slopes of their functions [1], found by Newton's method."""
+    """Return the errors of coupled pairs [rad] and the slopes of their transmission functions [1], found by Newton's
+    method with step halving.
+    """
     tolerance = _CONVERGED * (1 + np.max(np.abs(base), initial=0.0) + np.abs(pairs.gain).sum(axis=1).max())
     active = np.arange(base.shape[1])
     delta, slopes = pairs.transmissions_at(base, active)
@@ -121,8 +123,8 @@ def _newton(pairs: CoupledErrors, base: Floats) -> tuple[Floats, Floats]:
 
 @np.errstate(invalid="ignore")
 def _bisected(pairs: CoupledErrors, base: Floats, columns: Ints) -> tuple[Floats, Floats]:
-    """Return the error [rad] and the slope [1] of a single pair, found by bisection: at a jump of its transmission
-    function its position and slope 0, without contact an infinite error.
+    """Return the error [rad] of a single pair and the slope of its transmission function [1], found by bisection. At a
+    jump of the function, the slope is 0; without contact of the teeth, the error is infinite.
     """
     if len(pairs.transmissions) > 1:
         raise _refusal(pairs.names, _NO_FIT)
@@ -139,7 +141,9 @@ def _bisected(pairs: CoupledErrors, base: Floats, columns: Ints) -> tuple[Floats
 
 
 def _stepped(matrices: Floats, right: Floats) -> Floats:
-    """Return the Newton step, or 0 at dead centres, where the Jacobian is singular."""
+    """Return the Newton step J^-1 r at each position, with the Jacobians `matrices` (J) and the residuals `right` (r);
+    0 where J is singular.
+    """
     dead = _determinants(matrices) == 0
     if not dead.any():
         return _solve_coupled(matrices, right)
@@ -174,9 +178,7 @@ def _refusal(pairs: Sequence[str], why: str) -> GearTrainError:
 
 
 class ErrorPath(NamedTuple):
-    """Links of a pair or coupling through which its error propagates, and the coefficient of the driven link in its
-    equation.
-    """
+    """Links of a pair through which its error propagates, and the coefficient of the driven link in its equation."""
 
     driver: int
     driven: int
@@ -217,9 +219,7 @@ class ErrorPropagation:
         return found
 
     def errors(self, deltas: Floats) -> Floats:
-        """Return the errors of all links [rad], shape (links, n), for given errors of all pairs `deltas` [rad], shape
-        (pairs, n).
-        """
+        """Return the errors of all links [rad], shape (links, n), from those of all pairs [rad], shape (pairs, n)."""
         with np.errstate(invalid="ignore"):  # an infinite response times 0, which `sensitivity` refuses
             return np.asarray(self.response @ deltas)
 

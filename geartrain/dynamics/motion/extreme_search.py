@@ -32,7 +32,9 @@ _ROUNDS = 6  # rounds of subdivision: each narrows the interval by 4
 
 
 class _Candidates(NamedTuple):
-    """Pieces of a run in which an error or rate may exceed its maximum so far, with its index, estimate and ends."""
+    """Intervals of the input positions in which an error or speed may exceed the maximum found so far: index of the
+    quantity, estimated maximum, and both ends of each interval.
+    """
 
     sought: Indices
     promise: Floats
@@ -44,7 +46,7 @@ class _Candidates(NamedTuple):
         return _Candidates(self.sought[which], self.promise[which], self.low[which], self.high[which])
 
     def exceeding(self, maxima: Floats) -> _Candidates:
-        """Return the candidates with an estimate above the maximum found so far, without repeated equal maxima."""
+        """Return the intervals with an estimate above the maximum found so far, one of several equal estimates."""
         return self.chosen(self.promise > (maxima + _tolerance(maxima))[self.sought])
 
 
@@ -109,7 +111,7 @@ def pieces(searches: Sequence[KinkSearch], low: float, high: float, size: int) -
 
 
 def _promise(first: Floats, middle: Floats, last: Floats) -> Floats:
-    """Return an estimate of the maximum in each piece from three values, which smooth functions rarely exceed."""
+    """Return an estimated upper bound on a smooth function in each interval, from its values at three positions."""
     highest, lowest = (each.reduce([first, middle, last]) for each in (np.maximum, np.minimum))
     bend, rise = 2 * middle - first - last, np.abs(last - first)
     # vertex of the parabola through the three values, if it is between the ends
@@ -122,14 +124,14 @@ def _promise(first: Floats, middle: Floats, last: Floats) -> Floats:
 
 
 def _tolerance(maxima: Floats) -> Floats:
-    """Return the tolerance to which each maximum is located, derived from the range of the output's errors or rates."""
+    """Return the absolute tolerance of each maximum, a small fraction of the range of the errors or speeds."""
     # a maximum plus the maximum of the negatives is the range
     ranges = np.repeat(maxima[::2] + maxima[1::2], 2)
     return np.maximum(_SURE * ranges, _ROUNDING)
 
 
 def _locate(sampler: ErrorComposition | ErrorDifference, maxima: Floats, given: _Candidates) -> None:
-    """Update the maxima in place with the maxima inside the candidate pieces, which are found by subdivision."""
+    """Replace each value in `maxima` by the maximum inside the candidate intervals if that is larger."""
     for _ in range(_ROUNDS):
         given = given.exceeding(maxima)
         rows = np.arange(len(given.sought))

@@ -106,7 +106,9 @@ class PairKinks:
         return self._crossings(steps, low, high)
 
     def _cut_where_it_turns(self, steps: InputSteps, slowest: Floats) -> InputSteps:
-        """Return the steps, divided at the positions at which the driver reverses, which are found by bisection."""
+        """Return the intervals of the input, divided at the positions at which the driver of the pair reverses, which
+        are found by bisection.
+        """
         slow = slowest < _SLOW * self.source.mean
         ends = steps.low[slow, None] + (steps.high - steps.low)[slow, None] * (np.arange(_PARTS + 1) / _PARTS)
         ends[:, -1] = steps.high[slow]  # exact, despite rounding of the sum
@@ -125,8 +127,8 @@ class PairKinks:
         )
 
     def _crossings(self, steps: InputSteps, low: Floats, high: Floats) -> Floats:
-        """Return the positions and indices of the kinks in steps without reversals. `low` and `high` are the shifts of
-        the driver's angle at the two ends of each step [rad].
+        """Return the input positions [revolutions] and the indices of the kinks in intervals without reversals. `low`
+        and `high` are the errors of the driver's angle at the two ends of each interval [rad].
         """
         period, cycles = self.source.transmission.period, self.source.cycles
         width = steps.high - steps.low

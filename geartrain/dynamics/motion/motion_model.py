@@ -176,7 +176,7 @@ class Motion(Shown):
         return self._errors.spread
 
     def _path(self, pair: str) -> ErrorPath:
-        """Return the links through which the errors of a pair propagate. Raise `QuestionError` for a redundant pair."""
+        """Return the links through which a pair's error propagates. Raise `QuestionError` for a redundant pair."""
         if pair in self._propagation.pairs:
             return self._propagation.joints[self._propagation.pairs.index(pair)]
         why = (
@@ -188,21 +188,23 @@ class Motion(Shown):
 
     @cached_property
     def _forward(self) -> ErrorComposition:
-        """Composition of the errors while the input turns in its declared sense."""
+        """Composition of the transmission errors of all pairs while the input turns in its declared sense."""
         return self._composed(1)
 
     def _with_sources(self, pairs: Collection[str]) -> ErrorComposition:
-        """Return the error composition for the declared sense of the input, with the given pairs as further sources."""
+        """Return the composition for the declared sense of the input that also evaluates the given pairs."""
         return self._composed(1, pairs)
 
     @cached_property
     def _unset(self) -> ErrorComposition:
-        """Error composition before pointers are set: positions of links follow from the transmission functions."""
+        """Error composition in which no output is set to the error 0 at position 0 of the input."""
         return replace(self._forward, offsets=())
 
     @cached_property
     def _backward(self) -> ErrorComposition:
-        """Composition of the errors while the input turns against its declared sense, with coast flanks in contact."""
+        """Composition of the transmission errors of all pairs while the input turns against its declared sense and
+        coast flanks are in contact.
+        """
         return self._composed(-1)
 
     @cached_property
@@ -216,8 +218,8 @@ class Motion(Shown):
         )
 
     def _composed(self, way: int, besides: Collection[str] = ()) -> ErrorComposition:
-        """Return the error composition for the sense `way` of the input, 1 or -1, with the pairs `besides` as further
-        sources and every pointer set at position 0.
+        """Return the error composition for one sense of the input, 1 (declared) or -1, in which the pairs `besides` are
+        also evaluated at each position. At position 0, the error of every output is 0.
         """
         backlash, (teeth, pins) = self._errors.backlash(way), self._start
         found = ErrorComposition(self._errors.spread, tuple(self._errors.sources(way, besides)), self._seen)
@@ -240,7 +242,9 @@ class Motion(Shown):
 
     @cached_property
     def _start(self) -> tuple[Floats, Floats]:
-        """Angles by which the errors of teeth, and of pins, turn each link at position 0 of the input [rad]."""
+        """Angles [rad] by which the errors of teeth turn each link at position 0 of the input, and angles by which the
+        errors of pins turn it.
+        """
         deltas = np.zeros((len(self._errors.spread.pairs), 2))
         pins = {joint.coupling.name for joint in self._problem.couplings}
         for each in self._errors.sources(1):
@@ -256,7 +260,7 @@ class Motion(Shown):
         return {name: seen.difference(-self._start[0]) for name, seen in zip(self.outputs, self._seen, strict=True)}
 
     def _with_angles(self, angles: Mapping[str, float]) -> Motion:
-        """Return the motion with different initial angles of some links [rad]."""
+        """Return the motion of the same train in which some links have the given initial angles [rad], by link."""
         return Motion(replace(self._problem, angles={**self._problem.angles, **angles}), self.outputs)
 
     def with_random_phases(self, random: Generator) -> Motion:
@@ -321,7 +325,7 @@ class Motion(Shown):
 
     @property
     def _start_angles(self) -> list[float]:
-        """Angle of each output at position 0 [rad], positive in the sense in which the input turns."""
+        """Declared angle of each output at position 0 [rad], positive in the sense in which the input turns."""
         angles = self._problem.way * np.array([self._problem.angles.get(link, 0.0) for link in self._propagation.links])
         return [seen.difference(angles) for seen in self._seen]
 
@@ -339,11 +343,15 @@ class Motion(Shown):
             yield sampler.at(turns * (at / (samples - 1)))
 
     def _composition(self, turns: float) -> ErrorComposition:
-        """Return the error composition for `turns` revolutions; coast flanks are in contact if `turns` is negative."""
+        """Return the error composition for a motion over `turns` revolutions of the input, which are negative if coast
+        flanks are in contact.
+        """
         return self._forward if turns >= 0 else self._backward
 
     def _sampler(self, turns: float) -> ErrorComposition | ErrorDifference:
-        """Return the sampler of the errors of a run, which is one composition or the difference of two."""
+        """Return the object that evaluates the output errors at given positions: an error composition, or the
+        difference between real and ideal teeth.
+        """
         own = self._composition(turns)
         return own if self._ideal is None else ErrorDifference(own, self._ideal._composition(turns))
 
@@ -500,7 +508,7 @@ class Motion(Shown):
 
     @cached_property
     def _usual_run(self) -> Any:
-        """Run with the default options of the command `geartrain motion`; `print` displays it."""
+        """Evaluation of the motion with the default options of `geartrain motion`, which `print` displays."""
         return self.run()
 
     def _with_transmissions(self, transmissions: Mapping[str, Any]) -> Motion:

@@ -91,9 +91,7 @@ class MotionProblem:
 
     @property
     def way(self) -> int:
-        """Sign of the driving link's speed about its own axis. Its revolutions and angles are positive in its sense of
-        rotation.
-        """
+        """Sign of the driving link's speed about its own axis; its angles are positive in its sense of rotation."""
         return -1 if self.speeds[self.driving_link] < 0 else 1
 
     def ratio(self, link: str) -> Fraction:

@@ -92,8 +92,8 @@ def find_spectrum(
 
 
 def _harmonics(superposed: Superposition, at: int) -> Complex:
-    """Return the complex amplitudes of a pair's error at harmonics 1, 2, ... of its period [rad], from the start of the
-    run.
+    """Return the complex amplitudes of the error of pair number `at` at harmonics 1, 2, ... of its period [rad]. The
+    phases refer to position 0 of the input.
     """
     source = superposed.sources[at]
     pitches = source.transmission.pitch_count
@@ -136,8 +136,8 @@ def _expected(superposed: Superposition, harmonics: list[Complex], output: int) 
 def _measure(
     motion: Motion, turns: float, samples: int, orders: list[Fraction], on_done: Callable[[int], None]
 ) -> Floats:
-    """Return the amplitudes of the output errors at the given orders [rad], shape (outputs, orders), with a Hann window
-    unless the run is an integer number of periods.
+    """Return the amplitudes of the output errors at given orders of the input [rad], shape (outputs, orders), from a
+    Fourier sum over all positions. A Hann window is used unless `turns` is an integer number of periods.
     """
     closes = bool(motion.period) and (Fraction(turns) / (motion.period or 1)).denominator == 1
     sums = np.zeros((len(motion.outputs), len(orders)), dtype=complex)
@@ -343,8 +343,8 @@ class MotionRun(Tabular, Pictured):
         return ["turns", *(f"{name} {what}" for name, heads in units for what in heads)]
 
     def _values(self, passage: ErrorSamples) -> list[Floats]:
-        """Return the table columns for the positions in `passage`: revolutions of the input, then angle [rad], error
-        [rad] and speed [1] of each output (of a sliding output travel [mm], error [mm] and speed [mm/turn]).
+        """Return the columns of a table of positions: revolutions of the input, then the angle [rad], the error [rad]
+        and the relative speed [1] of each output; for a sliding output its travel [mm], error [mm] and speed [mm/turn].
         """
         found = [passage.turns]
         for at, (tally, start) in enumerate(zip(self.motion._statistics(), self.motion._start_angles, strict=True)):
@@ -353,7 +353,7 @@ class MotionRun(Tabular, Pictured):
         return found
 
     def _check_resumed(self, row: str, rows: int) -> None:
-        """Raise an error if `row`, the last line of a partial table with `rows` rows, does not belong to this run."""
+        """Raise an error if `row`, number `rows` of a partial table, has another position than in this run."""
         # same order of operations as in `_stretches`, so that the float and its text are identical
         turns = self.turns * ((rows - 1) / (self.samples - 1))
         if rows > self.samples or row.split(",")[0] != repr(turns):

@@ -157,9 +157,8 @@ class PairErrors:
         return PairErrorSource(circuit.id, transmission, at, *senses, cycles, phase, forward, sense)
 
     def _phase(self, circuit: Circuit, transmission: TransmissionFunction, driven: int) -> float:
-        """Return the driver's angle in its mean sense [rad] at which a tooth of the first wheel has the declared phase;
-        0 for a coupling. In the second pair of a planet between sun and ring, the first pair determines the phase, with
-        half a pitch added if the tooth count is odd and the contacts are on opposite sides.
+        """Return the driver's angle [rad] at which a tooth of the first wheel has the declared phase; 0 for a coupling.
+        In the second gear pair of a planet between a sun and a ring, the angle follows from the first pair.
         """
         placed = None if circuit.id in self.train.phases else self.train.placed_by(circuit.id)
         if placed is not None:

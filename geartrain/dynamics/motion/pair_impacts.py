@@ -25,9 +25,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class ToothImpact(Shown):
-    """Impacts of the teeth of one pair, which occur where its speed ratio increases abruptly; see equation (7) of
-    docs/motion.md.
-    """
+    """Impacts of the teeth of one pair where its speed ratio increases abruptly, equation (7) of docs/motion.md."""
 
     inertia: float
     """Effective inertia at the driven wheel [kg m^2]."""

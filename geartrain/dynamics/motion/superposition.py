@@ -18,9 +18,7 @@ if TYPE_CHECKING:
 
 
 class Superposition:
-    """First-order errors of the outputs of an error composition. Each pair is evaluated at the mean angle of its
-    driver.
-    """
+    """First-order errors of the outputs, with each pair evaluated at the mean angle of its driver."""
 
     def __init__(self, composition: ErrorComposition) -> None:
         self.composition, self.sources = composition, composition.used

@@ -101,7 +101,7 @@ class BearingLoads:
         return self._left_out
 
     def _inside(self, link: str, end: str | None) -> bool:
-        """Return True if a force on the link `end` loads the bearing of `link`, which is `end` or carries it."""
+        """Return True if `link` is `end` or carries it, so that a force on `end` loads the bearing of `link`."""
         while end is not None and end != link:
             end = self.setting.tree.above(end)
         return end is not None
@@ -144,7 +144,7 @@ class BearingLoads:
             )
 
     def _line(self) -> Iterator[AxisForce]:
-        """Yield the force of the line of a driving weight, which is proportional to the torque on its drum."""
+        """Yield the force that the line of a driving weight exerts on its drum."""
         drive, source = self.setting.case.drive, next(iter(power_inputs(self.setting)), None)
         if drive is None or drive.drum is None or source is None:
             return
@@ -206,9 +206,7 @@ class BearingLoads:
 
     @cached_property
     def thrust(self) -> Floats:
-        """Friction torque on the shoulder of each link that is caused by the weights along its axis [N m], shape
-        (links, 1).
-        """
+        """Friction torque on the shoulder of each link due to weights along its axis [N m], shape (links, 1)."""
         down = self._down or (0.0,) * 3
         along = np.abs(self.ways(self.links)[:, :, 0] @ down)
         carried = [sum(m or 0.0 for end, m in self.masses.items() if self._inside(link, end)) for link in self.links]
@@ -246,7 +244,7 @@ class BearingLoads:
         return found
 
     def _turned(self, vectors: Floats, angles: Floats) -> Floats:
-        """Return force vectors rotated by angles [rad] about their carriers' axes, shape (forces, 3, n) (Rodrigues)."""
+        """Return force vectors of shape (forces, 3, n), rotated by `angles` [rad] about the axes of their carriers."""
         way = self.ways(force.carrier for force in self.forces)
         inside = way * (vectors * way).sum(axis=1, keepdims=True)
         turn = angles[:, None]
@@ -287,8 +285,8 @@ class BearingLoads:
         return {link: (torque, load) for link, torque, load in rows}
 
     def _responses(self, balance: TorqueBalance, flow: FlowPattern, applied: Mapping[str, Fraction]) -> Floats | None:
-        """Return the carrier torque of each force, shape (forces, 1 + links): without load-dependent friction, and for
-        a unit friction torque in each bearing, or in all bearings of equal planets (column of the first planet).
+        """Return the carrier torque of each force, shape (forces, 1 + links): the first column without load-dependent
+        friction, the others per unit friction torque in the bearing of a link. None if the torques do not balance.
         """
         like = equal_planets(balance)
         known: dict[str, LinearForm] = {link: {_KNOWN: torque} for link, torque in balance.known.items()}
@@ -326,7 +324,7 @@ class BearingLoads:
 
 
 def _share(own: float | None, other: float | None, place: float | None) -> float:
-    """Return the fraction of a force at `place` [m] that the bearing at `own` carries if the second is at `other`."""
+    """Return the fraction of a force at `place` [m] that a bearing at `own` carries beside another one at `other`."""
     if own is None or other is None:
         return 1.0
     return 0.5 if place is None else (other - place) / (other - own)

@@ -112,7 +112,7 @@ def _declared(train: Train) -> dict[str, MeshDriver]:
 
 
 class _Drivers:
-    """Drivers of all pairs in one state. Efficiencies are computed only for pairs that transmit a load."""
+    """Drivers of all pairs of a train in one state."""
 
     def __init__(self, setting: LoadCase) -> None:
         self.setting = setting
@@ -151,7 +151,7 @@ class _Drivers:
 
     @cached_property
     def _idle(self) -> Collection[str]:
-        """Pairs that transmit no load, so that their efficiencies are not required; empty if no pair has teeth."""
+        """Names of the pairs that transmit no torque under the declared loads; empty if no pair has teeth."""
         return find_idle_pairs(self.setting) if self.setting.meshes else ()
 
     @cached_property
@@ -169,7 +169,7 @@ class _Drivers:
 
     @cached_property
     def _ways(self) -> Mapping[str, FlowDirections]:
-        """Directions of power through the pairs that move and declare no driver, under assumed resistances, by pair."""
+        """Directions in which assumed resistances drive power through each pair without a declared driver."""
         setting, found, note = self.setting, dict[str, FlowDirections](), ""
         left = {name for name, each in self.circuits.items() if name not in self.declared and setting.turn(each)}
         for loads, missed in _resistances(setting):
@@ -187,8 +187,8 @@ class _Drivers:
 
 
 def _resistances(setting: LoadCase) -> Iterator[tuple[UnitLoads, str]]:
-    """Yield the kinds of assumed resistance in order of precedence: unit loads that oppose the motion, and the subject
-    of a note on pairs that transmit no power to these loads.
+    """Yield groups of assumed unit loads that oppose the motion, in order of precedence, each with the phrase that
+    names them in a note on pairs without power.
     """
     frame, declared = setting.train.frame, setting.case.outputs
     ends = {name: output.links(name, frame) for name, output in declared.items()}
@@ -218,7 +218,7 @@ def drag_torques(setting: LoadCase, of: str, base: str) -> dict[str, Fraction]:
 
 
 def _directions(setting: LoadCase, loads: UnitLoads) -> dict[str, FlowDirections]:
-    """Return the directions of power in every pair for all combinations of the loads with positive factors."""
+    """Return the directions of power flow in each pair under all positive combinations of the loads, by pair."""
     found: dict[str, FlowDirections] = {}
     for requested in _sources(setting):
         like = equal_planets(build_balance(setting, {}, requested))
@@ -232,9 +232,7 @@ def _directions(setting: LoadCase, loads: UnitLoads) -> dict[str, FlowDirections
 
 
 def _sources(setting: LoadCase) -> Iterator[tuple[str, ...]]:
-    """Yield the possible sets of links with unknown torque, as many links as inputs; if the crank is not an input, each
-    set is the crank with further links.
-    """
+    """Yield each possible choice of the links with unknown torque, whose number equals the number of inputs."""
     links, inputs = power_inputs(setting), tuple(setting.case.inputs)
     if len(links) == 1 and not setting.speeds.get(links[0]):
         links = inputs  # the crank is at rest and passes no power
@@ -245,7 +243,9 @@ def _sources(setting: LoadCase) -> Iterator[tuple[str, ...]]:
 
 
 def _spread(load: Mapping[str, Fraction], like: Mapping[str, tuple[str, ...]]) -> dict[str, Fraction]:
-    """Return a load repeated on all equal planets, and multiplied by their number on all other links."""
+    """Return a load [N m] that acts on all equal planets instead of one, with the torques on all other links multiplied
+    by the number of planets.
+    """
     most = max((len(like.get(link, (link,))) for link in load), default=1)
     return {
         peer: torque * (1 if link in like else most)

@@ -73,7 +73,7 @@ class FlowPattern:
 
 @dataclass
 class _Partial:
-    """Solution of the first blocks of the balance: driving sides and torques by column, and sums of torques by row."""
+    """Solution of the first blocks of the balance: driving sides and torques by column, sums of torques by row."""
 
     sides: dict[int, int]
     values: Values
@@ -94,8 +94,8 @@ def find_flow_patterns(balance: TorqueBalance) -> tuple[tuple[FlowPattern, ...],
 
 
 def _solve_blocks(balance: TorqueBalance, blocks: Sequence[Block]) -> tuple[list[_Partial], bool] | None:
-    """Return all combinations of the solutions of the blocks, and True if all patterns of power flow were tried; None
-    if a block does not determine a torque that a later block may require or determine.
+    """Return all combinations of the solutions of the blocks, and True if all directions of power flow were tried; None
+    if a block leaves a torque undetermined that a later block requires.
     """
     partials, complete = [_Partial({}, {}, dict(balance.rows))], True
     for block in blocks:
@@ -154,7 +154,7 @@ def _flow(balance: TorqueBalance, partial: _Partial) -> FlowPattern:
 def _solutions(
     columns: Sequence[TorqueUnknown], block: Block, rows: Mapping[int, Fraction]
 ) -> tuple[list[tuple[Sides, Values]], bool]:
-    """Return all consistent sides and torques of one block, and True if all combinations of sides were tried."""
+    """Return the driving sides and torques of all solutions of one block, and True if all sides were tried."""
     known: KnownTorques = {row: {_KNOWN: rows[row]} if rows[row] else {} for row in block.rows}
     lossy = [column for column in block.columns if len(columns[column].sides) > 1]
     base = {column: columns[column].sides[0] for column in block.columns}
@@ -182,8 +182,8 @@ def _solutions(
 def _is_consistent(
     columns: Sequence[TorqueUnknown], block: Block, sides: Sides, values: Values, known: KnownTorques
 ) -> bool:
-    """Return True if power flows in the assumed directions, equation (7), for at least one choice of the undetermined
-    torques.
+    """Return True if power flows in the assumed directions, equation (7) of docs/torques.md, for at least one choice of
+    the undetermined torques.
     """
     if not all(columns[column].admits(sides[column], value or Fraction(0)) for column, value in values.items()):
         return False
@@ -207,7 +207,7 @@ def _is_consistent(
 
 
 def _solve(columns: Sequence[TorqueUnknown], block: Block, sides: Sides, known: KnownTorques) -> Values | None:
-    """Return all torques of a block, by column; None if no torques balance the known torques."""
+    """Return the torques of one block, by column, for given driving sides; None if none balance the known ones."""
     found = solve_block(columns, block, sides, known)
     if found is None:
         return None
@@ -217,8 +217,8 @@ def _solve(columns: Sequence[TorqueUnknown], block: Block, sides: Sides, known: 
 def _iterate(
     columns: Sequence[TorqueUnknown], block: Block, lossy: Sequence[int], base: Sides, known: KnownTorques
 ) -> Sides | None:
-    """Return a consistent pattern, found by reversing every assumed direction of power flow that the torques
-    contradict, from the lossless solution onwards; None if a pattern repeats.
+    """Return driving sides that agree with the torques, found from the lossless solution by reversing all sides that do
+    not agree; None if sides repeat.
     """
     sides: Sides = {**base, **dict.fromkeys(lossy, 0)}
     seen: list[Sides] = []

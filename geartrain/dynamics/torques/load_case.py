@@ -105,9 +105,7 @@ class MeanEfficiencies:
 
     @property
     def differ(self) -> bool:
-        """True if the efficiency depends on whether the torque of the driver or the torque of the driven link is
-        constant.
-        """
+        """True if the efficiency depends on which torque is constant, that of the driver or of the driven link."""
         return self.driver != self.load
 
     def given(self, side: int, driving: bool) -> tuple[Fraction, Fraction]:
@@ -178,9 +176,7 @@ class LoadCase:
         return dict.fromkeys(self.tree.lines, TRAVEL_ARM)
 
     def axis_labels(self, circuit: Circuit) -> tuple[str, str]:
-        """Return the labels of the axes of a circuit's first and second link, about which they turn relative to its
-        carrier.
-        """
+        """Return the labels of the axes about which a circuit's first and second link turn on its carrier."""
         seen_from = self.tree.axis_seen_from
         return seen_from(circuit.carrier, circuit.i), seen_from(circuit.carrier, circuit.j)
 
@@ -195,9 +191,7 @@ class LoadCase:
         return tuple(link for link in self.train.links if link not in self.speeds)
 
     def sense(self, link: str) -> int:
-        """Return -1 if the link's axis points against the reference direction of its parallel axes, and 1 if it does
-        not.
-        """
+        """Return -1 if the link's axis points against the reference direction of its parallel axes, else 1."""
         return self.signs.get(link, 1)
 
     def relative(self, link: str, carrier: str) -> Fraction | None:
@@ -229,9 +223,7 @@ class LoadCase:
         return friction is not None and friction.has_friction
 
     def bearer(self, link: str) -> str:
-        """Return the link that carries the axis of `link`. It does not depend on the order in which coaxial joints are
-        declared.
-        """
+        """Return the link that carries the axis of `link`, in whatever order coaxial joints are declared."""
         return self.tree.top.get(link, link)
 
     def reacts_on(self, link: str) -> str:
@@ -281,7 +273,7 @@ class LoadCase:
 
     @cached_property
     def _rubbing(self) -> Mapping[tuple[str, str], Fraction]:
-        """Positive load-independent friction torques of bearings, by link and by the link that carries it."""
+        """Positive load-independent friction torques of bearings, by link and the link that carries it."""
         own = [(link, self.tree.borne_by(link), self.bearing(link)) for link in self.train.links if self.bearing(link)]
         couplings = (each for each in self.circuits if each.kind != "gear")
         jumpers = ((each.i, each.carrier, self.couplings[each.id].friction_torque) for each in couplings)

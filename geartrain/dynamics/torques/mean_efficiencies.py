@@ -36,7 +36,7 @@ def find_mean_efficiencies(setting: LoadCase, circuit: Circuit) -> MeanEfficienc
 
 
 def _of_circuit(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
-    """Return the efficiencies of a circuit. They are 1 if no loss is declared or if dimensions are unknown."""
+    """Return the mean efficiencies of a pair; 1 if no loss is declared or if required dimensions are unknown."""
     if circuit.kind != "gear":
         return _of_coupling(setting, circuit)
     gear = setting.gears[circuit.id]
@@ -58,7 +58,7 @@ def _of_circuit(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
 
 
 def _of_screw(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies | None:
-    """Return the efficiencies of a worm drive or crossed helical pair; None for unknown helix angles or friction."""
+    """Return the mean efficiencies of a worm drive or crossed helical gears; None without helix angles or friction."""
     gear = setting.gears[circuit.id]
     friction = setting.train.friction_of(gear)
     if friction is None or friction.sliding is None:
@@ -75,7 +75,7 @@ def _of_screw(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies | None:
 
 
 def _of_coupling(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
-    """Return the efficiencies of a coupling, first with its driven link as the driver; 1 for pin followers."""
+    """Return the mean efficiencies of a coupling, first with its driven link as driver; 1 for a pin follower."""
     coupling = setting.couplings[circuit.id]
     if (losses := coupling.losses) is not None and circuit.b:
         both = losses.backward.base, losses.forward.base
@@ -93,7 +93,7 @@ def _of_both(ahead: SlidingEfficiency, back: SlidingEfficiency) -> MeanEfficienc
 
 
 def _mean(efficiency: float | None) -> Fraction:
-    """Return a mean efficiency as a fraction with 15 digits; 0 for None, which means that friction locks the pair."""
+    """Return a mean efficiency as a fraction with 15 digits; 0 if it is None because friction locks the pair."""
     if efficiency is None:
         return Fraction(0)
     # rounding in the quadrature may exceed 1 slightly; decimal digits keep 0.98 equal to 49/50
@@ -119,7 +119,9 @@ def apply_mean_efficiencies(
 
 
 def _given(balance: TorqueBalance) -> dict[str, int]:
-    """Return 1 or -1 for each pair whose torque follows from the balance of its first link (1) or second link (-1)."""
+    """Return, for each pair with a constant torque, 1 if this torque acts on the first link and -1 if it acts on the
+    second link, by pair.
+    """
     found: dict[str, int] = {}
     for block in balance.parts:
         # rows beyond those of the links are declared shares, not balances

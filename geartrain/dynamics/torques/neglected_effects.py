@@ -105,7 +105,7 @@ def neglected_over_turn(setting: LoadCase, at_means: Sequence[str]) -> tuple[Neg
 
 
 def _pins(setting: LoadCase, busy: Sequence[Circuit], over_turn: bool = False) -> Iterator[NeglectedEffect]:
-    """Yield the effects of the friction of pin followers on mean torques, and of pins without declared dimensions."""
+    """Yield the neglected friction of pin followers, whose mean power is 0, and of pins without dimensions."""
     pins = {pin.name for pin in setting.train.pin_couplings if setting.has_friction(pin)}
     rubbing = [circuit for circuit in busy if circuit.id in pins]
     if not over_turn:
@@ -149,14 +149,16 @@ def _teeth(
 
 
 def _slides(setting: LoadCase, circuit: Circuit) -> bool:
-    """Return True for a worm drive or a crossed helical pair, whose mean loss does not follow from its tooth form."""
+    """Return True for a worm drive or crossed helical gears, whose teeth slide along their length."""
     wheels = [setting.train.wheels[name][1] for name in circuit.wheels]
     helical = any(wheel.is_helical for wheel in wheels) and not setting.axes.are_parallel(setting.axis_labels(circuit))
     return helical or any(wheel.kind == "worm" for wheel in wheels)
 
 
 def _bearings(setting: LoadCase, included: bool) -> Iterator[NeglectedEffect]:
-    """Yield the effects of bearing friction that is not included, has an unknown sense, or may reverse in a turn."""
+    """Yield the neglected friction of bearings: all of it unless `included`, friction of unknown sense, and friction
+    that may reverse within a revolution.
+    """
     rubbing = tuple(link for link in setting.train.links if setting.bearing(link))
     if not included:
         if rubbing:
@@ -176,7 +178,7 @@ def _bearings(setting: LoadCase, included: bool) -> Iterator[NeglectedEffect]:
 
 
 def _variation(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
-    """Yield the effect of pairs whose torques vary with position within a revolution."""
+    """Yield the neglected variation of torques within a revolution, with the pairs that cause it."""
     found = []
     for circuit in busy:
         tooth = setting.meshes.get(circuit.id)
@@ -192,7 +194,7 @@ def _variation(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[Neglected
 
 
 def _inertia(setting: LoadCase) -> Iterator[NeglectedEffect]:
-    """Yield the effect of the inertia of links that are accelerated by pairs with a variable ratio."""
+    """Yield the neglected inertia of links that variable speed ratios accelerate."""
     heavy = tuple(link for link, part in setting.train.links.items() if part.inertia is not None)
     nonuniform = any(circuit.swings for circuit in setting.circuits)
     if heavy and (nonuniform or any(not tooth.rigid for tooth in setting.meshes.values())):

@@ -35,9 +35,7 @@ _REJECTED = ("unbalanced", "overrunning")
 
 @dataclass(frozen=True)
 class ClutchPattern:
-    """Set of holding clutches with the resulting prescribed speeds, the load case, and the slip of the overrunning
-    clutches.
-    """
+    """Set of holding clutches with its prescribed speeds, load case, and slip speeds of the overrunning clutches."""
 
     holding: tuple[str, ...]
     case: StateCase
@@ -127,14 +125,16 @@ class _Decision:
         return ClutchPattern(holding, case, setting, slips, moves)
 
     def _clutch(self, name: str) -> tuple[Clutch, str, str, int]:
-        """Return a clutch, its two links (a brake has the frame first), and its overrunning sense, 1 or -1."""
+        """Return a one-way clutch, its first and second link (the first link of a brake is the frame), and the sense in
+        which it overruns, 1 or -1.
+        """
         clutch = self.train.declaration.clutches[name]
         first, second = clutch.locks or (self.train.declaration.frame, clutch.fixes or "")
         (sense,) = clutch.senses
         return clutch, first, second, sense
 
     def _slip_form(self, setting: LoadCase, name: str, speeds: Mapping[str, LinearForm]) -> LinearForm:
-        """Return the slip of a clutch as a linear form, given the speeds as linear forms."""
+        """Return the slip speed of a clutch as a linear form in the undetermined speeds."""
         _, first, second, sense = self._clutch(name)
         form: LinearForm = {}
         add_into(form, speeds[second], sense)
@@ -143,13 +143,11 @@ class _Decision:
 
     @cached_property
     def _moving(self) -> Sequence[ClutchPattern]:
-        """Patterns whose speeds satisfy the conditions of all clutches."""
+        """Sets of holding clutches at whose speeds no clutch slips in the sense in which it must hold."""
         return [each for each in self._patterns.values() if each.moves]
 
     def _contradictory(self) -> ClutchPattern:
-        """Return a pattern with contradictory speeds. If possible, the contradiction results from locking the clutches
-        that would slip in the wrong sense.
-        """
+        """Return a set of holding clutches with contradictory speeds, if possible those that would slip wrongly."""
         pattern = self._patterns[()]
         while pattern.setting is not None and pattern.stopped:
             held = {*pattern.holding, *pattern.stopped}
@@ -161,7 +159,9 @@ class _Decision:
 
     @cached_property
     def _loads(self) -> Mapping[str, tuple[str, str] | None]:
-        """Loads applied one at a time: both links of an output, or None for all declared loads together."""
+        """Loads that are considered separately, by name: the link and reference link of an output, or None for all
+        declared loads together.
+        """
         declared, case = self.train.declaration, self._patterns[()].case
         if case.loads:
             return {" and ".join(case.loads): None}
@@ -191,12 +191,12 @@ class _Decision:
 
     @cached_property
     def _fitting(self) -> Mapping[str, Sequence[ClutchPattern]]:
-        """Patterns that satisfy the conditions of all clutches under each load, by load."""
+        """Sets of holding clutches that satisfy the conditions of all clutches under one load, by load."""
         return {load: [each for each in self._moving if self._fits(each, load)] for load in self._loads}
 
     def _released(self) -> tuple[ClutchPattern, tuple[str, ...]]:
-        """Return the pattern with the fewest violations after removing the clutches that cannot hold from it, and the
-        names of these clutches.
+        """Return the set of holding clutches with the fewest violations after clutches that cannot hold are removed
+        from it, and the names of the removed clutches.
         """
         found = []
         for pattern in self._moving:
@@ -210,14 +210,12 @@ class _Decision:
         return self._patterns[tuple(name for name in holding if name not in released)], released
 
     def _members(self, pattern: ClutchPattern, named: set[str]) -> tuple[str, ...]:
-        """Return the holding clutches of a pattern that occur in `named`, which may contain joined names such as `A and
-        B`.
-        """
+        """Return the holding clutches whose names occur in `named`, in which names may be joined: "A and B"."""
         joined = {pattern.case.clutches[links] for links in pattern.case.senses} & named
         return tuple(name for name in pattern.holding if pattern.case.clutches[self._clutch(name)[0].links] in joined)
 
     def _reversed(self, pattern: ClutchPattern, deciding: Mapping[str, Torques | None]) -> Iterator[str]:
-        """Yield a note for each load that would release a clutch by driving the train instead of being driven."""
+        """Yield a note for each load that would release a clutch if power entered at the load."""
         for load, forward in deciding.items():
             if forward is None or not pattern.holding:
                 continue
@@ -250,9 +248,7 @@ class _Decision:
     def _torque(
         self, pattern: ClutchPattern, name: str, deciding: Mapping[str, Torques | None]
     ) -> tuple[Fraction | None, str]:
-        """Return the torque of a holding clutch on its second link, and the unit of the torque. The torque is None if
-        it depends on which load is applied.
-        """
+        """Return the torque of a clutch on its second link, None if it depends on the load, and its unit."""
         clutch, _, _, sense = self._clutch(name)
         links, found, unit = clutch.links, set[Fraction | None](), ""
         source = power_inputs(pattern.setting)[:1] if pattern.setting is not None else ()
@@ -273,9 +269,7 @@ class _Decision:
         return (found.pop(), unit) if len(found) == 1 and None not in found else (None, "")
 
     def _shared(self, pattern: ClutchPattern, relieved: Collection[str]) -> Iterator[str]:
-        """Yield notes on clutches that hold the same two links together, and on clutches whose slip varies within a
-        revolution.
-        """
+        """Yield notes on clutches that share an undetermined torque, and on slip speeds that vary in a revolution."""
         case = pattern.case
         for links in dict.fromkeys(self._clutch(name)[0].links for name in pattern.holding):
             clutches = self.train.declaration.clutches
@@ -305,7 +299,7 @@ class _Decision:
         return replace(case, problems=(*case.problems, Problem(what, why, fix, place)))
 
     def _undecided(self, chosen: Sequence[tuple[str, ...]]) -> StateCase:
-        """Return a case with the problem that several sets of clutches may hold, depending on the loads."""
+        """Return the case of the state with a problem: which clutches hold depends on the loads."""
         common = set(chosen[0]).intersection(*chosen[1:])
         open_ = [name for name in self.names if any(name in each for each in chosen) and name not in common]
         ways = {
@@ -320,9 +314,7 @@ class _Decision:
 
     @cached_property
     def _varying(self) -> Mapping[str, Sequence[Circuit]]:
-        """Variable-ratio couplings whose equation, marked by a symbol, occurs in the slip of a clutch, by clutch;
-        clutches without such a coupling are omitted.
-        """
+        """Couplings with variable ratio on which the slip speed of a clutch depends, by clutch."""
         setting = self._patterns[()].setting
         varying = [each for each in setting.circuits if each.swings] if setting is not None else []
         if setting is None or not varying:
@@ -341,11 +333,13 @@ class _Decision:
 
     @cached_property
     def _swinging(self) -> Sequence[str]:
-        """Names of the clutches that are driven by an oscillating link."""
+        """Names of the clutches that an oscillating link drives."""
         return [name for name, couplings in self._varying.items() if not all(each.ratio for each in couplings)]
 
     def _steps(self, pattern: ClutchPattern) -> StateCase:
-        """Return the state case in which oscillating links drive one link stepwise, or a case with `problems`."""
+        """Return the case of a state in which oscillating links drive one link in steps, or with `problems` if its mean
+        advance cannot be computed.
+        """
         setting, frame, names = pattern.setting, self.train.declaration.frame, _joined(self._swinging)
         assert setting is not None
         driven, drivers, senses = set[str](), dict[str, int](), set[int]()
@@ -394,6 +388,6 @@ class _Decision:
 
 
 def _joined(names: Sequence[str], verb: str = "") -> str:
-    """Return names joined by commas and `and`, then the verb in its singular or plural form; empty without names."""
+    """Return names joined by commas and "and", followed by the verb in the required number; "" without names."""
     text = " and ".join(filter(None, (", ".join(names[:-1]), *names[-1:])))
     return f"{text} {verb}{'s' if len(names) == 1 else ''}" if verb and names else text

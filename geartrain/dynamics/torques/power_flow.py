@@ -116,7 +116,7 @@ def find_circulation(
 
 
 def _widest(streams: Sequence[PowerStream], left: Sequence[Fraction]) -> list[int]:
-    """Return the streams of the cycle with the largest minimum power, found by bisection; empty without a cycle."""
+    """Return the streams of the cycle with the largest minimum of the powers `left`; empty without a cycle."""
     best = _closed(streams, [at for at, power in enumerate(left) if power])
     if not best:
         return []
@@ -131,7 +131,7 @@ def _widest(streams: Sequence[PowerStream], left: Sequence[Fraction]) -> list[in
 
 
 def _closed(streams: Sequence[PowerStream], open_: Iterable[int]) -> list[int]:
-    """Return one cycle that is formed by the streams in `open_`, as indices of streams; empty if there is no cycle."""
+    """Return the streams of one cycle among those with the indices `open_`, as indices; empty without a cycle."""
     stream_of: dict[tuple[PowerNode, PowerNode], int] = {}
     before: dict[PowerNode, list[PowerNode]] = {}
     for at in open_:
@@ -286,7 +286,7 @@ def find_power_flow(found: Torques) -> PowerFlow:
 
 
 def _takers(found: Torques) -> Iterator[tuple[PowerNode, Sequence[tuple[str, Fraction]]]]:
-    """Yield each pair and bearing with the power that flows into it from each of its links."""
+    """Yield the node of each pair and bearing, with the power that flows into it from each of its links."""
     for pair in found.pairs.values():
         yield (
             PowerNode("pair", pair.id),

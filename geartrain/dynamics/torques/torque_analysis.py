@@ -116,9 +116,7 @@ class LoadedBalance:
         return sum((torque * self.speeds.get(link, 0) for link, torque in torques.items()), Fraction(0))
 
     def heavily_loaded(self) -> tuple[FlowPattern, ...]:
-        """Return the patterns of power flow for a load that is so large that load-independent friction is
-        negligible.
-        """
+        """Return the patterns of power flow for a load so large that load-independent friction is negligible."""
         loads = {link: _GREAT * torque for link, torque in self.loads.items()}
         known = _acting(loads, self.bearing_friction)
         return tuple(replace(self, loads=loads, balance=replace(self.balance, known=known)).solve()[1])
@@ -145,7 +143,7 @@ def find_imbalance(setting: LoadCase, known: Mapping[str, Fraction], requested: 
 
 
 def _some(links: Sequence[str]) -> str:
-    """Return up to three names, separated by commas, followed by the number of further names."""
+    """Return up to three link names separated by commas, followed by the number of the other names."""
     more = f" and {len(links) - 3} more" if links[3:] else ""
     return ", ".join(links[:3]) + more
 
@@ -185,7 +183,7 @@ def find_torque_verdict(
 
 
 def _unbalanced(question: LoadedBalance, complete: bool) -> TorqueVerdict:
-    """Return the verdict that no torques balance the load, because of declared shares, bearing friction or teeth."""
+    """Return the verdict that no torques balance the loads, because of shares, bearing friction, or locking teeth."""
     names = question.names
     if not question.enough:
         text = "the loads balance without losses, but not with them: one more unknown torque is needed"
@@ -212,7 +210,7 @@ def _unbalanced(question: LoadedBalance, complete: bool) -> TorqueVerdict:
 
 
 def _locked_bearings(question: LoadedBalance) -> TorqueVerdict:
-    """Return the verdict that bearing friction that is proportional to the load locks the train."""
+    """Return the verdict that load-dependent friction of bearings locks the train."""
     assert question.bearing_loads is not None
     links = ", ".join(question.bearing_loads.links)
     if question.has_friction and question.heavily_loaded():
@@ -228,7 +226,7 @@ def _locked_bearings(question: LoadedBalance) -> TorqueVerdict:
 
 
 def _driving_note(question: LoadedBalance, flow: FlowPattern) -> str:
-    """Return a note if a load supplies power but cannot drive the train by itself; "" for other loads."""
+    """Return a note that a load supplies power but too little to drive the train alone; "" if there is no such load."""
     if question.power(question.loads) <= 0 or question.power(flow.solved.external) <= 0:
         return ""
     heavy = question.heavily_loaded() if question.has_friction else ()
@@ -261,8 +259,8 @@ def _indeterminate(flows: Sequence[FlowPattern], question: LoadedBalance) -> Tor
 
 
 def _describe_flow(question: LoadedBalance, power: Fraction, resisted: bool) -> str:
-    """Return a description of the power [unit of torque times unit of speed] that the unknown torques supply in one
-    pattern of power flow. `resisted` is True if power leaves at the unknown torques in the pattern with minimum loss.
+    """Return a phrase on the power that the unknown torques supply in one solution. `resisted` is True if they absorb
+    power in the solution with minimum loss.
     """
     if power < 0:
         return f"power {decimal(-power, 6)} leaves at {question.names}, which resists"
@@ -325,7 +323,7 @@ def find_ties(
 def _planet_meshes(
     circuits: Sequence[Circuit], meshes: Sequence[LoadedPair], apart: Collection[str]
 ) -> dict[str, list[tuple[str, str, _Key]]]:
-    """Return the meshes of each planet: name of the mesh, link of the mate, and a key that equal planets share."""
+    """Return the meshes of each planet: name, mating link, and a key that is equal for equal planets."""
     found: dict[str, list[tuple[str, str, _Key]]] = {}
     for circuit, mesh in zip(circuits, meshes, strict=True):
         first, second = circuit.wheels if circuit.kind == "gear" else (circuit.i, circuit.j)
@@ -344,7 +342,7 @@ def _planet_meshes(
 def _planet_classes(
     meshing: Mapping[str, Sequence[tuple[str, str, _Key]]], known: Mapping[str, Fraction]
 ) -> dict[str, int]:
-    """Return the number of the class of equal planets to which each planet belongs, found by colour refinement."""
+    """Return the number of the class of equal planets to which each planet belongs, by planet."""
     classes: dict[str, int] = {}
     while True:
         keys: dict[str, _Key] = {}
@@ -424,9 +422,7 @@ def torques_unknown(state: str | None) -> Torques:
 
 
 def resist(setting: LoadCase, drag: Mapping[str, Fraction]) -> Torques:
-    """Compute the torques if power enters at the inputs and the torques in `drag` act on links. Bearing friction is
-    neglected.
-    """
+    """Compute the torques for power input at the inputs under the torques `drag`, without friction of bearings."""
     if (verdict := _without_axis(setting, drag)) is not None:
         return Torques(setting.case.state, verdict)
     links = power_inputs(setting)
@@ -481,9 +477,7 @@ def escapement_torques(setting: LoadCase) -> EscapementTorques | None:
 
 
 def drive(setting: LoadCase, load: str, source: str) -> Torques:
-    """Compute the torques if the link `source` drives and a unit of power leaves at the link `load`. Bearing friction
-    is neglected.
-    """
+    """Compute the torques if `source` drives and a unit of power leaves at `load`, without friction of bearings."""
     if (verdict := _without_axis(setting, (load, source))) is not None:
         return Torques(setting.case.state, verdict)
     for link in (load, source):
@@ -498,7 +492,7 @@ def drive(setting: LoadCase, load: str, source: str) -> Torques:
 
 
 def _requested(setting: LoadCase, loads: Mapping[str, Fraction], solve_for: str | None) -> TorqueQuestion:
-    """Return the question with as many unknown torques as inputs, or with fewer if the choice is not unique."""
+    """Return the loads and as many links of unknown torque as inputs, or fewer if their choice is not unique."""
     inputs, enter = setting.case.inputs, power_inputs(setting)
     free = tuple(link for link in enter if link not in loads)
     needed = len(inputs)
@@ -531,8 +525,8 @@ def _requested(setting: LoadCase, loads: Mapping[str, Fraction], solve_for: str 
 
 
 def _without_axis(setting: LoadCase, links: Iterable[str]) -> TorqueVerdict | None:
-    """Return a verdict if the speed of a link is a sum of joint speeds about non-parallel axes, which is not a
-    rotation, so that the power of a torque on the link is not unique; None if all speeds are rotations.
+    """Return a verdict if a link does not rotate about one axis, so that a torque on it has no defined power; None if
+    all links do. The speed of such a link is a sum of joint speeds about non-parallel axes.
     """
     sums = setting.axes.joint_sums
     for link in links:
@@ -586,7 +580,9 @@ def _balanced(setting: LoadCase, unknown: TorqueQuestion, bearings: bool = True,
 
 
 def _overrunning(setting: LoadCase, balance: TorqueBalance, flow: FlowPattern) -> tuple[str, ...]:
-    """Return the holding one-way clutches whose torque would make them overrun, or else is undetermined."""
+    """Return the names of the holding one-way clutches whose torque has the wrong sense; if there are none, of those
+    with an undetermined torque.
+    """
     senses = setting.case.senses
     held = [each for each in _held(setting, balance, flow) if each.links in senses]
     wrong = [each for each in held if each.torques and senses[each.links] * each.torques[-1] < 0]
@@ -594,7 +590,7 @@ def _overrunning(setting: LoadCase, balance: TorqueBalance, flow: FlowPattern) -
 
 
 def _with_reason(question: TorqueQuestion, lacking: TorqueVerdict) -> TorqueVerdict:
-    """Return the verdict `lacking`, preceded by the torques that could be requested if there are any."""
+    """Return the verdict `lacking`, preceded by the reason why the unknown torques are not unique if there is one."""
     if question.undecided is None:
         return lacking
     untried = [link for link in question.undecided.candidates if link not in question.links]
@@ -638,7 +634,7 @@ def build_balance(
 
 
 def _mesh(setting: LoadCase, circuit: Circuit, means: MeanEfficiencies | None) -> LoadedPair:
-    """Return the loaded pair of a circuit with its losses. It has no losses if its relative speed is undetermined."""
+    """Return the coefficients, speed and efficiencies of a gear pair or coupling in the torque balance."""
     # a travel reacts on a link that slides and on a link that turns, other pairs on one link
     links = (circuit.i, circuit.j, *(circuit.subtracted if circuit.travels else circuit.subtracted[:1]))
     senses = tuple(map(setting.sense, links))
@@ -660,7 +656,7 @@ def _acting(loads: Mapping[str, Fraction], bearing_friction: Mapping[str, Fracti
 
 
 def _bearing_friction(setting: LoadCase, bearings: Sequence[BearingTorque]) -> dict[str, Fraction]:
-    """Return the friction torque of bearings on each link, including reactions on links that carry bearings."""
+    """Return the sum of the friction torques of bearings on each link [N m, or a number without a unit], by link."""
     found: dict[str, Fraction] = {}
     for bearing in bearings:
         for link, torque in ((bearing.link, bearing.torque), (bearing.carrier, bearing.reaction)):
@@ -713,7 +709,7 @@ def _torques(
 
 
 def _load(arms: Mapping[str, Fraction], link: str, torque: Fraction) -> Fraction:
-    """Return the force [N] on a sliding link that a torque represents; for a link that turns, the torque itself."""
+    """Return the force [N] on a sliding link that a torque represents, or the torque itself if the link turns."""
     return torque / arms[link] if link in arms else torque
 
 
@@ -739,7 +735,7 @@ def _pair(setting: LoadCase, mesh: LoadedPair, circuit: Circuit, flow: FlowPatte
 
 
 def _held(setting: LoadCase, balance: TorqueBalance, flow: FlowPattern) -> tuple[HoldingTorque, ...]:
-    """Return the brakes and locks with their torques, each about the axis of its link."""
+    """Return the torques of all brakes and locks, each about the axis of the held link."""
     case, arms, found = setting.case, setting.arms, dict[tuple[str, ...], list[tuple[Fraction, ...] | None]]()
     for link in balance.held:
         torque = flow.solved.brakes.get(link)

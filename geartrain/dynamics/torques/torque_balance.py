@@ -67,24 +67,18 @@ class LoadedPair:
 
     @property
     def turn(self) -> int:
-        """Sign of the rolling speed. Power flows from the first to the second link if the multiplier has the opposite
-        sign.
-        """
+        """Sign of the rolling speed. Power flows to the second link if the multiplier has the opposite sign."""
         return (self.rolling > 0) - (self.rolling < 0)
 
     @property
     def sides(self) -> tuple[int, ...]:
-        """Driving sides that are to be tried. Self-locking sides are omitted; if both sides are self-locking, the
-        result is (1,).
-        """
+        """Driving sides to be tried, without self-locking ones; (1,) if both sides are self-locking."""
         if not self.loses:
             return (0,)
         return tuple(side for side in (1, -1) if self.efficiency(side) > 0) or (1,)
 
     def efficiency(self, side: int) -> Fraction:
-        """Return the efficiency if the first link drives (`side` 1) or if the second link drives (`side` -1); it is 1
-        for side 0.
-        """
+        """Return the efficiency if the first (`side` 1) or the second link (`side` -1) drives; 1 for side 0."""
         return self.forward if side > 0 else self.backward if side < 0 else Fraction(1)
 
     def torques(self, side: int) -> tuple[Fraction, ...]:
@@ -178,7 +172,7 @@ class TorqueBalance:
 
     @property
     def _signs(self) -> tuple[int, ...]:
-        """Required sign of each unknown external torque and of each brake and lock; 0 if any sign is permitted."""
+        """Sign that each unknown external, brake and lock torque must have, 1 or -1; 0 if both are permitted."""
         held = (self.senses.get((link,), 0) for link in self.held)
         # the unknown torque of a lock acts on its first link, and with the opposite sign on the second
         locks = (-t * self.senses.get((a, b), 0) for (a, _), (b, t) in self.locks)
@@ -220,9 +214,7 @@ class TorqueBalance:
 
     @property
     def whole(self) -> Block:
-        """Whole balance as one block, which is used if a block does not determine an unknown that a later block
-        requires.
-        """
+        """Whole balance as one block, for cases in which a block depends on unknowns of a later block."""
         return Block(tuple(self.rows), tuple(range(len(self.columns))))
 
     @cached_property
@@ -231,7 +223,9 @@ class TorqueBalance:
 
     @cached_property
     def _parts(self) -> Mapping[str, Sequence[tuple[int, str, Fraction]]]:
-        """Rows of declared shares with the torque of a mesh, by mesh: torque over share is that of the first mesh."""
+        """Rows of the balance for declared shares, by mesh: index of the row, link of the shared wheel, and coefficient
+        of the mesh's torque.
+        """
         found: dict[str, list[tuple[int, str, Fraction]]] = {}
         row = len(self.links)
         for link, shares in self.shares:
@@ -258,21 +252,19 @@ class TorqueBalance:
         return replace(blank, pieces=pieces)
 
     def places(self, mesh: LoadedPair) -> Iterator[tuple[int, int, Fraction]]:
-        """Yield the entries of a mesh's torques in the balance: index of the row, index of the link in `links`, and
-        factor.
-        """
+        """Yield the entries of a mesh's torques in the balance: row index, index into `links`, and factor."""
         yield from ((self._at[link], at, Fraction(1)) for at, link in enumerate(mesh.links) if link in self._at)
         yield from ((row, mesh.links.index(link), factor) for row, link, factor in self._parts.get(mesh.id, ()))
 
 
 def _direction(entries: Sequence[tuple[int, int, Fraction]], known: Fraction) -> tuple[object, ...]:
-    """Return a row divided by its first entry. The result is equal for all proportional rows."""
+    """Return the entries of a row and its known torque divided by its first entry, equal for proportional rows."""
     scale = entries[0][2] if entries else known
     return (known / scale, *((at, side, value / scale) for at, side, value in entries))
 
 
 def _row(entries: Iterable[tuple[int, Fraction]]) -> LinearForm:
-    """Return the entries of one row with entries of the same column added; entries that are 0 are omitted."""
+    """Return one row of the balance, by column, in which entries of the same column are added and zeros are omitted."""
     row: LinearForm = {}
     for at, value in entries:
         row[at] = row.get(at, Fraction(0)) + value
@@ -281,9 +273,7 @@ def _row(entries: Iterable[tuple[int, Fraction]]) -> LinearForm:
 
 @dataclass(frozen=True)
 class SolvedTorques:
-    """Torques for one pattern of power flow: multipliers of meshes, external torques, and torques of brakes and
-    locks.
-    """
+    """Torques of one pattern of power flow: multipliers of meshes, external torques, torques of brakes and locks."""
 
     multipliers: Mapping[str, Fraction]
     external: Mapping[str, Fraction]
@@ -310,9 +300,7 @@ def idle_pairs(balance: TorqueBalance) -> set[str]:
 
 
 def generic_balance(balance: TorqueBalance) -> TorqueBalance:
-    """Return the balance with generic coefficients, which do not cancel. It is used to determine the order of
-    solution.
-    """
+    """Return the balance with generic coefficients, which do not cancel, to determine the order of solution."""
     group = {name: at for at, names in enumerate(balance.ties, 1) for name in names}
     meshes = tuple(
         replace(

@@ -33,9 +33,7 @@ if TYPE_CHECKING:
 
 
 class ContactTorques(NamedTuple):
-    """Torques on the driven link and from the driver for a multiplier of 1, in the mean senses of rotation, each of
-    shape (n,).
-    """
+    """Torques on driven link and from driver for a multiplier of 1, in the mean senses of rotation, shape (n,)."""
 
     driven: Floats
     driver: Floats
@@ -46,9 +44,7 @@ class ContactTorques(NamedTuple):
 
 
 class PairForce(NamedTuple):
-    """Torques on the two links of a circuit for a multiplier of 1, about the reference direction of parallel axes, each
-    of shape (n,).
-    """
+    """Torques on both links for a multiplier of 1, about the reference direction of parallel axes, shape (n,)."""
 
     first: Floats
     second: Floats
@@ -93,8 +89,8 @@ class ContactLosses:
         return ContactTorques(np.ones_like(tau), tau)
 
     def kinks(self, at: DriverState) -> Floats | None:
-        """Return values that change sign where the torques, but not the speed ratio, have kinks; None if there are no
-        such values.
+        """Return values whose sign changes mark kinks of the torques but not of the speed ratio; None if there are
+        none.
         """
         del at
         return None
@@ -102,9 +98,7 @@ class ContactLosses:
 
 @dataclass(frozen=True)
 class BasicEfficiency(ContactLosses):
-    """Declared efficiencies of a pair, one for each driving side. If a value is 0 or less, the pair locks when that
-    side drives.
-    """
+    """Declared efficiency of a pair for each driving side; 0 or less if the pair locks when that side drives."""
 
     has_friction: ClassVar[bool] = True
     driver: float
@@ -199,9 +193,7 @@ class ToothFriction(SlidingFriction):
 
 @dataclass(frozen=True)
 class PinFriction(SlidingFriction):
-    """Friction of a pin in its slot. The torque on the pin follows from the torque on the slot by equation (25) of
-    docs/torques.md.
-    """
+    """Friction of a pin in its slot, which gives the torque on the pin by equation (25) of docs/torques.md."""
 
     sliding: float
     transmission: PinToSlotTransmission
@@ -209,9 +201,7 @@ class PinFriction(SlidingFriction):
     def torques(
         self, tau: Floats, transmission: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
     ) -> ContactTorques:
-        """Return the torques on the driven link and from the driver, computed from lever arms that are finite even at
-        dead points.
-        """
+        """Return the torques on driven link and from driver, from lever arms that are finite even at dead points."""
         del transmission
         # by the law of sines sin d = e sin S / rho, so the arm is r e |sin S| / rho^2
         arm = self.transmission.r * self.transmission.e * np.abs(np.sin(at.S)) / self.transmission._reach(at.S)[1]
@@ -359,7 +349,7 @@ def _coupling_losses(setting: LoadCase, circuit: Circuit) -> ContactLosses:
 def _gear_losses(
     setting: LoadCase, circuit: Circuit, first: bool, source: PairErrorSource | None, mesh: GearMesh | None
 ) -> ContactLosses:
-    """Return the losses of a gear pair: tooth friction that depends on position, or a constant efficiency."""
+    """Return the losses of a gear pair: friction of its teeth at each position, or a constant mean efficiency."""
     if source is None or mesh is None or not _by_friction(setting, mesh):
         means = find_mean_efficiencies(setting, circuit).load
         driver, driven = (float(each) for each in (means if first else means[::-1]))

@@ -176,14 +176,14 @@ def find_turn_balance(setting: LoadCase, problem: MotionProblem, of: str | None)
 
 @dataclass
 class _RunResults:
-    """Results of a run, which are computed from its positions."""
+    """Results that are computed from the torques at all positions over several revolutions of the input."""
 
     run: TurnRun
     of: str | None
 
     @cached_property
     def _row(self) -> int:
-        """Row index of the reported link among the links with unknown torque."""
+        """Row index of the reported link in arrays with one row for each link of unknown torque."""
         requested = self.run.train.requested
         return requested.index(self.of) if self.of in requested else 0
 
@@ -194,11 +194,11 @@ class _RunResults:
         return -1 if setting.sense(link) * (setting.relative(link, setting.reacts_on(link)) or 0) < 0 else 1
 
     def _torque(self, found: PositionTorques) -> Floats:
-        """Return the torque at the reported link in the solution with minimum loss, positive in its mean sense."""
+        """Return the torque at the reported link with minimum loss, positive in the sense of its mean speed."""
         return np.asarray(self._way * found.torque[self._row] / self._arm)
 
     def _highest(self, found: PositionTorques) -> Floats:
-        """Return the torque at the reported link in the solution with maximum loss, positive in its mean sense."""
+        """Return the torque at the reported link with maximum loss, positive in the sense of its mean speed."""
         return np.asarray(self._way * found.highest[self._row] / self._arm)
 
     @property
@@ -301,7 +301,9 @@ class _RunResults:
         return PlaceInRun(turns, turns / speed * float(train.unit_days) if speed else None)
 
     def _extreme(self, way: int, static: bool) -> TorqueExtreme | None:
-        """Return the refined maximum torque (`way` 1) or minimum torque (`way` -1); None if it is not finite."""
+        """Return the maximum torque (`way` 1) or minimum torque (`way` -1) at the reported link, searched between
+        positions too; None if all values are infinite. `static` selects static friction.
+        """
         torque = self._highest if way > 0 else self._torque
         values = torque(self.run.standing if static else self.run.found)
         extreme = find_extreme(lambda turns: torque(self.run.train.at(turns, static)), self.run.cells, way, values)
@@ -355,7 +357,7 @@ class _RunResults:
         return self.run.share((driving > minimum) & (loading > minimum))
 
     def _stretches(self) -> tuple[tuple[PlaceInRun, PlaceInRun], ...]:
-        """Return the beginning and end of each part of the run in which no torque balances the loads."""
+        """Return the beginning and end of each range of input positions in which no torque balances the loads."""
         turns, locked = self.run.cells.turns, np.concatenate([[False], ~self.run.found.valid, [False]])
         starts, ends = np.flatnonzero(locked[1:] & ~locked[:-1]), np.flatnonzero(locked[:-1] & ~locked[1:]) - 1
         return tuple(
@@ -364,7 +366,9 @@ class _RunResults:
 
 
 def _changes(signs: Floats, closes: bool) -> int:
-    """Return the number of sign changes in a sequence without its zeros, which is periodic if `closes` is True."""
+    """Return the number of sign changes in a sequence, in which zeros are ignored; if `closes` is True, also from its
+    end to its beginning.
+    """
     own = signs[signs != 0]
     if not len(own):
         return 0

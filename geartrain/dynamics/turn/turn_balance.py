@@ -74,9 +74,7 @@ class BalanceLayer:
 
 @dataclass(frozen=True)
 class _Trial:
-    """Torques of one block for one pattern, shape (columns, n), and a boolean mask of the positions at which they are
-    consistent with the pattern and with earlier blocks.
-    """
+    """Torques of one block for assumed signs, shape (columns, n), and a mask of the positions with these signs."""
 
     layer: BalanceLayer
     sides: Sequence[int]
@@ -107,7 +105,7 @@ def solve_positions(
 
 
 def _block_trials(columns: Sequence[ColumnPieces], block: Block, layer: BalanceLayer) -> tuple[list[_Trial], bool]:
-    """Return the distinct consistent solutions of one block, and True if all patterns were tried."""
+    """Return the different solutions of one block for all assumed signs, and True if all signs were tried."""
     own = [columns[at] for at in block.columns]
     found: list[_Trial] = []
     two_sided = sum(len(each.sides) > 1 for each in own)
@@ -128,8 +126,8 @@ def _block_trials(columns: Sequence[ColumnPieces], block: Block, layer: BalanceL
 def _solve(
     own: Sequence[ColumnPieces], block: Block, layer: BalanceLayer, sides: Sequence[int]
 ) -> tuple[Floats, Bools]:
-    """Return the torques of a block for one pattern, shape (columns, n), and a boolean mask of the positions at which
-    they are consistent with the pattern.
+    """Return the torques of one block for assumed signs `sides`, shape (columns, n), and a mask of the positions at
+    which they have these signs.
     """
     known = layer.rows[list(block.rows)]
     if len(block.rows) == len(block.columns) == 1:
@@ -147,7 +145,7 @@ def _solve(
 
 
 def _divided(coefficient: Floats | None, known: Floats) -> tuple[Floats, Bools]:
-    """Return the solution of an equation with one unknown, and a mask of the positions with a nonzero coefficient."""
+    """Return the unknown of a linear equation, and a mask of the positions at which its coefficient is not 0."""
     if coefficient is None:
         return np.zeros_like(known), known[0] == 0
     # a coefficient may be 0 at dead points; without a load the torque is 0 there too
@@ -160,7 +158,9 @@ def _divided(coefficient: Floats | None, known: Floats) -> tuple[Floats, Bools]:
 def _eliminated(
     own: Sequence[ColumnPieces], block: Block, layer: BalanceLayer, sides: Sequence[int]
 ) -> tuple[Floats, Bools]:
-    """Return the torques that solve several rows, of minimum norm if they are not unique, and a mask as in `_solve`."""
+    """Return the torques of one block with several rows, of minimum norm if they are not unique, and a mask of the
+    positions at which they satisfy all rows.
+    """
     known = layer.rows[list(block.rows)]
     scale = np.max(np.abs(layer.values), axis=0, initial=0.0)
     size = known.shape[1]
@@ -187,9 +187,7 @@ def _eliminated(
 
 
 def _iterated(own: Sequence[ColumnPieces], block: Block, layer: BalanceLayer) -> list[_Trial]:
-    """Return consistent solutions that are found by fixed-point iteration. In each iteration, the assumed direction of
-    every torque that contradicts the pattern is reversed.
-    """
+    """Return solutions of one block, found by replacing assumed signs of its torques by the computed signs."""
     patterns = {tuple(each.sides[0] for each in own): None}
     found: list[_Trial] = []
     left = layer.valid.copy()
@@ -213,9 +211,7 @@ def _iterated(own: Sequence[ColumnPieces], block: Block, layer: BalanceLayer) ->
 def _joined(
     columns: Sequence[ColumnPieces], block: Block, layers: Sequence[BalanceLayer], trials: Sequence[_Trial]
 ) -> list[BalanceLayer]:
-    """Return the layers extended by the solutions of one block. The number of layers is the maximum number of solutions
-    over all positions.
-    """
+    """Return the solutions of the balance extended by one block, as many as the maximum over all positions."""
     # fast path: at most one solution at every position needs no further layers
     if len(layers) == 1 and not np.any(sum((trial.valid.astype(int) for trial in trials), np.zeros(1)) > 1):
         (layer,) = layers
@@ -241,7 +237,7 @@ def _joined(
 
 
 def _write(columns: Sequence[ColumnPieces], block: Block, trial: _Trial, layer: BalanceLayer, where: Bools) -> None:
-    """Write the torques of a trial into a layer, at the selected positions, in place."""
+    """Copy the torques of a block into a solution at the positions `where`, and add them to its rows."""
     layer.valid |= where
     for column, side, value in zip(block.columns, trial.sides, trial.values, strict=True):
         layer.values[column, where] = value[where]
@@ -253,9 +249,7 @@ _CHUNK = 8192  # positions evaluated at once, to bound the memory
 
 
 class PositionTorques(NamedTuple):
-    """Torques at n positions, which are the last axis of all arrays. Powers and losses are divided by the speed of the
-    input.
-    """
+    """Torques at n positions, the last axis of all arrays; powers are divided by the speed of the input."""
 
     turns: Floats
     """Positions of the input [revolutions], shape (n,)."""
@@ -294,7 +288,9 @@ class PositionTorques(NamedTuple):
 
 
 class _State(NamedTuple):
-    """Link speeds, driver angles and pair torques by side at some positions, for the first of several equal planets."""
+    """Speeds of links, angles of drivers and unit torques of pairs at n positions. Of several equal planets, only the
+    first one is included.
+    """
 
     motion: LinkMotion
     contacts: Mapping[str, DriverState]
@@ -388,9 +384,9 @@ class TurnBalance:
         return tuple(name for name, contact in self.contacts.items() if contact.has_flanks)
 
     def _chunk(self, turns: Floats, static: bool) -> PositionTorques:
-        """Return the torques at some positions, with the flanks in contact found iteratively from the drive flanks on.
-        A link that would turn backwards on drive flanks and forwards on coast flanks rests in its backlash, and its
-        bearing has no torque. Without consistent flanks, the result for the drive flanks is returned.
+        """Return the torques at a few thousand positions. The flanks in contact are found iteratively; if no choice is
+        consistent, the drive flanks are used. A link that would turn backwards on drive flanks and forwards on coast
+        flanks rests within its backlash.
         """
         left: Indices = np.arange(len(turns))
         coasting, resting = (np.zeros((len(names), len(turns)), bool) for names in (self.flanked, self.bearings))
@@ -432,7 +428,9 @@ class TurnBalance:
         return _State(motion, contacts, forces, dict(zip(self.bearings, resting, strict=True)), static)
 
     def _speed(self, motion: LinkMotion, link: str, carrier: str) -> Floats:
-        """Return the speed of a link relative to `carrier`, about the reference axis direction; exactly 0 at rest."""
+        """Return the speed of a link relative to `carrier` at each position, about the reference direction of parallel
+        axes; 0 at rest in spite of rounding.
+        """
         rows = self.motion.links
         found = motion.speeds[rows[link]] - motion.speeds[rows[carrier]]
         scale = np.max(np.abs(motion.speeds), axis=0, initial=0.0)
@@ -453,8 +451,8 @@ class TurnBalance:
     # -------------------------------------------------------------------------------------------------- the balance
 
     def _balanced(self, state: _State) -> tuple[_State, list[BalanceLayer], BalanceLayer]:
-        """Return the state with the load-dependent friction of bearings, found by damped fixed-point iteration, all
-        solutions, and the one with minimum loss. Positions at which the iteration diverges have no solution.
+        """Return the state completed by the load-dependent friction of bearings, all solutions of the balance, and the
+        solution with minimum loss. If the friction does not converge at a position, no solution is valid there.
         """
         pieces = [self._pieces(column, state) for column in self.columns]
         for round_ in range(_MOST_LOADED):
@@ -499,7 +497,7 @@ class TurnBalance:
         return bearings.friction(bearings.loads(reactions, angles, leans), self.balance)
 
     def _member_torques(self, name: str, best: BalanceLayer, state: _State) -> tuple[Floats, Floats]:
-        """Return the torques of a pair on its first and second link, about the reference axis direction."""
+        """Return the torques of a pair on its two links, about the reference direction of parallel axes."""
         column = self.columns[self.of_pair[name]]
         pressed, forces = best.values[self.of_pair[name]], state.forces[column.meshes[0].id]
         ahead, back = (self._for_planet(name, forces.get(side, forces[1])) for side in (1, -1))
@@ -530,14 +528,14 @@ class TurnBalance:
         return found
 
     def _rubbing(self, state: _State, link: str, speed: Floats) -> Floats:
-        """Return the magnitude of a bearing's friction torque, without viscous drag at rest."""
+        """Return the magnitude of a bearing's friction torque at each position, with viscous drag in motion."""
         own, loaded = self.bearings[link], state.loaded.get(link, np.zeros(len(speed)))
         if state.static:
             return own.static + loaded
         return np.where(state.resting[link], 0.0, own.sliding + loaded + own.drag * np.abs(speed))
 
     def _pieces(self, column: TorqueUnknown, state: _State) -> ColumnPieces:
-        """Return the coefficients of one unknown torque in each row, for the first of several equal planets."""
+        """Return the coefficients of one unknown torque in each row of the balance, for each sign of the torque."""
         if not column.meshes:
             size = len(state.motion.turns)
             rows = {row: np.full(size, float(value)) for row, value in column.pieces[0].items()}
@@ -574,9 +572,7 @@ class TurnBalance:
         return found
 
     def _for_planet(self, name: str, force: PairForce) -> tuple[Floats, Floats]:
-        """Return the torques on both links of a pair of an equal planet, computed from the torques of the first planet.
-        The axis of the planet may be reversed.
-        """
+        """Return the unit torques on both links of a planet's pair from those of the first of equal planets."""
         alike, signs = self.relation_to_first[name]
         first, second = (force.first, force.second) if alike else (force.second, force.first)
         return signs[0] * first, signs[1] * second

@@ -146,9 +146,7 @@ class TurnRun:
 
     @cached_property
     def kinks(self) -> Floats:
-        """Positions of kinks of transmission functions [revolutions], for the most frequent combinations of coast
-        flanks in contact.
-        """
+        """Positions of kinks [revolutions] for the most frequent combinations of coast flanks in contact."""
         train = self.train
         # flanks in contact at a few positions: their functions' kinks are searched exactly
         even = train.at(np.linspace(0.0, self.span, min(self.samples, _PROBES)))
@@ -196,7 +194,9 @@ class TurnRun:
     def _cuts(
         self, cells: RunCells, found: PositionTorques, scales: RunScales, total: float, depth: int
     ) -> tuple[Indices, Floats]:
-        """Return cell indices and positions of cuts, which are kinks and the middles of cells that are too wide."""
+        """Return the indices of the cells to be divided, and the positions at which they are divided: kinks, and
+        middles of cells that are too wide.
+        """
         if depth == _DEPTH:
             return _NONE
         kinks, places = _NONE

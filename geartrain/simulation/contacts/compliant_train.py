@@ -97,13 +97,15 @@ class CompliantTrain(TrainModel):
 
     @cached_property
     def _rows(self) -> list[Floats]:
-        """Coefficients of the opening speed of each pair in the coordinate speeds, at the mean speed ratio."""
+        """Coefficients of the coordinate speeds in the speed at which the flanks of each pair separate, at its mean
+        speed ratio; one array of shape (coordinates,) for each pair.
+        """
         return [pair.opening_row(len(self.coordinates), pair.front.slope) for pair in self.model.pairs]
 
     @cached_property
     def _inertias(self) -> list[float]:
-        """Effective inertia 1/(r M^-1 r^T) of each pair [kg m2], with its row r and the mass matrix M; 0 if all speeds
-        in the row are prescribed.
+        """Effective inertia of each pair about the axis of its driven side [kg m2], 1/(r M^-1 r^T) with its row r of
+        `_rows` and the mass matrix M; 0 if all speeds in the row are prescribed.
         """
         rows, mass = (row[self.free] for row in self._rows), self.mass[np.ix_(self.free, self.free)]
         return [1 / float(row @ np.linalg.solve(mass, row)) if row.any() else 0.0 for row in rows]
@@ -156,9 +158,7 @@ class CompliantTrain(TrainModel):
 
     @cached_property
     def compliances(self) -> Mapping[str, PairCompliance]:
-        """Stiffness and damping of each pair or coupling whose stiffness is declared or can be estimated, keyed by
-        name.
-        """
+        """Stiffness and damping of each pair whose stiffness is declared or can be estimated, by name."""
         found = {}
         for gear in self.train.gears:
             stiffness, damping = self.train.stiffness_of(gear), self.train.damping_of(gear)
@@ -185,7 +185,7 @@ class CompliantTrain(TrainModel):
         return PairCompliance(stiffness, damping, ratio, damping is None and restitution is None, note)
 
     def _about_driven(self, gear: GearPair, quantity: Quantity, key: str) -> float:
-        """Return a declared stiffness or damping, converted to the axis of the driven wheel [N m/rad or N m s/rad]."""
+        """Return a declared stiffness [N m/rad] or damping [N m s/rad] about the axis of the driven wheel."""
         if quantity.dimension in ("torsional stiffness", "torsional damping"):
             return quantity.si
         arm = self._arm(gear)
@@ -198,7 +198,7 @@ class CompliantTrain(TrainModel):
         return quantity.si * arm**2
 
     def _arm(self, gear: GearPair) -> float | None:
-        """Return the lever arm of the line of action about the driven wheel's axis [m], or None if it is not known."""
+        """Return the lever arm of the line of action about the driven wheel's axis [m]; None if it is unknown."""
         first, second = gear.pair
         driver = self.problem.drivers.get(gear.name)
         wheel = first if driver is not None and driver.wheel == second else second
@@ -213,7 +213,9 @@ class CompliantTrain(TrainModel):
         return radius
 
     def _estimate(self, gear: GearPair) -> tuple[float, str] | None:
-        """Return the estimated stiffness of involute teeth [N m/rad] and a note on its method; None for other teeth."""
+        """Return the stiffness of a pair of involute teeth [N m/rad], estimated from width and metal, and a note on the
+        estimate; None if it cannot be estimated.
+        """
         mesh, arm = self._meshes.get(gear.name), self._arm(gear)
         if mesh is None or arm is None or not isinstance(mesh.tooth_form, Involute):
             return None
@@ -240,9 +242,7 @@ class CompliantTrain(TrainModel):
 
 @dataclass(frozen=True)
 class PairCompliance:
-    """Torsional stiffness [N m/rad] and damping of one pair about the axis of its driven wheel, with the
-    driver fixed.
-    """
+    """Torsional stiffness [N m/rad] and damping of a pair about its driven wheel's axis, with its driver fixed."""
 
     stiffness: float
     damping: float | None

@@ -55,7 +55,9 @@ class CarriedTorques(NamedTuple):
 
 
 class _State(NamedTuple):
-    """Motion of all links at n positions for an input speed of 1 rad/s, and the coupling between pair errors."""
+    """Speeds and accelerations of all links at n positions for an input speed of 1 rad/s, and the matrices that couple
+    the errors of the pairs.
+    """
 
     speed: Floats
     acceleration: Floats
@@ -92,12 +94,12 @@ class InertialContacts:
 
     @cached_property
     def _response(self) -> Floats:
-        """Matrix R of angles of links per unit transmission error of each pair [rad/rad], shape (links, pairs)."""
+        """Response matrix R of link angles to transmission errors of pairs [rad/rad], shape (links, pairs)."""
         return self.motion._propagation.response
 
     def _inverse(self, slope: Floats) -> Floats:
-        """Return the inverse of J = I - diag(slope) G, shape (n, pairs, pairs), with the gains G: angles of the drivers
-        per unit transmission error of each pair.
+        """Return the inverse of the matrix J = I - diag(slope) G at n positions, shape (n, pairs, pairs). G contains
+        the change of each driver's angle per unit transmission error of each pair.
         """
         found = np.tile(np.eye(len(self.pairs)), (slope.shape[1], 1, 1))
         found[:, [source.pair for source in self.sources]] -= slope.T[:, :, None] * self.motion._forward.gains
@@ -120,7 +122,9 @@ class InertialContacts:
 
     @cached_property
     def _joints(self) -> tuple[Ints, Floats]:
-        """Index of the link that bears each link, and relative direction of the axes of the two links (1 or -1)."""
+        """Index of the link that carries the axis of each link, and 1 or -1 if the axes of these two links have the
+        same or opposite directions.
+        """
         at = {link: number for number, link in enumerate(self.moving.system.links)}
         bearers = [self.acting.bearer.get(link, self.moving.frame) for link in at]
         signs = self.moving.signs
@@ -183,15 +187,15 @@ class InertialContacts:
         return CarriedTorques(*self._carried(state, forces))
 
     def _carried(self, state: _State, forces: Sequence[Floats]) -> Iterator[Floats]:
-        """Yield the torques sense J^-T R^T f that pairs transmit under the torques f on the links, with the matrices J
-        of `_inverse` and R of `_response`.
+        """Yield the torques that the pairs transmit under each array of torques f on the links: sense J^-T R^T f, with
+        the matrices J (`_inverse`) and R (`_response`) and the sense of each driven side.
         """
         for requested in forces:
             force = self._without_crank_power(requested, state.virtual)
             yield self._senses[:, None] * np.einsum("nji,jn->in", state.inverse, self._response.T @ force)
 
     def _without_crank_power(self, requested: Floats, speed: Floats) -> Floats:
-        """Return the torques on the links minus the crank's driving torque, so that the virtual power is 0."""
+        """Return the torques on the links plus the crank's torque, which makes their power at `speed` 0."""
         # a prescribed input absorbs any torque, so no correction is needed
         if self.acting.crank is None:
             return requested
@@ -310,7 +314,7 @@ def find_inertial_loads(
 
 
 def _is_cranked(train: Train, case: StateCase) -> bool:
-    """Return True if a crank drives the train that is neither its only input nor driven by a declared torque."""
+    """Return True if a crank other than the only input drives the train without a declared constant torque."""
     steady = case.drive is not None and case.drive.steady_torque is not None
     return train.crank is not None and train.crank not in case.inputs and len(case.inputs) == 1 and not steady
 
@@ -321,8 +325,8 @@ def torques_have_units(train: Train, case: StateCase) -> bool:
 
 
 def _torques(train: Train, case: StateCase) -> tuple[dict[str, Quantity], dict[str, Quantity]]:
-    """Return load torques and bearing friction torques, each by link, without loads on inputs, which do no virtual work
-    unless a crank drives the train.
+    """Return the declared load torques and the friction torques of bearings, each by link. Loads on inputs are omitted
+    unless a crank drives the train, because they do no virtual work.
     """
     # torques on a prescribed input do no virtual work
     still = {train.frame} if _is_cranked(train, case) else {train.frame, *case.inputs}

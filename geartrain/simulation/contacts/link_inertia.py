@@ -108,7 +108,7 @@ def find_link_inertias(
 
 
 class _Bodies:
-    """Links of a train as rigid bodies with masses and moments of inertia."""
+    """Links of a train as rigid bodies, with their masses and moments of inertia."""
 
     def __init__(self, train: TrainMechanics) -> None:
         self.train, self.declared = train, train.declaration
@@ -132,7 +132,9 @@ class _Bodies:
         return replace(own, value=own.value + carried, carried=carried, missing=tuple(missing))
 
     def _sliding(self, link: str) -> LinkInertia:
-        """Return the inertia that is equivalent to the mass of a sliding link and of the links that it carries."""
+        """Return the moment of inertia that represents the mass of a sliding link and of the links that it carries, if
+        1 mm of travel is treated as one turn.
+        """
         tree, line = self.train.tree, self.train.tree.lines[link]
         masses = {each: self._mass(each) for each in self.declared.links if tree.moving(each, line) == link}
         missing = tuple(f"the mass of '{each}' is not known" for each, mass in masses.items() if mass is None)
@@ -160,7 +162,7 @@ class _Bodies:
         return None if missing or not plates else sum(plate.mass for plate in plates)
 
     def _plates(self, link: str) -> tuple[Sequence[PlateMoments], tuple[str, ...]]:
-        """Return the masses and moments of inertia of all wheels of a link, and descriptions of missing data."""
+        """Return the mass and moment of inertia of each wheel of a link, and texts that name missing data."""
         plates, missing = [], []
         for name, wheel in self.declared.links[link].wheels.items():
             thickness = wheel.thickness or self.declared.thickness
@@ -188,7 +190,7 @@ class _Bodies:
         return find_cut_teeth(self.train).wheels
 
     def _orbit(self, carrier: str, planet: str) -> float | None:
-        """Return the centre distance [m] of a planet's wheel and a wheel about its carrier's axis; None if unknown."""
+        """Return the distance of a planet's axis from its carrier's axis [m], a centre distance; None if unknown."""
         from geartrain.dynamics.gear_meshes import find_sizes
 
         tree = self.train.tree

@@ -50,9 +50,7 @@ class PairTables(NamedTuple):
 
 
 class TabledFunction(NamedTuple):
-    """Function slope S + p(S) of a driver angle S [rad], with a table of its periodic part p and the minimum jump of
-    its slope.
-    """
+    """Function slope S + p(S) of a driver angle S [rad], with a table of p, which is periodic, and its minimum jump."""
 
     slope: float
     table: CellTable

@@ -41,7 +41,9 @@ def tooth_arms(mesh: GearMesh) -> Arms | None:
 
 
 def _flank_arms(mesh: GearMesh, transmission: TransmissionFunction) -> tuple[TabledFunction, TabledFunction] | None:
-    """Return the friction terms of one flank for its driving and its opposite sense; None without friction."""
+    """Return the friction terms of one flank for two senses of rotation: the sense in which this flank drives, and the
+    opposite sense. None if there is no friction.
+    """
     if not mesh.computes_losses or not mesh.has_friction:
         return None
     losses = mesh.losses
@@ -66,8 +68,8 @@ def _flank_arms(mesh: GearMesh, transmission: TransmissionFunction) -> tuple[Tab
 def _friction_term(
     tau: Floats, rubbing: ContactRubbing, coefficient: Callable[[Floats], Floats | float], way: int, label: str
 ) -> Floats:
-    """Return the friction term tau (1/eta - 1) at each driver angle, 0 during a dwell; a `way` of -1 reverses the
-    sliding. Raise `GearTrainError` if friction locks the teeth.
+    """Return the friction term tau (1/eta - 1) at each driver angle, from the speed ratio tau and the efficiency eta; 0
+    during a dwell. Sliding is reversed for `way` -1. Raise `GearTrainError` if friction locks the teeth.
     """
     sliding, into, out = rubbing
     # NaN marks tooth pairs that do not touch at this angle

@@ -247,9 +247,7 @@ def separation_section(found: SeparationRates) -> Section:
 
 
 def separation_text(found: SeparationRates) -> Iterator[str]:
-    """Yield sentences about the first pair that separates, the searched range of the input, and links of unknown
-    inertia.
-    """
+    """Yield sentences on the first pair that separates, the searched range, and links of unknown inertia."""
     if found.first is None:
         yield f"No teeth separate at any speed of '{found.input}'."
     else:
@@ -286,8 +284,8 @@ def separation_words(pair: PairSeparation) -> tuple[str, str]:
 
 
 def _minimum_rates(contacts: InertialContacts, kinks: Floats, turns: float) -> tuple[Floats, Floats, float]:
-    """Return the minimum input speed at which each pair separates between kinks [rad/s], the position of each minimum
-    [revolutions of the input], and the width of the narrowest interval between kinks [revolutions of the input].
+    """Return the minimum input speed at which each pair separates between kinks [rad/s], the input position of each
+    minimum [revolutions], and the width of the narrowest interval between kinks [revolutions].
     """
     ends = np.unique(np.concatenate([[0.0], kinks, [turns]]))
     low, high = ends[:-1], ends[1:]
@@ -318,8 +316,8 @@ def _minimum_rates(contacts: InertialContacts, kinks: Floats, turns: float) -> t
 
 
 def _jump_positions(contacts: InertialContacts, kinks: Floats, narrowest: float) -> dict[int, float]:
-    """Return the first position of the input [revolutions] at which a jump of the speed ratio would require a tensile
-    impulse, keyed by the index of the pair. Pairs without such a position are omitted.
+    """Return the first input position [revolutions] at which a jump of speed would require the flanks of a pair to
+    pull, by index of the pair.
     """
     if not len(kinks):
         return {}

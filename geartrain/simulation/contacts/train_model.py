@@ -170,7 +170,7 @@ class TrainModel:
 
     @cached_property
     def _efficiencies(self) -> Mapping[str, Any]:
-        """Declared efficiencies by gear pair and by row of couplings; None where no efficiency is declared."""
+        """Declared efficiency of each gear pair and each row of a coupling, by name; None if undeclared."""
         gears = {gear.name: gear.efficiency for gear in self.train.gears}
         return gears | {name: each.efficiency for each in self.train.couplings for name in each.row_names}
 
@@ -192,9 +192,7 @@ class TrainModel:
 
     @cached_property
     def forms(self) -> tuple[tuple[str, ...], Floats]:
-        """Names of the coordinate links, and speeds of all links per unit speed of each coordinate, shape (links,
-        coordinates).
-        """
+        """Names of the coordinate links, and speeds of links per unit coordinate speed, shape (links, coordinates)."""
         free = {circuit.id for circuit in self.contacts}
         symbols = {self.index[link]: -1 - at for at, link in enumerate(self.prescribed)}
         rows = []
@@ -282,8 +280,8 @@ class TrainModel:
             yield ContactPair(circuit.id, driver, driven, start, front, back, arms, restitution, free)
 
     def _flanks(self, circuit: Circuit) -> tuple[TabledFunction, TabledFunction, Arms | None, TransmissionFunction]:
-        """Return tables of the transmission functions of the drive and coast flanks of a pair, its friction terms, and
-        the transmission function of the drive flank.
+        """Return the tabulated driven angle in contact on the drive flank and on the coast flank of a pair, its
+        friction terms, and the transmission function of the drive flank.
         """
         if circuit.id in self._couplings:
             joint, transmission = self._couplings[circuit.id], self.sources[circuit.id].transmission
@@ -314,7 +312,9 @@ class TrainModel:
         return front, back, tooth_arms(mesh), mesh.transmission
 
     def _senses(self, circuit: Circuit) -> tuple[int, int]:
-        """Return the sense of forward rotation, 1 or -1 about the reference direction, of driver and driven side."""
+        """Return 1 or -1 for the driver and for the driven side of a pair: the sense of forward rotation about the
+        reference direction of parallel axes.
+        """
         source = self.sources.get(circuit.id)
         # forwards is the sense in which the input turns; front flanks are those that drive in this sense
         way = self.problem.way
@@ -322,7 +322,9 @@ class TrainModel:
         return forward, way * (source.sense if source else (1 if circuit.a * circuit.b < 0 else -1))
 
     def _sides(self, circuit: Circuit) -> tuple[Form, Form]:
-        """Return the forward speeds of both sides of a pair relative to its carrier, as forms of the coordinates."""
+        """Return the speed of the driver and the speed of the driven side of a pair relative to its carrier, positive
+        forwards, as linear forms of the coordinate speeds.
+        """
         forward, sense = self._senses(circuit)
         path = self.motion._path(circuit.id)
         signs, names = self.problem.signs, self.problem.system.links
@@ -345,7 +347,7 @@ class TrainModel:
     # ----------------------------------------------------------------------------------------- other parts of the model
 
     def _bearings(self) -> Iterator[Bearing]:
-        """Yield the dry friction of bearings. Bearings of links with proportional speeds are combined."""
+        """Yield the bearings with dry friction. Bearings whose speeds are proportional are combined into one."""
         joined: dict[tuple[tuple[int, float], ...], list[tuple[str, float, float, float]]] = {}
         for link, (sliding, sticking) in self.case.bearing.items():
             radius = 0.0 if self.bearing_forces is None else self.train.links[link].friction_radius
@@ -374,9 +376,7 @@ class TrainModel:
             yield Stop(link, _sparse(way * self._form(link, base)), pitch, beat, restitution)
 
     def torque_of(self, loads: Mapping[str, float], drive: float) -> Floats:
-        """Return the generalised torques on the coordinates [N m] that result from torques on links and from the torque
-        of the drive.
-        """
+        """Return the generalised torques on the coordinates [N m] due to torques on links and to the drive."""
         torque = drive * self._form(self.case.drive.link)
         for link, load in loads.items():
             torque += load * self._form(link)
@@ -414,7 +414,7 @@ class TrainModel:
 
 
 def _sparse(form: Floats) -> dict[int, float]:
-    """Return the nonzero coefficients of a linear form, keyed by coordinate index."""
+    """Return the coefficients of a linear form that are not 0, by index of the coordinate."""
     scale = float(np.max(np.abs(form), initial=0.0))
     # smaller coefficients are rounding errors
     return {at: float(value) for at, value in enumerate(form) if abs(value) > 1e-13 * scale}

@@ -40,9 +40,7 @@ IMPACT_COLUMNS = 5
 
 
 class ContactState(NamedTuple):
-    """State of a simulated train, which the kernels modify in place. The contacts are the pairs, followed by
-    the stops.
-    """
+    """State of a simulated train, modified in place by the kernels. Contacts are the pairs, then the stops."""
 
     clock: Floats
     """Simulated time [s] and number of the time step."""
@@ -267,7 +265,7 @@ def add_load_friction(
 
 @kernel
 def carrier_torque(system: ContactSystem, state: ContactState, here: StepEquations, f: int) -> float:
-    """Return the torque on the carrier of the force number `f` on bearings, per unit impulse of a touching pair."""
+    """Return the torque on the carrier per unit impulse of the pair of force number `f` on bearings."""
     m = system.loaded.pair[f]
     side = state.touching[m] - 1
     sides = system.loaded.forces[f]
@@ -276,9 +274,7 @@ def carrier_torque(system: ContactSystem, state: ContactState, here: StepEquatio
 
 @kernel
 def turn_forces(system: ContactSystem, state: ContactState, here: StepEquations, step: float) -> None:
-    """Rotate the forces on bearings together with their carriers to the end of a step of length `step`, by Rodrigues'
-    formula.
-    """
+    """Rotate the forces on bearings with their carriers to the end of a step of length `step` (Rodrigues' formula)."""
     for f in range(len(system.loaded.pair)):
         angle = 0.0
         for d in range(len(here.v)):

@@ -44,9 +44,7 @@ _ROUNDS = 60  # maximum number of guesses in a step, plus six for each contact a
 
 
 class StepPlan(NamedTuple):
-    """Time steps of a run: step length [s], number of skipped steps, number of counted steps, and number of steps
-    between samples.
-    """
+    """Time steps of a run: length [s], skipped steps, counted steps, and number of steps between samples."""
 
     step: float
     skip: int
@@ -162,12 +160,12 @@ def simulate(
 
 
 def _mark(record: RunRecord, state: ContactState) -> _Mark:
-    """Return copies of the counts, energies and angles of the coordinates at the present step."""
+    """Return copies of the statistics, the energies and the coordinate angles at the present time step."""
     return record.counts.copy(), record.energy.copy(), state.angle.copy()
 
 
 def _part(run: SimulatedRun, at: int, before: _Mark, after: _Mark) -> SimulatedRun:
-    """Return the results of one block of a run, which lies between two marks."""
+    """Return the results of block number `at` of a run, from the recorded values before and after the block."""
     counts, energy, turned = (late - early for early, late in zip(before, after, strict=True))
     plan = run.plan._replace(skip=run.plan.skip + at * run.plan.block, steps=run.plan.block, block=0)
     return replace(run, plan=plan, counts=counts, energy=energy, turned=turned, blocks=())
@@ -235,9 +233,7 @@ def start_state(model: ContactModel, system: ContactSystem) -> ContactState:
 
 
 def empty_record(n: int, rows: int, samples: int, impacts: int) -> RunRecord:
-    """Return an empty record for `n` coordinates, `rows` pairs and stops, and the given maximum numbers of samples and
-    impacts.
-    """
+    """Return an empty record for `n` coordinates, `rows` pairs and stops, and at most `samples` and `impacts`."""
     sampled = [(samples, n), (samples, n), (samples, rows), (samples, n)]
     shapes = [(ENERGIES,), (rows, COUNTS), *sampled, (impacts, IMPACT_COLUMNS)]
     return RunRecord._make([*map(np.zeros, shapes), np.zeros(DIVERGED + 1, dtype=np.int64)])
@@ -264,7 +260,7 @@ def compliant_teeth(pairs: int, yields: ToothCompliance | None) -> CompliantTeet
 def _energies(
     system: ContactSystem, transmissions: PairTables, state: ContactState, yields: ToothCompliance | None
 ) -> tuple[float, float]:
-    """Return the kinetic energy of a train and the elastic energy stored in its compliant teeth [J]."""
+    """Return the kinetic energy of a train, and the elastic energy stored in its compliant teeth [J]."""
     elastic = 0.0
     for m, stiffness in enumerate(() if yields is None else yields.stiffness):
         row = slice(system.pair_at[m], system.pair_at[m + 1])

@@ -175,9 +175,7 @@ def solve_step(
     rules: StepRules,
     teeth: CompliantTeeth,
 ) -> int:
-    """Solve for the speeds at the end of a step, and return the number of combinations of contact states that were
-    tried.
-    """
+    """Solve for the speeds at the end of a step, and return the number of contact states that were tried."""
     find_loads(system, state, here, rules.step, rules.share)
     for d in range(len(here.v)):
         here.ahead[d] = state.speed[d]
@@ -231,9 +229,7 @@ def add_to_sample(forces: Floats, P: Floats, touching: Ints, pairs: int, times: 
 
 @kernel
 def end_sample(state: ContactState, record: RunRecord, time: float) -> None:
-    """Record the angles and speeds of a sample, and convert its impulses to mean torques over its duration
-    `time` [s].
-    """
+    """Record angles and speeds of a sample, and convert its impulses to mean torques over its `time` [s]."""
     sample = record.numbers[SAMPLES]
     record.angles[sample, :] = state.angle
     record.speeds[sample, :] = state.speed
@@ -271,9 +267,7 @@ def find_bounds(
     rules: StepRules,
     teeth: CompliantTeeth,
 ) -> None:
-    """Compute speed ratios, lever arms, gaps, and bounds on the opening speeds of both flanks of each pair at
-    extrapolated positions.
-    """
+    """Compute speed ratios, lever arms, gaps and bounds on opening speeds at extrapolated positions."""
     step, rigid = rules.step, rules.share == 1.0
     for m in range(len(system.tables)):
         S, q, dS, dq, on = system.start_driver[m], system.start_driven[m], 0.0, 0.0, 0.0
@@ -327,9 +321,7 @@ def find_bounds(
 
 @kernel
 def is_struck(touching: Ints, before: Ints, jump: Floats, tables: Ints, ratio: Floats, last: Floats) -> bool:
-    """Return True if a flank has come into contact in this step, or if the speed ratio at a touching flank
-    has jumped.
-    """
+    """Return True if a flank came into contact in this step, or the speed ratio at a touching flank jumped."""
     for m in range(len(last)):
         now = touching[m]
         if now != OPEN and (now != before[m] or leaps(jump, tables, ratio, last, m, now - 1)):
@@ -358,9 +350,7 @@ def find_shift(system: ContactSystem, here: StepEquations, minimum: float) -> fl
 
 @kernel
 def find_stop_bounds(system: ContactSystem, state: ContactState, here: StepEquations, step: float) -> None:
-    """Compute the maximum speed [rad/s] with which each stopped link can reach its stop, or with which it rebounds from
-    the stop.
-    """
+    """Compute the maximum speed [rad/s] at which each stopped link can reach its stop or rebounds from it."""
     for stop in range(len(system.stop_pitch)):
         m = len(system.tables) + stop
         beats = floor((state.clock[0] + step / 2) / system.stop_beat[stop])

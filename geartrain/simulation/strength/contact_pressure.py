@@ -231,9 +231,7 @@ class ContactLoad:
 
 
 def base_helix_angle(helix: float, pressure_angle: float) -> float:
-    """Return the base helix angle [rad] from the helix angle at the pitch circle [rad] and the normal pressure angle
-    [rad].
-    """
+    """Return the base helix angle [rad] from that at the pitch circle and the normal pressure angle [rad]."""
     return asin(sin(helix) * cos(pressure_angle))
 
 
@@ -350,7 +348,9 @@ class CrossedWheels:
         return asin(min(size(cross(first, second)), 1.0))
 
     def _bounds(self, at: int) -> dict[str, float]:
-        """Return the limits of the path from the pitch point to the tip of one wheel [mm], keyed by their cause."""
+        """Return the distances from the pitch point at which the path of contact may end towards the tip of one wheel
+        [mm], by cause: tip, base circle, or width.
+        """
         alpha, lean = self.pressure_angle, self.helix[at]
         tip = self.radii[at] + self.addenda[at] * self.module
         # (r + s sin a)^2 + (s cos a cos b)^2 = tip^2
@@ -380,9 +380,7 @@ class CrossedWheels:
         return sum(self.ends) / self.pitch
 
     def tooth_pairs(self, place: float) -> int:
-        """Return the number of tooth pairs in contact while one of them touches at the distance `place` past the pitch
-        point [mm].
-        """
+        """Return the tooth pairs in contact while one of them touches `place` past the pitch point [mm]."""
         back, front = self.ends
         # contacts exactly at an end of the path count, in spite of rounding
         slack = 1e-9 * self.pitch
@@ -396,9 +394,7 @@ class CrossedWheels:
         return contact_ellipse(force / self.tooth_pairs(place), factor, (1 / rho[0], 1 / rho[1]), self.crossing)
 
     def worst(self, force: float, factor: float) -> ContactEllipse:
-        """Return the contact ellipse of maximum pressure over all positions with the minimum number of tooth pairs in
-        contact.
-        """
+        """Return the contact ellipse of maximum pressure while the fewest tooth pairs are in contact."""
         back, front = self.ends
         places = np.linspace(-back, front, _POINTS)[1:-1].tolist()
         # the ends of the path are excluded: a pair carries no load there

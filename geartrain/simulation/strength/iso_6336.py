@@ -67,9 +67,7 @@ class HelixData:
 
     @property
     def Ybeta(self) -> float:
-        """Helix angle factor Ybeta for the root stress, with the overlap ratio limited to 1 and the helix angle limited
-        to 30 degrees.
-        """
+        """Helix angle factor Ybeta for the root stress; overlap ratio and angle count up to 1 and 30 degrees."""
         return 1 - min(self.overlap, 1.0) * min(degrees(self.helix), 30.0) / 120
 
     def Zeps(self, contact_ratio: float) -> float:
@@ -174,9 +172,7 @@ def contact_stress(pair: RackPair, elasticity: float, tangential: float, width: 
 
 
 def outer_single_contact(wheel: RackWheel, angle: float, contact_ratio: float) -> float:
-    """Return the radius of the outer limit of single contact, up to which one tooth pair carries the whole load
-    [module].
-    """
+    """Return the outer radius of single contact, up to which one tooth pair carries the whole load [module]."""
     base = wheel.z / 2 * cos(angle)
     # (contact ratio - 1) base pitches before the tip, measured along the line of action
     return sqrt((sqrt(wheel.tip**2 - base**2) - pi * cos(angle) * (contact_ratio - 1)) ** 2 + base**2)
@@ -241,7 +237,7 @@ def _inv(angle: float) -> float:
 
 
 def _tangent(slope: float, H: float) -> float:
-    """Return the solution th [rad] of th = slope tan(th) - H, found by Newton's method starting at pi/6."""
+    """Return the solution th [rad] of the equation th = slope tan(th) - H, found by Newton's method."""
     th = pi / 6
     # Newton's method converges quadratically, so few of these steps are needed
     for _ in range(50):
@@ -285,9 +281,7 @@ class RootSection:
     """Bending stress of the section divided by torque/(width module^2) [1]."""
 
     def stress(self, torque: float, width: float, module: float) -> float:
-        """Return the bending stress of the section [MPa] under a torque on this tooth [N mm]. `width` and `module` are
-        in mm.
-        """
+        """Return the bending stress [MPa] under a torque on the tooth [N mm], for width and module in mm."""
         return self.factor * torque / (width * module**2)
 
     def lewis_factor(self, pitch_radius: float) -> float:
@@ -322,7 +316,7 @@ class ToothSide:
 
     @cached_property
     def _flank(self) -> tuple[Floats, Floats]:
-        """Signed radii of the points in increasing order [module], and their azimuths [rad]."""
+        """Radii of flank points times `outward`, in increasing order [module], and their azimuths [rad]."""
         r = np.hypot(*self.points.T) * self.outward
         azimuth = np.arctan2(self.points[:, 1], self.points[:, 0])
         # all points of the tip circle; only the last of them is needed for the interpolation
@@ -355,7 +349,9 @@ class ToothSide:
         return ToothLoad(radius, float(apex), float(angle))
 
     def _lines_of_action(self, radii: Floats, arms: Floats) -> tuple[Floats, Floats]:
-        """Return the apex [module] and the angle [rad] of each force, defined as in `ToothLoad`."""
+        """Return the apex [module] and the angle [rad] of the line of each force, as defined in `ToothLoad`, from the
+        radius of its point of application and its distance from the axis [module].
+        """
         # rounding may put the point of load inside the base circle
         pressure = np.arccos(np.minimum(arms / radii, 1.0))
         angles = pressure - self.outward * np.interp(radii * self.outward, *self._flank)
@@ -394,7 +390,9 @@ class ToothSide:
         return RootSection(float(x[at]), float(2 * y[at]), float(factors[at]))
 
     def _section_factors(self, apexes: Floats) -> Floats:
-        """Return the bending stress of each section, divided by torque/(width module^2), in a row for each apex."""
+        """Return the bending stress of each section divided by torque/(width module^2) [1], shape (forces, sections),
+        for forces with the given apexes [module].
+        """
         x, y = self._sections
         lever = np.maximum((apexes[:, None] - x) * self.outward, 0.0)
         # bending stress 6 F l/(b s^2), with the force F = torque/apex across the centre line
@@ -402,7 +400,7 @@ class ToothSide:
 
     @cached_property
     def _sections(self) -> tuple[Floats, Floats]:
-        """Heights and half thicknesses of sections in the lower half of the tooth [module]."""
+        """Distance from the wheel's axis and half thickness of the sections in the lower half of the tooth [module]."""
         x, y = self.points.T
         steps = np.hypot(np.diff(x), np.diff(y))
         s = np.concatenate(([0.0], np.cumsum(steps)))

@@ -120,7 +120,7 @@ class PairUnderLoad:
         return elasticity_factor(*(Elasticity.of(each.material) for each in self.wheels))
 
     def _radius(self, at: int) -> float:
-        """Return the operating pitch radius of a wheel [mm]."""
+        """Return the operating pitch radius of wheel number `at` of the pair, 0 or 1 [mm]."""
         path = self.path
         if path is not None:
             return abs(path.pitch.axle_of(self.wheels[at].gear)) * self.module
@@ -128,7 +128,7 @@ class PairUnderLoad:
         return self.wheels[at].z / 2 * self.module * (1.0 if size is None else size.stretch)
 
     def _cone_factor(self, at: int) -> float:
-        """Return the ratio of radii of a bevel gear to radii of its virtual spur wheel; 1 for spur wheels."""
+        """Return the pitch radius of a bevel gear divided by that of its virtual spur wheel [1]; 1 for spur wheels."""
         return 1.0 if self.spurs is None else cos(self.spurs.middle.cone(self.wheels[at].gear))
 
     @property
@@ -213,8 +213,9 @@ class PairUnderLoad:
         )
 
     def _bending(self, at: int, torque: float) -> tuple[RootSection | None, float, float | None]:
-        """Return the weakest section and the bending stress [MPa] for the whole load at the tip, and the maximum
-        bending stress for the shared load [MPa]. Pins have no section; the shared load is that of spur teeth.
+        """Return the weakest section of a tooth with the whole load at its tip, the bending stress in this section
+        [MPa], and the maximum bending stress if tooth pairs share the load [MPa]. The section is None for a pin, and
+        the last stress is None if it is not computed.
         """
         own, load = self.wheels[at], self.load
         if (pins := own.teeth.pins) is not None:
@@ -246,7 +247,7 @@ class PairUnderLoad:
     # ------------------------------------------------------------------------------------------------- ISO and wear
 
     def _rack_pair(self) -> RackPair | None:
-        """Return both wheels in the transverse section as rack-cut wheels, or None if ISO 6336 is not applicable."""
+        """Return both wheels in the transverse section as cut by a rack; None if ISO 6336 does not apply."""
         form, load = self.mesh.tooth_form, self.load
         if not isinstance(form, Involute) or load is None or load.path.pitch.R2 < 0 or self.spurs is not None:
             return None

@@ -102,9 +102,7 @@ def describe_strength(found: StrengthReport) -> Document:
 
 
 def strength_document(found: TrainStrength) -> Document | None:
-    """Return the document on the strength in one state that `geartrain strength` prints, or None if `found` has no
-    train.
-    """
+    """Return the document that `geartrain strength` prints for one state, or None if `found` has no train."""
     declared = found._declaration
     return None if declared is None else describe_strength(StrengthReport(declared.name, declared.title, (found,)))
 

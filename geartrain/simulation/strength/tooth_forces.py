@@ -47,9 +47,7 @@ class ToothForces:
     """Ratio of the design torque to the mean torque of each pair, keyed by pair."""
 
     def find(self) -> Iterator[WheelForce]:
-        """Yield the forces on both wheels of every pair that transmits torque, in the order of the wheels in
-        the pair.
-        """
+        """Yield the forces on both wheels of every pair that transmits torque, first wheel first."""
         for circuit in self.setting.circuits:
             if circuit.kind != "gear":
                 continue
@@ -86,8 +84,9 @@ class ToothForces:
 
     @staticmethod
     def _both(loads: Sequence[float], radii: Sequence[float], cosines: Sequence[float]) -> list[tuple[float, float]]:
-        """Return the radius and the tangential force of both wheels, equation (32) of docs/strength.md, for the cosines
-        of their pitch cone angles: 1 for parallel axes, -1 for a ring gear.
+        """Return the pitch radius and the tangential force of both wheels of a pair, by equation (32) of
+        docs/strength.md, from their torques, radii and cosines of the pitch cone angles (1 for parallel axes, -1 for a
+        ring gear).
         """
         others = cosines[::-1]
         lever = sum(radius * other for radius, other in zip(radii, others, strict=True))
@@ -116,9 +115,7 @@ class ToothForces:
         )
 
     def involute_of(self, circuit: Circuit) -> Involute:
-        """Return the tooth form of wheels on crossed axes: the declared form, or standard involutes if no form is
-        declared.
-        """
+        """Return the declared tooth form of wheels on crossed axes, or standard involutes if none is declared."""
         form = self.setting.train.form_of(self.setting.gears[circuit.id])
         return form if isinstance(form, Involute) else Involute(form="involute")
 
@@ -129,7 +126,7 @@ class ToothForces:
         return self.setting.train.wheels[circuit.wheels[at]][1]
 
     def _radius(self, circuit: Circuit, at: int) -> float:
-        """Return the pitch radius of a wheel [mm] from its normal module, tooth number and helix angle."""
+        """Return the pitch radius of wheel `at` of a pair, 0 or 1 [mm], from module, tooth count and helix."""
         wheel = self._wheel(circuit, at)
         normal = self.modules[circuit.wheels[at]] / wheel.slant
         return _MM * normal * (wheel.count or 0) / 2 / cos(wheel.helix)
@@ -160,7 +157,9 @@ class ToothForces:
         return push, 0.0 - push * lean, None if apart is None else outwards * abs(push) * apart
 
     def _skew(self, circuit: Circuit, at: int, load: float, drives: bool) -> tuple[float, WheelParts]:
-        """Return the radius of a wheel on crossed axes [mm], and the forces on it with friction along its teeth [N]."""
+        """Return the pitch radius of a wheel on crossed axes [mm], and the tangential, axial and radial force on the
+        wheel, including friction along its teeth [N].
+        """
         helix = self.setting.helix_angles(circuit) or (0.0, 0.0)
         friction = self.setting.train.friction_of(self.setting.gears[circuit.id])
         angle, radius = self._angle(circuit), self._radius(circuit, at)
@@ -170,7 +169,9 @@ class ToothForces:
         return radius, helical_force(load / radius, helix[at], angle, sense * friction_angle(sliding, angle))
 
     def _middle(self, circuit: Circuit, at: int, crossing: float) -> ConeMiddle:
-        """Return the pitch cones of a bevel pair at mid-width, or at the outer circle if the width is unknown."""
+        """Return the pitch cones of a bevel pair at the middle of the face width, or at the large ends if the face
+        width is not known.
+        """
         own, mate = self._wheel(circuit, at), self._wheel(circuit, 1 - at)
         widths = [_MM * width.si for each in (own, mate) if (width := face_width(self.setting.train, each)) is not None]
         # angles of the pitch cones depend only on the tooth numbers and the shaft angle
@@ -235,7 +236,5 @@ def bevel_force(tangential: float, cone: float, pressure_angle: float, facing: i
 
 
 def friction_angle(friction: float, pressure_angle: float) -> float:
-    """Return the friction angle along the teeth [rad], atan(mu / cos(pressure angle)), where mu is the friction
-    coefficient.
-    """
+    """Return the friction angle along the teeth [rad], atan(mu / cos(pressure angle)) for the coefficient mu."""
     return atan(friction / cos(pressure_angle))

@@ -50,9 +50,7 @@ _PINS = "steel"  # material of the pins of couplings if the train declares none
 def solve_strength(
     train: TrainMechanics, state: str | None, service: Service, over: float | None = None
 ) -> TrainStrength:
-    """Return pressures, root stresses, safety factors and wear of a train in one state, as described in
-    `GearTrain.strength`.
-    """
+    """Return pressures, stresses, safety factors and wear in one state, as described in `GearTrain.strength`."""
     check_numbers(over=over)
     own, train = service.checked(), train.unfolded
     found, loads = solve(train, state), train.load_case(state)
@@ -102,9 +100,7 @@ class Service:
         return own
 
     def time(self, train: TrainMechanics, state: str | None) -> float | None:
-        """Return the total revolutions of a link per unit of its relative speed, or None if no service life
-        is given.
-        """
+        """Return the revolutions of a link per unit of its relative speed, or None without a service life."""
         turns, years = self.turns, self.years
         if turns is None and years is None:
             return None
@@ -134,7 +130,7 @@ class Service:
 
 
 def _input_speed(train: TrainMechanics, state: str | None) -> float:
-    """Return the speed of the reference input, which is the crank or, if there is none, the first input that turns."""
+    """Return the magnitude of the speed of the crank or, if there is none, of the first input that turns."""
     case, crank = train.kinematics.case(state), train.declaration.crank
     speeds = train.kinematics.solution(case).speeds
     if crank is not None and speeds.get(crank):
@@ -192,9 +188,7 @@ class StrengthQuestion:
 
     @cached_property
     def swings(self) -> Mapping[str, float]:
-        """Ratio of the maximum torque during the requested revolutions to the mean torque of each pair, keyed
-        by pair.
-        """
+        """Maximum torque during the requested revolutions divided by the mean torque of each pair, by pair."""
         found = {}
         for circuit in self.setting.circuits:
             pair, maximum = self.torques.pairs.get(circuit.id), self.maximum.get(circuit.id)
@@ -237,7 +231,9 @@ class StrengthQuestion:
         )
 
     def _all_neglected(self) -> tuple[NeglectedEffect, ...]:
-        """Return the neglected effects: pairs in declared order, then arbors, then torque variations."""
+        """Return all neglected effects: first those of gear pairs in the order of the declaration, then those of
+        arbors, then varying torques.
+        """
         swinging = [each for each in self.torques.neglected if each.what == "variation within a turn"]
         if self.over is None:
             why = "stresses follow from mean torques; `--peak-turns` uses the maximum over some turns"
@@ -249,7 +245,7 @@ class StrengthQuestion:
         )
 
     def _skew_pairs(self, forces: ToothForces, wheel_forces: Sequence[WheelForce]) -> Iterator[SkewPair]:
-        """Yield the pairs on crossed axes for which all data are known."""
+        """Yield the gear pairs on crossed axes whose data are complete."""
         for circuit in self.setting.circuits:
             if circuit.kind != "gear" or not forces.is_crossed(circuit):
                 continue
@@ -270,7 +266,7 @@ class StrengthQuestion:
     # -------------------------------------------------------------------------------------------------------- pins
 
     def _pins(self, meshes: Mapping[str, GearMesh]) -> Iterator[tuple[str, PinContact]]:
-        """Yield the contacts of lobes on pins and of pins in holes, for wheels with a declared width and material."""
+        """Yield name and strength of each contact of lobes or holes with pins whose data are complete."""
         for gear in self.declared.gears:
             mesh, torque = meshes.get(gear.name), self.torques.pairs[gear.name]
             if not isinstance(mesh, DiscMesh):
@@ -352,7 +348,9 @@ class StrengthQuestion:
         return PairUnderLoad(mesh, (found[0], found[1]), middle, width, self.wear, spurs, swing, notes)
 
     def _teeth_in(self, mesh: GearMesh, name: str) -> CutTooth | WheelTeeth | None:
-        """Return the teeth of a wheel cut for all its mates, or only for this pair if other pairs have faults."""
+        """Return the teeth of a wheel, cut for all its pairs, or only for the pair `mesh` if the teeth of another pair
+        cannot turn; None if they cannot be cut.
+        """
         if (cut := self.teeth.get(name)) is not None or not self._pair_with_faults(mesh, name):
             return cut
         try:
@@ -361,7 +359,7 @@ class StrengthQuestion:
             return None
 
     def _pair_with_faults(self, mesh: GearMesh, name: str) -> str | None:
-        """Return the name of another pair with faults in which a wheel cannot be cut; None if there is none."""
+        """Return the other pair whose teeth cannot turn, so that a wheel is not cut; None if there is none."""
         # only a wheel that could not be cut has an unusable outline
         others = (each for each in self.meshes if each is not mesh and name in each.gears and name not in self.teeth)
         return next((other.name for other in others if other.faults), None)
@@ -370,7 +368,9 @@ class StrengthQuestion:
         self.neglected[pair] = NeglectedEffect("strength", (pair,), why)
 
     def _missing_data(self, mesh: GearMesh | None, wheels: Mapping[str, Wheel], torque: PairTorque) -> Iterator[str]:
-        """Yield descriptions of the data that are missing for a pair, and of its features that are not supported."""
+        """Yield a phrase for each datum that the strength of a pair with parallel or intersecting axes requires and
+        that is missing, and for each unsupported feature.
+        """
         if mesh is None:
             yield "it has no tooth form: declare `tooth_form`"
         elif not mesh.has_shape:
@@ -392,7 +392,7 @@ class StrengthQuestion:
                 yield f"'{name}' has no planar outline" + (f": {why}" if why else "")
 
     def _missing_for_any(self, wheels: Mapping[str, Wheel], torque: PairTorque) -> Iterator[str]:
-        """Yield descriptions of the missing data that are required for every kind of pair."""
+        """Yield a phrase for each missing datum that the strength of any gear pair requires."""
         if not torque.multiplier and not torque.loose:
             yield "it carries no torque"
             return
@@ -413,7 +413,9 @@ class StrengthQuestion:
         return wheel.material or self.declared.material or ""
 
     def _turns(self, torque: PairTorque, at: int) -> float | None:
-        """Return the revolutions of one wheel relative to the carrier during the service life; None if unknown."""
+        """Return the number of revolutions of wheel `at`, 0 or 1, relative to the carrier during the service life; None
+        if it is not known.
+        """
         if self.scale is None:
             return None
         relative = self.setting.relative(torque.links[at], torque.links[2])

@@ -229,9 +229,7 @@ class RunFigures:
             yield f"{each.name} on the coast flank", "", each.coast, "mean"
 
     def intervals(self) -> list[float | None]:
-        """Return the half-width of the 95 % confidence interval of each mean value; None for each value if the run is
-        too short.
-        """
+        """Return the half-width of each mean's 95 % confidence interval; None for each if the run is too short."""
         blocks = [[each[2] for each in replace(self, run=part).means()] for part in self.run.blocks]
         return [batch_half_width(np.array(each)) for each in zip(*blocks, strict=True)]
 
@@ -262,9 +260,7 @@ class RunFigures:
         return found[0], found[1]
 
     def result(self, coarse: RunFigures | None) -> TimeRun:
-        """Return the results of this run. If `coarse` is not None, they are compared with that run, which has longer
-        time steps.
-        """
+        """Return the results of this run, compared with the run `coarse` of longer time steps unless it is None."""
         links, time = self.of.problem.system.links, [repr(float(each)) for each in self.time]
         start = np.array([self.of.problem.angles.get(link, 0.0) for link in links])[:, None]
         pairs = self.names[: len(self.of.model.pairs)]
@@ -309,7 +305,7 @@ class RunFigures:
         )
 
     def _compared(self, coarse: RunFigures) -> Iterator[ConvergedFigure]:
-        """Yield each result together with its value from the run with longer time steps."""
+        """Yield each result together with its value from the run `coarse`, which has longer time steps."""
         # a contact may have impacts in only one of the runs
         coarse_extremes = {each[0]: each for each in coarse.extremes()}
         rows = [*zip(coarse.means(), self.means(), self.intervals() or repeat(None), strict=False)]
@@ -415,7 +411,9 @@ def find_amplitudes(time: Floats, angle: Floats) -> tuple[Floats, Floats]:
 
 
 def _source(order: float, width: float, cycles: Mapping[str, float]) -> str:
-    """Return the pair with the lowest harmonic near a vibration order, and that harmonic; "" if there is none."""
+    """Return the name and harmonic of the pair that causes a vibration order, such as "c2~d1 x1": the lowest harmonic
+    within `width`; "" if there is none.
+    """
     near = [
         (harmonic, name)
         for name, own in cycles.items()

@@ -212,7 +212,7 @@ def _slides(run: TimeRun, name: str) -> bool:
 
 
 def _angle(run: TimeRun, name: str, angle: float) -> str:
-    """Return an angle in degrees as text, or the travel of a sliding link with its unit."""
+    """Return a deviation as text: degrees for an output that turns, or mm with the unit for an output that slides."""
     if angle <= _STILL:
         return "0"
     return f"{figure(angle / tau, 4)} mm" if _slides(run, name) else figure(degrees(angle), 4)
@@ -265,7 +265,7 @@ def _converged(run: TimeRun) -> Section:
 
 
 def _unconverged_notes(run: TimeRun) -> Iterator[str]:
-    """Yield notes on the results that have not converged, with their errors and the options that improve them."""
+    """Yield sentences on results that differ between both time steps, and options that help."""
     loose = [each for each in run.figures if not each.converged]
     if not loose:
         yield "All figures converged."

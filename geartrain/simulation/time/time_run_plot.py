@@ -82,7 +82,7 @@ def time_run_figure(run: TimeRun, title: str = "") -> Figure:
 
 
 def _across(run: TimeRun) -> Floats:
-    """Return the abscissa of the plot: revolutions of an input with prescribed speed, or time [s] for other drives."""
+    """Return the values on the horizontal axis: revolutions of an input of prescribed speed, or time [s]."""
     return run.turns if run.driven == "rate" else run.time
 
 
@@ -91,7 +91,9 @@ def _across_text(run: TimeRun) -> str:
 
 
 def _loose(run: TimeRun) -> list[str]:
-    """Return the names of at most `_PAIRS` pairs with backlash that are longest out of contact, in declared order."""
+    """Return the names of the pairs with backlash whose gaps are drawn, in the order of the declaration: at most
+    `_PAIRS` pairs, which are out of contact for the longest time.
+    """
     names = [
         name
         for row, name in enumerate(run.gaps.labels[0])
@@ -103,7 +105,7 @@ def _loose(run: TimeRun) -> list[str]:
 
 
 def _moving(run: TimeRun) -> list[str]:
-    """Return the names of the outputs that do not turn uniformly, in descending order of their deviations."""
+    """Return the outputs that do not turn uniformly, at most `_OUTPUTS`, by descending deviation."""
     deviation = {each.output: max(each.ahead, each.behind) for each in run.deviations}
     swing = {name: max((peak.amplitude for peak in run.spectra[name]), default=0.0) for name in deviation}
     names = [name for name in deviation if max(deviation[name], swing[name]) > _SEEN]
@@ -111,7 +113,7 @@ def _moving(run: TimeRun) -> list[str]:
 
 
 def _stretch(run: TimeRun, pairs: list[str]) -> slice:
-    """Return the slice of the samples around the maximum gap of all drawn pairs, or of the last samples."""
+    """Return the range of samples in which gaps are drawn, which is centred on the maximum gap of all pairs."""
     whole = len(run.time)
     first = int(np.searchsorted(run.time, run.skip))
     middle = whole
@@ -125,7 +127,7 @@ def _stretch(run: TimeRun, pairs: list[str]) -> slice:
 
 
 def _gap(panel: Axes, run: TimeRun, pair: str, stretch: slice) -> None:
-    """Plot the gap at the drive flank of a pair. The coast flank is drawn as a band, and impacts are marked."""
+    """Plot the gap at the drive flank of a pair, with the coast flank as a band and marks of impacts."""
     at, front = _across(run)[stretch], np.degrees(run.gaps[pair][stretch])
     back = front + np.degrees(run.coast_gaps[pair][stretch])
     panel.fill_between(at, back, 1.06 * back.max(), color=PALE, alpha=0.6, linewidth=0, gid=f"coast flank {pair}")
@@ -142,7 +144,7 @@ def _gap(panel: Axes, run: TimeRun, pair: str, stretch: slice) -> None:
 
 
 def _speed(panel: Axes, run: TimeRun, stop: str, stretch: slice) -> None:
-    """Plot the speed of a link with an escapement between its beats."""
+    """Plot the speed of an escape wheel between its beats."""
     at = _across(run)[stretch]
     panel.plot(at, run.speeds[stop][stretch], color=BLUE, linewidth=1.0)
     _impacts(panel, run, stop, stretch)
@@ -151,7 +153,7 @@ def _speed(panel: Axes, run: TimeRun, stop: str, stretch: slice) -> None:
 
 
 def _impacts(panel: Axes, run: TimeRun, contact: str, stretch: slice) -> None:
-    """Mark impacts at the lower edge of a panel. The area of each marker increases with the energy of the impact."""
+    """Mark the impacts of a contact at the lower edge of a panel, by marks that grow with their energy."""
     own = np.array([name == contact for name in run.impacts.contact], dtype=bool)
     if not own.any():
         return
@@ -208,7 +210,9 @@ def _spectrum(panel: Axes, run: TimeRun, moving: list[str]) -> None:
 
 
 def _named(peaks: Sequence[SpectrumPeak]) -> Iterator[tuple[float, float, str]]:
-    """Yield frequency [Hz], amplitude [deg] and source of the strongest known lines without close neighbours."""
+    """Yield the frequency [Hz], amplitude [deg] and source of each spectral line that is labelled: strong lines of a
+    known source without close neighbours.
+    """
     taken: list[float] = []
     for peak in peaks:
         near = any(1 / _CLEAR < peak.frequency / each < _CLEAR for each in taken)

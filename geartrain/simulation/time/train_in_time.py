@@ -78,9 +78,7 @@ class DrivenTrain:
         samples: int | None = None,
         fast: bool | None = None,
     ) -> TimeStudy:
-        """Return a study with two runs over `turns` revolutions of the driving link, as described in
-        `GearTrain.dynamics`.
-        """
+        """Return two runs over `turns` revolutions of the driving link, as described in `GearTrain.dynamics`."""
         check_numbers(turns=turns, skip=skip, restitution=self.restitution)
         check_whole_numbers(steps=steps, samples=samples)
         check_choice("model", model, ("rigid", "compliant"))
@@ -96,7 +94,9 @@ class DrivenTrain:
         return Simulation(found, seen, step, fast=is_fast(fast, inf))
 
     def _model(self, yields: bool = False) -> tuple[TrainModel, list[tuple[str, str, str]]]:
-        """Return the contact model, and the name, link and reference link of each recorded output."""
+        """Return the contact model of the train, and the name, link and reference link of each recorded output. Teeth
+        are compliant if `yields` is True.
+        """
         seen = self.train.planets_as_one.kinematics.seen_links(self.state, self.outputs)
         rate = radians_per_second(self.rate)
         found = model_in_time(self.train, self.state, self.without, rate, self.restitution, yields)
@@ -264,9 +264,7 @@ class VibrationModes(Tabular, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Columns of a table with one row for each mode: number, natural frequency, damping ratio, and angles of the
-        links.
-        """
+        """Columns of a table with a row for each mode: number, frequency, damping ratio, angles of links."""
         angles = zip(self.shapes.labels[0], self.shapes.values.tolist(), strict=True)
         return {
             "mode": [*range(1, len(self.frequencies) + 1)],

@@ -139,7 +139,10 @@ def find_timekeeping(setting: LoadCase) -> Timekeeping | None:
         amplitude = swing_amplitude(pendulum, 2 * float(share.base) * beat_energy)
     # torque that constant friction takes at the source
     constant = torque * (1 - at_escape / lossless) if lossless else 0.0
-    minimum = _minimum_torque(escapement, amplitude, torque, constant)
+    minimum = None
+    if amplitude is not None and escapement.arc is not None:
+        # the energy of the pendulum is proportional to the torque beyond the constant friction
+        minimum = (torque - constant) * (1 - cos(escapement.arc.si)) / (1 - cos(amplitude)) + constant
     drive, size = case.drive, float(setting.arms.get(source, 1))
     # descent of the weight per radian
     arm = size if source in setting.arms else None if drive is None else drive.arm
@@ -164,13 +167,3 @@ def find_timekeeping(setting: LoadCase) -> Timekeeping | None:
         None if impulses is None else DAY * impulses,
         None if expansion is None else -DAY * expansion / 2,
     )
-
-
-def _minimum_torque(escapement: Escapement, amplitude: float | None, torque: float, constant: float) -> float | None:
-    """Return the torque [N m] at which the amplitude of the pendulum equals the declared `arc` of its escapement; None
-    if it cannot be determined.
-    """
-    if amplitude is None or escapement.arc is None:
-        return None
-    # the energy of the pendulum is proportional to the torque beyond the constant friction
-    return (torque - constant) * (1 - cos(escapement.arc.si)) / (1 - cos(amplitude)) + constant

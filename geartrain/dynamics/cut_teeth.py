@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from geartrain.dynamics.train_teeth import TrainTeeth, find_disagreements, find_train_teeth
 from geartrain.errors import GearTrainError, Problem
 from geartrain.kinematics.buildability import BuildFinding
-from geartrain.train import Train, Wheel
+from geartrain.train import Train
 
 if TYPE_CHECKING:
     from geartrain.dynamics.train_mechanics import TrainMechanics
@@ -72,13 +72,10 @@ def not_cut(wheel: str, problem: Problem) -> Problem:
 
 
 def _places(declared: Train) -> Mapping[str, _Place]:
-    # a module of 1, so that outlines are in modules
-    return {name: _Place(1.0, _cone(declared, wheel, name)) for name, (_, wheel) in declared.wheels.items()}
-
-
-def _cone(declared: Train, wheel: Wheel, name: str) -> float:
-    """Return a nominal half angle of the pitch cone [rad]: 0 for a spur wheel without bevel mates, 1 if the teeth are
-    not in one plane.
-    """
-    mates = (mate for gear in declared.gears if name in gear.pair for mate in gear.pair)
-    return float(any(declared.wheels[mate][1].kind == "bevel" for mate in mates) or wheel.kind != "spur")
+    """Return a nominal placement of each wheel: module 1 mm, and a cone angle that is 0 only for plane teeth."""
+    bevels = {name for name, (_, wheel) in declared.wheels.items() if wheel.kind == "bevel"}
+    meshing = {name for gear in declared.gears if not bevels.isdisjoint(gear.pair) for name in gear.pair}
+    return {
+        name: _Place(1.0, float(name in meshing or wheel.kind != "spur"))
+        for name, (_, wheel) in declared.wheels.items()
+    }

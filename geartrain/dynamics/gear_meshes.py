@@ -17,7 +17,7 @@ from geartrain.errors import GearTrainError, Problem
 from geartrain.numerics.containers import ItemwiseMapping
 from geartrain.teeth.gear_mesh import GearMesh
 from geartrain.teeth.meshing_wheels import MeshingWheels, PairSize
-from geartrain.train import GearPair, Train, Wheel
+from geartrain.train import GearPair, Train
 
 if TYPE_CHECKING:
     from geartrain.kinematics.buildability.pitch_distances import PairOutline
@@ -86,9 +86,7 @@ def find_meshes(train: Train, shaft_angle: ShaftAngle = lambda _: None) -> Mappi
 
 
 def all_meshes(meshes: Mapping[str, GearMesh]) -> tuple[GearMesh, ...]:
-    """Return all meshes after building the teeth of every pair. Raise `GearTrainError` with the problems of all invalid
-    pairs.
-    """
+    """Return all meshes with the teeth of every pair built. Raise `GearTrainError` with all problems found."""
     problems: list[Problem] = []
     for name in meshes:
         try:
@@ -101,45 +99,28 @@ def all_meshes(meshes: Mapping[str, GearMesh]) -> tuple[GearMesh, ...]:
 
 
 def _meshing_wheels(train: Train, gear: GearPair, place: str) -> MeshingWheels:
-    """Return the wheels of a pair with the data that tooth forms require."""
-    first, second = (train.wheels[name][1] for name in gear.pair)
+    """Return the two wheels of a gear pair with the data from which tooth forms compute teeth, such as tooth counts."""
+    first, second = wheels = [train.wheels[name][1] for name in gear.pair]
     friction = train.friction_of(gear)
-    return MeshingWheels(
-        gear,
-        place,
-        (first.count or 0, second.count or 0),
-        (_kind(first), _kind(second)),
-        (first.internal, second.internal),
-        None if friction is None else friction.sliding,
-        _pitch_distance(first, second),
-        None if friction is None else friction.law,
-        helix=(first.helix, second.helix),
-        width=_width(train, first, second),
-    )
-
-
-def _kind(wheel: Wheel) -> str:
-    """Return the kind of a wheel; for spur wheels with a helix angle, the kind is "helical"."""
-    return "helical" if wheel.is_helical else wheel.kind
-
-
-def _width(train: Train, *wheels: Wheel) -> float | None:
-    """Return the minimum face width of the given wheels [m]; None unless all widths are declared."""
-    declared = [wheel.thickness or train.thickness for wheel in wheels]
-    given = [width.si for width in declared if width is not None]
-    return min(given) if len(given) == len(wheels) else None
-
-
-def _pitch_distance(*wheels: Wheel) -> float | None:
-    """Return the sum of the pitch radii of the given wheels [m]; None unless all of them declare a module with
-    a unit.
-    """
-    halves = [
+    kinds = ["helical" if wheel.is_helical else wheel.kind for wheel in wheels]
+    widths = [width.si for wheel in wheels if (width := wheel.thickness or train.thickness) is not None]
+    radii = [
         wheel.transverse_module * wheel.count / 2
         for wheel in wheels
         if wheel.transverse_module is not None and wheel.count is not None
     ]
-    return sum(halves) if len(halves) == len(wheels) else None
+    return MeshingWheels(
+        gear,
+        place,
+        (first.count or 0, second.count or 0),
+        (kinds[0], kinds[1]),
+        (first.internal, second.internal),
+        None if friction is None else friction.sliding,
+        sum(radii) if len(radii) == 2 else None,
+        None if friction is None else friction.law,
+        helix=(first.helix, second.helix),
+        width=min(widths) if len(widths) == 2 else None,
+    )
 
 
 def find_couplings(train: Train, couplings: Iterable[Coupling]) -> tuple[CouplingMesh, ...]:
@@ -169,9 +150,7 @@ def find_sizes(meshes: Iterable[GearMesh]) -> dict[str, PairSize]:
 
 
 def find_outlines(meshes: Sequence[GearMesh]) -> dict[str, PairOutline]:
-    """Return the outlines of the cut teeth of all pairs that have a declared tooth form and parallel axes, by name of
-    the pair.
-    """
+    """Return the tooth outlines of all pairs with a declared tooth form and parallel axes, by name of the pair."""
     from geartrain.dynamics.wheel_teeth import CHORD
     from geartrain.kinematics.buildability.pitch_distances import PairOutline
 
@@ -184,9 +163,7 @@ def find_outlines(meshes: Sequence[GearMesh]) -> dict[str, PairOutline]:
 
 
 def _in_order(meshes: Iterable[GearMesh]) -> Iterator[GearMesh]:
-    """Yield the gear meshes in breadth-first order. Each mesh, except the first of a connected set, shares a wheel with
-    an earlier mesh.
-    """
+    """Yield the gear meshes in breadth-first order, in which each mesh shares a wheel with an earlier one if it can."""
     at: dict[str, list[GearMesh]] = {}
     for mesh in (meshes := tuple(meshes)):
         for wheel in mesh.gear.pair:

@@ -1,8 +1,5 @@
-"""Pitch-line speed of a gear pair, which is required for friction that depends on speed.
-
-Relative to the carrier, the pitch-line speed is V = |w_i - w_k| r_i, equation (17a) of docs/torques.md. The angular
-speeds w follow from the `rate` of the train or from inputs with units, and the pitch radius r_i from the modules of the
-wheels.
+"""Pitch-line speed of a gear pair, V = |w_i - w_k| r_i, for friction that depends on speed (equation (17a) of
+docs/torques.md).
 """
 
 from __future__ import annotations
@@ -75,9 +72,7 @@ def at_speed(mesh: GearMesh, speed: float | None) -> GearMesh:
 
 
 def at_own_speeds(meshes: Sequence[GearMesh], setting: LoadCase | None) -> tuple[GearMesh, ...]:
-    """Return the meshes with the friction coefficients at their pitch-line speeds in one load case, if these speeds are
-    known.
-    """
+    """Return the meshes with the friction coefficients at their pitch-line speeds, if these speeds are known."""
     if setting is None:
         return tuple(meshes)
     circuits = {circuit.id: circuit for circuit in setting.circuits}

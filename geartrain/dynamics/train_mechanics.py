@@ -6,7 +6,7 @@ dynamic simulation.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, final
@@ -62,18 +62,14 @@ class TrainMechanics(Shown):
 
     @property
     def signs(self) -> Mapping[str, int]:
-        """Sign of each link's axis, by link: -1 if it points against the reference direction of its parallel axes, 1 if
-        it does not.
-        """
+        """Sign of each link's axis: -1 if it points against the reference direction of parallel axes, else 1."""
         return self.kinematics.signs
 
     # ------------------------------------------------------------------------------------------------- equal planets
 
     @property
     def unfolded(self) -> TrainMechanics:
-        """Train in which each of several equal planets is a separate link, so that they share loads; self if no link
-        has copies.
-        """
+        """Train in which equal planets are separate links, which share loads; self if no link has copies."""
         # not cached if it is the train itself, because that would be a reference cycle
         return self._with_copies if has_copies(self.declaration) else self
 
@@ -117,9 +113,7 @@ class TrainMechanics(Shown):
 
     @cached_property
     def meshes(self) -> tuple[GearMesh, ...]:
-        """Gear pairs with a declared tooth form, each with the driving wheel of the first state in which it is
-        determined.
-        """
+        """Gear pairs with a declared tooth form and the driver of the first state in which it is determined."""
         ways = self.driven_ways.values()
         return tuple(next((way for way, _ in each if way.who.known), each[0][0]) for each in ways)
 
@@ -130,8 +124,14 @@ class TrainMechanics(Shown):
 
         If the driver of a pair is undetermined, both directions are included.
         """
-        states = self.kinematics.usable_states
-        return _find_driven_ways(self.teeth, ((state, self.meshes_in(state)) for state in states))
+        found: dict[str, dict[str, tuple[GearMesh, tuple[str, ...]]]] = {mesh.name: {} for mesh in self.teeth}
+        for state in self.kinematics.usable_states:
+            own = () if state is None else (state,)
+            for way in (way for mesh in self.meshes_in(state) for way in mesh.ways):
+                known, states = found[way.name].get(way.driver, (way, ()))
+                # a known driver replaces the same driver where it was assumed
+                found[way.name][way.driver] = (known if known.who.known else way), states + own
+        return {name: list(ways.values()) for name, ways in found.items()}
 
     @cached_property
     def faults(self) -> tuple[Problem, ...]:
@@ -220,40 +220,9 @@ class TrainMechanics(Shown):
         # torques may be determined although speeds are free: docs/torques.md, (14) to (16)
         if solution.verdict.kind not in ("determined", "free"):
             return None
-        forms = speed_forms(own.case_equations(case)) if solution.verdict.kind == "free" else {}
-        return LoadCase(
-            self.declaration,
-            own.tree,
-            own.circuits,
-            own.signs,
-            case,
-            solution.speeds,
-            self.undriven,
-            self.couplings,
-            forms,
-        )
-
-
-def _find_driven_ways(teeth: Iterable[GearMesh], driven: Iterable[tuple[str | None, Sequence[GearMesh]]]) -> DrivenWays:
-    """Return the driving directions of all pairs; both directions are included if the driver of a pair is undetermined.
-
-    driven   names of states, each with the meshes as driven in this state; the name is None for a train without states
-    """
-    found: dict[str, list[tuple[GearMesh, tuple[str, ...]]]] = {mesh.name: [] for mesh in teeth}
-    for state, meshes in driven:
-        for mesh in meshes:
-            for way in mesh.ways:
-                _count(found[mesh.name], way, state)
-    return found
-
-
-def _count(ways: list[tuple[GearMesh, tuple[str, ...]]], mesh: GearMesh, state: str | None) -> None:
-    """Add a state to the driving direction of a pair in which `mesh` is driven, in place. A mesh with a known driver
-    replaces a mesh with an unknown driver.
-    """
-    own = () if state is None else (state,)
-    for at, (known, states) in enumerate(ways):
-        if known.driver == mesh.driver:
-            ways[at] = (known if known.who.known else mesh), states + own
-            return
-    ways.append((mesh, own))
+        forms = {}
+        if solution.verdict.kind == "free":
+            system = own.case_equations(case)
+            forms = speed_forms(system.links, system.equations)
+        train, meshes, couplings = self.declaration, self.undriven, self.couplings
+        return LoadCase(train, own.tree, own.circuits, own.signs, case, solution.speeds, meshes, couplings, forms)

@@ -8,6 +8,7 @@ that clear all mates. If its pairs require different teeth, the wheel has no tee
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Protocol
@@ -44,9 +45,7 @@ STANDARD = "standard"
 
 
 class ToothingPlace(Protocol):
-    """Protocol of a placed wheel: its module [mm] and the half angle of its pitch cone [rad], which determine its
-    teeth.
-    """
+    """Protocol of a placed wheel: module [mm] and half angle of the pitch cone [rad], which determine its teeth."""
 
     @property
     def module(self) -> float:
@@ -104,7 +103,13 @@ def find_train_teeth(
 
 def find_disagreements(train: TrainMechanics, places: Mapping[str, ToothingPlace]) -> Mapping[str, Problem]:
     """Return a problem for each wheel whose pairs require different declared tooth forms, by wheel."""
-    return _Toothing(train, places, None, FrozenDict()).disagreements()
+    toothing, found = _Toothing(train, places), {}
+    for name in (each for each in toothing.pairs if each in toothing.shaped):
+        # faulty teeth, and teeth that are not plane, have no disagreement
+        with suppress(GearTrainError):
+            if (problem := disagreement(toothing.requirements(name))) is not None:
+                found[name] = problem
+    return found
 
 
 class _Toothing:
@@ -112,16 +117,11 @@ class _Toothing:
         self,
         train: TrainMechanics,
         places: Mapping[str, ToothingPlace],
-        backlash: float | None,
-        apart: Mapping[str, float],
+        backlash: float | None = None,
+        apart: Mapping[str, float] = FrozenDict(),
     ) -> None:
-        self.train, self.declared, self.places, self.backlash, self.apart = (
-            train,
-            train.declaration,
-            places,
-            backlash,
-            apart,
-        )
+        self.train, self.declared, self.places = train, train.declaration, places
+        self.backlash, self.apart = backlash, apart
         self.unbuilt: tuple[Problem, ...] = ()
         try:
             meshes = train.meshes
@@ -134,7 +134,14 @@ class _Toothing:
         for gear in self.declared.gears:
             for wheel in gear.pair:
                 self.pairs[wheel].append(gear)
-        self.waves = {gear.name for gear in self.declared.gears if self._is_wave(gear)}
+        # pairs of a flexible wheel and a ring gear
+        self.waves = {
+            gear.name
+            for gear in self.declared.gears
+            if self._mesh(gear) is None
+            and {self._wheel(name).internal for name in gear.pair} == {False, True}
+            and any(self._wheel(name).flexible for name in gear.pair)
+        }
         self.shaped = {name for name in self.pairs if any(self._mesh(gear) is not None for gear in self.pairs[name])}
 
     def _wheel(self, name: str) -> Wheel:
@@ -142,11 +149,6 @@ class _Toothing:
 
     def _mesh(self, gear: GearPair) -> GearMesh | None:
         return self.meshes.get(gear.name)
-
-    def _is_wave(self, gear: GearPair) -> bool:
-        """Return True if a pair is a strain wave gear, which consists of a flexible wheel and a ring gear."""
-        first, second = (self._wheel(name) for name in gear.pair)
-        return self._mesh(gear) is None and first.internal != second.internal and (first.flexible or second.flexible)
 
     def _wave_pairs(self, name: str) -> list[GearPair]:
         return [gear for gear in self.pairs[name] if gear.name in self.waves]
@@ -194,18 +196,6 @@ class _Toothing:
     def _standard_backlash(self, name: str) -> float:
         return BACKLASH if self.backlash is None else self.backlash / self.places[name].module
 
-    # ------------------------------------------------------------------------------------------------ declared forms
-
-    def _declared_requested(self, name: str) -> Iterator[PairRequirement]:
-        """Yield the requirements that pairs with a declared tooth form impose on the teeth of a wheel. Pairs with mates
-        that are not spur wheels are included only if the wheel has no spur mate.
-        """
-        meshes = [mesh for gear in self.pairs[name] if (mesh := self._mesh(gear)) is not None]
-        flat = [mesh for mesh in meshes if self._wheel(self._mate(mesh.gear, name)).kind == "spur"]
-        for mesh in flat or meshes:
-            scale = self.sizes[mesh.name].scale if mesh.name in self.sizes else 1.0
-            yield PairRequirement(mesh.name, mesh.form, mesh.tooth_form.words, mesh.requirement(name, scale, CHORD))
-
     @staticmethod
     def _mate(gear: DeclaredPair, name: str) -> str:
         first, second = gear.pair
@@ -219,9 +209,11 @@ class _Toothing:
         approximations: dict[str, WheelTeeth] = {}
         for name in self.pairs:
             try:
-                requested = self._requested(name)
+                requested = self.requirements(name)
                 try:
-                    found[name] = self._one(name, requested)
+                    if problem := disagreement(requested):
+                        raise GearTrainError(problem)
+                    found[name] = self._cut(name, requested)
                 except GearTrainError as error:
                     problems[name] = error.problems
                     # pictures show such a wheel with the teeth of its first pair
@@ -231,7 +223,8 @@ class _Toothing:
         flat = frozenset(name for name in self.pairs if self._is_flat(name))
         return TrainTeeth(found, problems, approximations, flat, tuple(self._backlashes(found)))
 
-    def _requested(self, name: str) -> list[PairRequirement]:
+    def requirements(self, name: str) -> list[PairRequirement]:
+        """Return the teeth that each pair of a wheel requires. Raise `GearTrainError` if they cannot be cut."""
         wheel, place = self._wheel(name), self.places[name]
         if not self._is_flat(name):
             kind = wheel.kind if wheel.kind != "spur" else "bevel" if place.cone else "worm wheel"
@@ -248,12 +241,21 @@ class _Toothing:
         if wave_pairs := self._wave_pairs(name):
             tooth = wave_tooth(wheel.count or 1, self._standard_backlash(name), wheel.internal)
             return [PairRequirement(gear.name, WAVE, WAVE_WORDS, tooth) for gear in wave_pairs]
-        return list(self._declared_requested(name) if name in self.shaped else self._standard_requested(name))
+        if name not in self.shaped:
+            return list(self._standard_requested(name))
+        meshes = [mesh for gear in self.pairs[name] if (mesh := self._mesh(gear)) is not None]
+        # mates that are not spur wheels count only if there is no spur mate
+        flat = [mesh for mesh in meshes if self._wheel(self._mate(mesh.gear, name)).kind == "spur"]
+        scales = {mesh.name: self.sizes[mesh.name].scale if mesh.name in self.sizes else 1.0 for mesh in meshes}
+        return [
+            PairRequirement(
+                mesh.name, mesh.form, mesh.tooth_form.words, mesh.requirement(name, scales[mesh.name], CHORD)
+            )
+            for mesh in flat or meshes
+        ]
 
     def _escapement_sense(self, name: str) -> int:
-        """Return the sense in which an escapement lets its escape wheel turn, 1 or -1 (1 if the sense is unknown);
-        return 0 for other wheels.
-        """
+        """Return the sense, 1 or -1, in which an escapement lets its escape wheel turn; 0 for other wheels."""
         link, wheel = self.declared.wheels[name]
         if self.declared.escapement is None or not self.declared.escapement.has_wheel(link, wheel.count):
             return 0
@@ -266,23 +268,6 @@ class _Toothing:
             speed = None
         return -1 if speed is not None and speed < 0 else 1
 
-    def disagreements(self) -> Mapping[str, Problem]:
-        """Return a problem for each wheel whose pairs require different declared tooth forms, by wheel."""
-        found = {}
-        for name in self.pairs:
-            try:
-                problem = disagreement(self._requested(name)) if name in self.shaped else None
-            except GearTrainError:
-                continue  # faulty teeth, or teeth that are not plane
-            if problem is not None:
-                found[name] = problem
-        return found
-
-    def _one(self, name: str, requested: Sequence[PairRequirement]) -> WheelTeeth:
-        if problem := disagreement(requested):
-            raise GearTrainError(problem)
-        return self._cut(name, requested)
-
     def _cut(self, name: str, requested: Sequence[PairRequirement]) -> WheelTeeth:
         first, *others = requested
         cut = first.requirement.cut([each.requirement for each in others])
@@ -290,7 +275,7 @@ class _Toothing:
         return WheelTeeth(name, z, cut.kind, first.form, first.words, cut.tip, cut.root, cut.tooth, cut.pins)
 
     def _backlashes(self, found: Mapping[str, WheelTeeth]) -> Iterator[PairBacklash]:
-        """Yield the backlash of each pair in which both wheels are cut."""
+        """Yield the backlash of each pair of which both wheels have teeth."""
         for gear in self.declared.gears:
             if not set(gear.pair) <= set(found):
                 continue
@@ -302,10 +287,8 @@ class _Toothing:
                 yield PairBacklash(gear.name, gear.pair, arc * size, angles, *self._contact(gear))
 
     def _contact(self, gear: GearPair) -> tuple[float | None, str]:
-        """Return the contact ratio of conjugate teeth at their design centre distance, and advice on how to increase
-        it.
-
-        The ratio is None for other teeth, and for pairs at a different centre distance.
+        """Return the contact ratio of a pair of conjugate teeth, and advice on how to increase it. The ratio is None
+        for other teeth, and for pairs at a different centre distance than designed.
         """
         mesh = self._mesh(gear)
         if gear.name in self.waves or gear.name in self.apart:
@@ -314,31 +297,26 @@ class _Toothing:
             return mesh.path.contact_ratio, mesh.tooth_form.more_contact
         if mesh is not None:
             return None, ""
-        first, second = ((self._gear(name), self.standard[name]) for name in gear.pair)
-        form, wheels, _ = self._standard_pair(first, second, gear.pair[0])
+        form, wheels = self._standard_form(gear)
         return conjugate_pair_of(form, wheels).path.contact_ratio, form.more_contact
 
+    def _standard_form(self, gear: GearPair) -> tuple[Involute, WheelPair]:
+        first, second = ((self._gear(name), self.standard[name]) for name in gear.pair)
+        return self._standard_pair(first, second, gear.pair[0])[:2]
+
     def _backlash(self, gear: GearPair) -> float | None:
-        """Return the backlash of a pair along the pitch circles at its actual centre distance [modules].
-
-        The result is None if the wheels are displaced and their transmission function depends on the centre distance.
+        """Return the backlash of a gear pair along its pitch circles [module]; None if the wheels are displaced and
+        their transmission function depends on the centre distance.
         """
-        mesh, gap = self._mesh(gear), self.apart.get(gear.name)
-        if gap is not None and gear.name not in self.waves:
-            return self._misplaced_backlash(gear, mesh, gap / self.places[gear.pair[0]].module)
-        if mesh is None:
-            return self._standard_backlash(gear.pair[0])
-        return mesh.verdict.backlash * (self._wheel(mesh.driven).count or 0) / 2
-
-    def _misplaced_backlash(self, gear: GearPair, mesh: GearMesh | None, gap: float) -> float | None:
-        """Return the backlash [modules] at a centre distance that is `gap` [modules] larger than the design value.
-
-        The result is None for teeth whose transmission function is different at this distance.
-        """
+        mesh, displaced = self._mesh(gear), gear.name in self.apart and gear.name not in self.waves
+        if not displaced:
+            if mesh is None:
+                return self._standard_backlash(gear.pair[0])
+            return mesh.verdict.backlash * (self._wheel(mesh.driven).count or 0) / 2
+        gap = self.apart[gear.name] / self.places[gear.pair[0]].module
         if mesh is not None:
             return mesh.backlash_apart(gap)
-        first, second = ((self._gear(name), self.standard[name]) for name in gear.pair)
-        form, wheels, _ = self._standard_pair(first, second, gear.pair[0])
+        form, wheels = self._standard_form(gear)
         return form.backlash_apart(wheels, gap)
 
 

@@ -11,7 +11,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from importlib import import_module
 from itertools import chain
 from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
@@ -32,7 +31,7 @@ from geartrain.numerics.quantity import (
     in_unit,
     same_kind,
 )
-from geartrain.numerics.results import summary_line
+from geartrain.numerics.results import imported_function, summary_line
 from geartrain.teeth.contact_coefficients import CoulombFriction, DeclaredRestitution
 from geartrain.teeth.coupling import Coupling
 from geartrain.train.fields import (
@@ -408,8 +407,8 @@ class Train(Declared):
         if holding is None and self.one_way_clutches(state):
             if state not in self._decided_cases:
                 # depends on speeds and torques, whose modules import this one and load only if they are needed
-                module = import_module("geartrain.dynamics.torques.one_way_clutches")
-                self._decided_cases[state] = module.decide_case(self, state)
+                decide_case = imported_function("dynamics.torques.one_way_clutches", "decide_case")
+                self._decided_cases[state] = decide_case(self, state)
             return self._decided_cases[state]
         own = self.states[state] if state is not None else State()
         closed = {name for name in own.engaged if self.clutches[name].one_way is None}.union(holding or ())

@@ -91,13 +91,9 @@ def require_no_energy(train: GearTrain, found: Torques) -> None:
     assert all(loss > 0 for loss in find_power_flow(found).losses.values())
 
 
-def states(train: GearTrain) -> tuple[str | None, ...]:
-    return train.states or (None,)
-
-
 def requested(train: GearTrain) -> Iterator[Torques]:
     """Under the declared loads, and driven from each end to the other."""
-    for state in states(train):
+    for state in train.states or (None,):
         figures = torque_figures(train, state)
         yield figures.torques
         yield from (each.way.torques for each in figures.drives or ())
@@ -132,16 +128,11 @@ def test_no_shipped_train_creates_energy_with_other_losses(name: str, seed: int)
         for gear in plain.gears
         if random.random() < 0.7
     ]
-    data["couplings"] = [
-        {
-            "id": pin.name,
-            "kind": pin.kind,
-            "pin": pin.pin,
-            "slot": pin.slot,
-            **({"friction": random.choice([0.01, 0.1, 0.3])} if pin.kind in ("pin_and_slot", "pin_follower") else {}),
-        }
-        for pin in plain.pin_couplings
-    ]
+    data["couplings"] = []
+    for pin in plain.pin_couplings:
+        rubs = pin.kind in ("pin_and_slot", "pin_follower")
+        friction = {"friction": random.choice([0.01, 0.1, 0.3])} if rubs else {}
+        data["couplings"].append({"id": pin.name, "kind": pin.kind, "pin": pin.pin, "slot": pin.slot, **friction})
     moving = [link for link in plain.links if link != plain.frame]
     turning = [link for link in moving if link not in plain.sliding]
     # loads are plain numbers here unless a link slides, and a friction that is declared has a unit

@@ -14,9 +14,14 @@ from geartrain.dynamics import Motion, MotionRun
 FREETH = ("moon", "mars", "saturn", "draconic month", "mercury")
 
 
-def extremes(motion: Motion, turns: float, samples: int) -> np.ndarray:
+def finished(motion: Motion, turns: float, samples: int) -> MotionRun:
     run = MotionRun(motion, turns, samples)
     run.run()
+    return run
+
+
+def extremes(motion: Motion, turns: float, samples: int) -> np.ndarray:
+    run = finished(motion, turns, samples)
     assert all(tally.searched for tally in run.statistics)
     return np.array([(t.most, t.minimum, t.fast, t.slow) for t in run.statistics])
 
@@ -58,14 +63,14 @@ def test_no_sample_is_beyond_them_and_samples_at_corners_reach_them(name: str, w
 
 
 def test_of_a_pin_alone_they_are_those_of_its_formula() -> None:
-    (tally,) = _run(load("freeth-2021").motion(outputs=["mars"]), 40, 30).statistics
+    (tally,) = finished(load("freeth-2021").motion(outputs=["mars"]), 40, 30).statistics
     r, e = 10.00, 6.58
     assert tally.peak_to_peak == pytest.approx(2 * asin(e / r), rel=1e-8)
 
 
 def test_of_one_pair_they_are_those_of_its_transmission() -> None:
     train = load("moon-triangular")
-    (tally,) = _run(train.motion(outputs=["sun"]), 3, 30).statistics
+    (tally,) = finished(train.motion(outputs=["sun"]), 3, 30).statistics
     transmission = train.meshes[0].transmission
     assert tally.peak_to_peak == pytest.approx(np.ptp(transmission.error_range()), rel=1e-10)
     slow, fast = transmission.speed_range()
@@ -73,16 +78,10 @@ def test_of_one_pair_they_are_those_of_its_transmission() -> None:
     assert sorted(tally.speeds) == pytest.approx([slow / mean, fast / mean], rel=1e-7)
 
 
-def _run(motion: Motion, turns: float, samples: int) -> MotionRun:
-    run = MotionRun(motion, turns, samples)
-    run.run()
-    return run
-
-
 def test_a_run_too_long_to_be_searched_has_sampled_extremes_and_a_bound() -> None:
-    run = _run(load("freeth-2021-teeth").motion(outputs=["moon"]), 5_000, 2_000)
+    run = finished(load("freeth-2021-teeth").motion(outputs=["moon"]), 5_000, 2_000)
     (tally,) = run.statistics
     assert not tally.searched
     bound = float(re.search(r"at most moon ([\d.]+) deg", " ".join(str(run).split()))[1])
-    (whole,) = _run(load("freeth-2021-teeth").motion(outputs=["moon"]), 2, 2_000).statistics
+    (whole,) = finished(load("freeth-2021-teeth").motion(outputs=["moon"]), 2, 2_000).statistics
     assert degrees(tally.peak_to_peak) < degrees(whole.peak_to_peak) < bound

@@ -17,12 +17,11 @@ import pytest
 from scipy.optimize import fsolve
 
 import geartrain
-from geartrain.dynamics.motion.motion_problem import find_motion_problem
+from geartrain.dynamics.motion import find_motion_problem
 from geartrain.dynamics.torques.torque_results import TorqueVerdict
-from geartrain.dynamics.turn.train_turn import find_turn_balance
-from geartrain.simulation.steps.contact_solution import BEARINGS, IMPACT_COUNT, UNSOLVED, WORK_DRIVE
-from geartrain.simulation.steps.simulation import StepPlan, simulate
-from geartrain.simulation.time.train_in_time import model_in_time
+from geartrain.dynamics.turn import find_turn_balance
+from geartrain.simulation.steps import BEARINGS, IMPACT_COUNT, UNSOLVED, WORK_DRIVE, StepPlan, simulate
+from geartrain.simulation.time import model_in_time
 
 MU = 0.15
 STANDARD = 9.80665  # m/s2
@@ -210,20 +209,14 @@ def reference(
     return tuple(fsolve(balance, [2, 2, 40], xtol=1e-13))
 
 
-def test_three_arbors_in_a_line_need_the_crank_torque_of_case_a2a() -> None:
-    found = three_arbors(c=(43.5, 0)).torques()
-    assert 1e3 * float(found.external["A"]) == pytest.approx(36.7948545, rel=2e-9)
-    assert [abs(1e3 * float(each.torque)) for each in found.bearings] == pytest.approx(
-        [0.712007541, 0.883769803, 0.270210281], rel=2e-9
+def test_arbors_in_a_line_and_at_a_right_angle_press_as_in_cases_a2a_and_a2b() -> None:
+    line, angle = three_arbors(c=(43.5, 0)).torques(), three_arbors().torques()
+    assert [1e3 * float(each.external["A"]) for each in (line, angle)] == pytest.approx(
+        [36.7948545, 35.9742775], rel=2e-9
     )
-    assert found.efficiency == pytest.approx(0.915459811, abs=1e-9)
-
-
-def test_an_arbor_at_a_right_angle_presses_less_case_a2b() -> None:
-    found = three_arbors().torques()
-    assert 1e3 * float(found.external["A"]) == pytest.approx(35.9742775, rel=2e-9)
-    assert abs(1e3 * float(found.bearings[1].torque)) == pytest.approx(0.405980268, rel=2e-9)
-    assert found.efficiency == pytest.approx(0.936341543, abs=1e-9)
+    torques = [abs(1e3 * float(each.torque)) for each in (*line.bearings, angle.bearings[1])]
+    assert torques == pytest.approx([0.712007541, 0.883769803, 0.270210281, 0.405980268], rel=2e-9)
+    assert (line.efficiency, angle.efficiency) == pytest.approx((0.915459811, 0.936341543), abs=1e-9)
 
 
 @pytest.mark.parametrize(
@@ -297,32 +290,23 @@ def test_planets_press_on_the_sun_with_their_vector_sum(copies: int, shares: tup
     text = planets(1, 0, 2, suns)
     if copies > 1:
         # planets one by one, so that their shares may differ
-        angles = [2 * pi * number / copies for number in range(copies)]
-        text = "\n".join(
-            [
-                "links:",
-                "  frame: {wheels: {ring: {teeth: 60, internal: true}}}",
-                f"  {suns.replace('sun: {', 'sun: {wheels: {s: 24}, ')}",
-                "  carrier: {}",
-                *(f"  p{number}: {{wheels: {{w{number}: 18}}}}" for number in range(copies)),
-                "revolutes:",
-                "  main: [frame, sun, carrier]",
-                *(f"  P{number}: [carrier, p{number}]" for number in range(copies)),
-                "axes:",
-                "  main: {position: [0 mm, 0 mm, 0 mm]}",
-                *(
-                    f"  P{number}: {{position: [{21 * cos(angle):.11f} mm, {21 * sin(angle):.11f} mm, 0 mm]}}"
-                    for number, angle in enumerate(angles)
-                ),
-                "gears:",
-                *(
-                    f"  - {{pair: [s, w{number}], share: {share!r}}}\n  - {{pair: [w{number}, ring]}}"
-                    for number, share in enumerate(shares)
-                ),
-                "inputs: {sun: 1}",
-                "loads: {carrier: -1 N m}",
-            ]
-        )
+        planet, pin, place, pairs = [], [], [], []
+        for at, share in enumerate(shares):
+            x, y = (21 * part(2 * pi * at / copies) for part in (cos, sin))
+            planet.append(f"p{at}: {{wheels: {{w{at}: 18}}}}")
+            pin.append(f"P{at}: [carrier, p{at}]")
+            place.append(f"P{at}: {{position: [{x:.11f} mm, {y:.11f} mm, 0 mm]}}")
+            pairs.append(f"{{pair: [s, w{at}], share: {share!r}}}, {{pair: [w{at}, ring]}}")
+        text = f"""
+links:
+  {{frame: {{wheels: {{ring: {{teeth: 60, internal: true}}}}}}, carrier: {{}}, {", ".join(planet)},
+   {suns.replace("sun: {", "sun: {wheels: {s: 24}, ")}}}
+revolutes: {{main: [frame, sun, carrier], {", ".join(pin)}}}
+axes: {{main: {{position: [0 mm, 0 mm, 0 mm]}}, {", ".join(place)}}}
+gears: [{", ".join(pairs)}]
+inputs: {{sun: 1}}
+loads: {{carrier: -1 N m}}
+"""
     found = geartrain.load(text).torques()
     bearing = next(each for each in found.bearings if each.link == "sun")
     torque = float(abs(found.external["sun"])) - abs(float(bearing.torque))

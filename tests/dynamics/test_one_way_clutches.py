@@ -46,10 +46,7 @@ revolutes: {main: [axle, ring, cage, hub], P: [cage, planet]}
 gears: [s ~ p, p ~ r]
 clutches: {R: {locks: [ring, hub], one_way: forward, teeth: 24}, P: {locks: [cage, hub], one_way: forward}}
 outputs: {hub: {}}
-states:
-  high: {inputs: {cage: 1}}
-  normal: {inputs: {ring: 1}}
-  low: {inputs: {ring: 1}, free: [R]}
+states: {high: {inputs: {cage: 1}}, normal: {inputs: {ring: 1}}, low: {inputs: {ring: 1}, free: [R]}}
 """
 # O3: a Simpson set whose second carrier may only turn forward
 SIMPSON = """
@@ -66,12 +63,7 @@ states:
 # O4: a chain drives one cog by its front and the other by its back
 RETRO = """
 frame: f
-links:
-  f: {}
-  chain: {wheels: {c: 44}}
-  a: {wheels: {cog a: 18}}
-  b: {wheels: {cog b: 26}}
-  wheel: {}
+links: {f: {}, chain: {wheels: {c: 44}}, a: {wheels: {cog a: 18}}, b: {wheels: {cog b: 26}}, wheel: {}}
 revolutes: {C: [f, chain], W: [f, a, b, wheel]}
 couplings: [{kind: belt, around: [c, cog a]}, {kind: belt, around: [c, cog b], reversed: [cog b]}]
 clutches: {A: {locks: [a, wheel], one_way: forward}, B: {locks: [b, wheel], one_way: forward}}
@@ -223,10 +215,9 @@ def test_o4_either_sense_of_the_crank_drives_the_wheel_forward(
 def test_o5_two_clutches_at_one_speed_share_an_unknown_part_of_the_torque() -> None:
     train = geartrain.load(TWO)
     assert train.solve()["h"] == 1
-    assert {name: (each.holds, each.torque) for name, each in actions(train).items()} == {
-        "A": (True, None),
-        "B": (True, None),
-    }
+    assert [(name, each.holds, each.torque) for name, each in actions(train).items()] == [
+        ("A", True, None), ("B", True, None)
+    ]  # fmt: skip
     assert "A and B both hold; how they share the torque is not known" in notes(train)
 
 
@@ -339,9 +330,8 @@ def test_commands_print_the_advance(tmp_path: Path) -> None:
     motion, report, check = (call(verb, path) for verb in ("motion", "report", "check"))
     assert "'h' advances by 0.4096655294 turn per turn of 'crank'" in " ".join(motion.stdout.split())
     assert "Not computed: the position of dial, h within a step." in " ".join(report.stdout.split())
-    assert json.loads(call("motion", path, "--json").stdout)["advances"] == {
-        "h": pytest.approx(0.4096655294, abs=1e-10)
-    }
+    (advance,) = json.loads(call("motion", path, "--json").stdout)["advances"].items()
+    assert advance == ("h", pytest.approx(0.4096655294, abs=1e-10))
     assert (check.exit_code, check.stdout[:3]) == (0, "ok ")
 
 
@@ -370,11 +360,8 @@ def test_a_clutch_that_depends_on_the_loads_is_refused_until_they_are_declared()
     on_ring = geartrain.load(DIFFERENTIAL + "loads: {ring: -1}")
     assert (on_ring.solve()["ring"], actions(on_ring)["F"].torque, actions(on_ring)["G"].slip) == (1, 1, 1)
     on_sun = geartrain.load(DIFFERENTIAL + "loads: {sun: -1}")
-    assert (on_sun.solve()["ring"], actions(on_sun)["G"].torque, actions(on_sun)["F"].slip) == (
-        Fraction(7, 5),
-        1,
-        Fraction(2, 5),
-    )
+    assert (on_sun.solve()["ring"], actions(on_sun)["G"].torque) == (Fraction(7, 5), 1)
+    assert actions(on_sun)["F"].slip == Fraction(2, 5)
 
 
 @pytest.mark.parametrize(

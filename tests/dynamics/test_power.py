@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
 from fractions import Fraction
 from functools import cache
 from itertools import pairwise
@@ -22,9 +21,7 @@ from geartrain.train import Train
 
 RING = """
 extends: planetary-24-18-60
-gears:
-  - {pair: [s, p], efficiency: 0.98}
-  - {pair: [p, ring], efficiency: 0.99}
+gears: [{pair: [s, p], efficiency: 0.98}, {pair: [p, ring], efficiency: 0.99}]
 loads: {carrier: -10 N m}
 """
 CLOCK = """
@@ -35,20 +32,13 @@ gears:
   - {pair: [c60, t8], efficiency: 0.95}
   - {pair: [t56, e7], efficiency: 0.94}
   - {pair: [mw6, h72], efficiency: 0.97}
-links:
-  centre: {bearing: 2 N mm}
-  third: {bearing: 0.5 N mm}
-  hour: {bearing: 4 N mm}
+links: {centre: {bearing: 2 N mm}, third: {bearing: 0.5 N mm}, hour: {bearing: 4 N mm}}
 loads: {escape: -0.1 N mm}
 """
 SPLIT = """
 extends: prius-power-split
-gears:
-  - {pair: [s30, p23], efficiency: 0.98}
-  - {pair: [p23, r78], efficiency: 0.99}
-states:
-  cruising: {loads: {MG2: -80 N m}}
-  boost: {inputs: {engine: 1, MG1: -1/2}, loads: {MG2: -80 N m}}
+gears: [{pair: [s30, p23], efficiency: 0.98}, {pair: [p23, r78], efficiency: 0.99}]
+states: {cruising: {loads: {MG2: -80 N m}}, boost: {inputs: {engine: 1, MG1: -1/2}, loads: {MG2: -80 N m}}}
 """
 REVERSE = """
 extends: zf-8hp70
@@ -57,10 +47,7 @@ states:
 """
 RUBBING_PLANET = RING + "links: {planet: {bearing: 0.5 N m}, carrier: {bearing: 0.2 N m}}\n"
 SHARED = """
-links:
-  frame: {}
-  a: {wheels: {a1: 20, a2: 20}}
-  b: {wheels: {b1: 30, b2: 30}}
+links: {frame: {}, a: {wheels: {a1: 20, a2: 20}}, b: {wheels: {b1: 30, b2: 30}}}
 revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]
 gears: [{pair: [a1, b1]}, {pair: [a2, b2]}]
 inputs: {a: 1}
@@ -72,22 +59,13 @@ TRAINS = {
 }  # fmt: skip
 
 
-def states(train: GearTrain) -> tuple[str | None, ...]:
-    return train.states or (None,)
-
-
 @cache
 def flows(train: GearTrain) -> list[tuple[Torques, PowerFlow]]:
     """Under the declared loads, and driven from each end to the other."""
-    return list(_flows(train))
-
-
-def _flows(train: GearTrain) -> Iterator[tuple[Torques, PowerFlow]]:
-    for state in states(train):
-        figures = torque_figures(train, state)
-        for found in (figures.torques, *(each.way.torques for each in figures.drives or ())):
-            if found.verdict and not any(pair.loose for pair in found.pairs.values()):
-                yield found, find_power_flow(found)
+    figures = [torque_figures(train, state) for state in train.states or (None,)]
+    torques = [found for each in figures for found in (each.torques, *(way.way.torques for way in each.drives or ()))]
+    known = (each for each in torques if each.verdict and not any(pair.loose for pair in each.pairs.values()))
+    return [(each, find_power_flow(each)) for each in known]
 
 
 def surplus(flow: PowerFlow, node: PowerNode) -> Fraction:
@@ -140,7 +118,7 @@ def lossy(name: str) -> GearTrain:
     unit = torque_unit(declared)
     turning = (link for link in declared.links if link != declared.frame and link not in declared.sliding)
     data["links"] = {link: {"bearing": f"1/100{unit}"} for link in turning}
-    loads = {state: load_of(train, state) for state in states(train)}
+    loads = {state: load_of(train, state) for state in train.states or (None,)}
     if train.states:
         data["states"] = {state: {"loads": given} for state, given in loads.items()}
     else:
@@ -194,27 +172,18 @@ def test_every_shaft_and_pair_of_a_loaded_train_gives_on_what_it_takes_in(name: 
 )  # fmt: skip
 def test_two_planetaries_in_any_arrangement_balance(z: list[int], eta: list[int], w: int, v: int) -> None:
     """Sun and arm driven, ring loaded, through planets with two wheels: power may enter anywhere and circle."""
-    train = load(
-        {
-            "links": {
-                "frame": {},
-                "sun": {"wheels": {"s": z[0]}},
-                "planet": {"wheels": {"p": z[1], "q": z[2]}},
-                "ring": {"wheels": {"r": {"teeth": z[3] + z[2] + 1, "internal": True}}},
-                "arm": {"bearing": "1/7"},
-            },
-            "revolutes": [
-                *({"pair": ["frame", link], "axis": "A"} for link in ("sun", "ring", "arm")),
-                {"pair": ["arm", "planet"], "axis": "P"},
-            ],
-            "gears": [
-                {"pair": ["s", "p"], "efficiency": f"{eta[0]}/100"},
-                {"pair": ["q", "r"], "efficiency": f"{eta[1]}/100"},
-            ],
-            "inputs": {"sun": w, "arm": v},
-            "loads": {"ring": "3"},
-        }
-    )
+    train = load(f"""
+links:
+  frame: {{}}
+  sun: {{wheels: {{s: {z[0]}}}}}
+  planet: {{wheels: {{p: {z[1]}, q: {z[2]}}}}}
+  ring: {{wheels: {{r: {{teeth: {z[3] + z[2] + 1}, internal: true}}}}}}
+  arm: {{bearing: 1/7}}
+revolutes: {{A: [frame, sun, ring, arm], P: [arm, planet]}}
+gears: [{{pair: [s, p], efficiency: {eta[0]}/100}}, {{pair: [q, r], efficiency: {eta[1]}/100}}]
+inputs: {{sun: {w}, arm: {v}}}
+loads: {{ring: 3}}
+""")
     found = train.torques()
     if found.verdict:
         require_balance(found, find_power_flow(found))
@@ -367,7 +336,7 @@ outputs: {third: {}}
 
 
 def page(train: GearTrain) -> str:
-    return torque_page(train, *(train.torques(state) for state in states(train)))
+    return torque_page(train, *(train.torques(state) for state in train.states or (None,)))
 
 
 def rows(text: str, first: str) -> list[list[str]]:

@@ -17,8 +17,7 @@ from places import DATA
 from reference_solver import echelon
 
 from geartrain import load
-from geartrain.dynamics.torques.flow_patterns import find_flow_patterns
-from geartrain.dynamics.torques.torque_balance import LoadedPair, TorqueBalance
+from geartrain.dynamics.torques import LoadedPair, TorqueBalance, find_flow_patterns
 
 ZERO, ONE = Fraction(0), Fraction(1)
 CASES = json.loads((DATA / "cases.json").read_text(encoding="utf-8"))["efficiency"]

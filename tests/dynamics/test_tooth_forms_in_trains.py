@@ -88,13 +88,7 @@ def test_a_shaft_angle_lies_between_the_ways_in_which_both_wheels_face(
 @pytest.mark.parametrize(
     ("form", "p", "w", "axes", "words"),
     [
-        (
-            INVOLUTE,
-            "{teeth: 2, kind: worm}",
-            "60",
-            "",
-            ("pair 'p~w'", "the thread of a worm", "tooth_form: {form: ideal}"),
-        ),
+        (INVOLUTE, "{teeth: 2, kind: worm}", "60", "", ("the thread of a worm", "tooth_form: {form: ideal}")),
         (INVOLUTE, "{teeth: 20, kind: bevel}", "{teeth: 60, kind: bevel}", "", ("shaft angle", "`axes`")),
         (INVOLUTE, "{teeth: 20, kind: bevel}", "{teeth: 60, kind: contrate}", "", ("pitch cones", "ideal")),
         (INVOLUTE, "2", "60", "", ("a wheel of 2 teeth", "at least 3")),
@@ -219,9 +213,7 @@ def test_an_unknown_form_or_key_is_told_with_those_there_are() -> None:
 CHAIN = """
 links: {{frame: {{}}, a: {{wheels: {{a20: 20}}}}, b: {{wheels: {{b60: 60, b24: 24}}}}, c: {{wheels: {{c36: 36}}}}}}
 revolutes: [{{pair: [frame, a], axis: A}}, {{pair: [frame, b], axis: B}}, {{pair: [frame, c], axis: C}}]
-gears:
-  - {{pair: [a20, b60], tooth_form: {first}}}
-  - {{pair: [b24, c36], tooth_form: {second}}}
+gears: [{{pair: [a20, b60], tooth_form: {first}}}, {{pair: [b24, c36], tooth_form: {second}}}]
 inputs: {{a: 1}}
 """
 RIPPLING = "{form: triangular, half_angle: 30 deg, window: 0.5}"

@@ -13,7 +13,7 @@ from sampling import all_but
 
 from geartrain import GearTrain
 from geartrain.dynamics import TorqueCycle
-from geartrain.dynamics.turn.train_turn import find_torque_period
+from geartrain.dynamics.turn import find_torque_period
 from geartrain.errors import GearTrainError, QuestionError
 
 _TWO_LINKS = """
@@ -186,11 +186,7 @@ def test_four_pairs_over_their_whole_period() -> None:
 
 
 _NEAR = """
-links:
-  frame: {wheels: {r: 32}}
-  sun: {wheels: {s: 30}}
-  planet: {wheels: {p: 29, q: 30}}
-  arm: {}
+links: {frame: {wheels: {r: 32}}, sun: {wheels: {s: 30}}, planet: {wheels: {p: 29, q: 30}}, arm: {}}
 revolutes: [{pair: [frame, sun], axis: A}, {pair: [frame, arm], axis: A}, {pair: [arm, planet], axis: P}]
 gears: [{pair: [s, p], efficiency: 0.9}, {pair: [q, r], efficiency: 0.9}]
 inputs: {sun: -1}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from geartrain.simulation.time.run_figures import FEWEST, batch_half_width
+from geartrain.simulation.time import FEWEST, batch_half_width
 
 STEPS, REPEATS = 50, 400
 

@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 
 from geartrain import GearTrain
 from geartrain.simulation import Simulation, TimeRun
-from geartrain.simulation.contacts.train_model import SlackPin
+from geartrain.simulation.contacts import SlackPin
 from geartrain.teeth import PinToSlotTransmission
 
 J, BACKLASH = 1e-5, 0.02  # kg m2; rad on both wheels, whose pitch radius is 20 modules

@@ -11,8 +11,7 @@ from hypothesis import strategies as st
 
 import geartrain
 from geartrain.simulation import PairStrength, TrainStrength
-from geartrain.simulation.strength.contact_pressure import minimum_tooth_pairs
-from geartrain.simulation.strength.iso_6336 import HelixData, RackWheel, root_stress
+from geartrain.simulation.strength import HelixData, RackWheel, minimum_tooth_pairs, root_stress
 
 Z1, Z2, NORMAL, TORQUE, ANGLE = 20, 43, 2.0, 50.0, radians(20)
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 import geartrain
-from geartrain.simulation.strength.contact_pressure import CrossedWheels, contact_ellipse
+from geartrain.simulation.strength import CrossedWheels, contact_ellipse
 
 ALPHA = radians(20)
 Floats = NDArray[np.float64]

@@ -8,14 +8,9 @@ import numpy as np
 import pytest
 
 from geartrain import GearTrain, GearTrainError, load
-from geartrain.dynamics.motion.motion_problem import find_motion_problem
+from geartrain.dynamics.motion import find_motion_problem
 from geartrain.simulation import SeparationRates, find_link_inertias, find_separation
-from geartrain.simulation.contacts.inertial_contacts import (
-    InertialContacts,
-    find_inertial_loads,
-    minimum_rate,
-)
-from geartrain.simulation.contacts.rubbing_arms import separate_rubbing
+from geartrain.simulation.contacts import InertialContacts, find_inertial_loads, minimum_rate, separate_rubbing
 from geartrain.teeth.outlines.contour import Contour
 
 PIN = """
@@ -171,12 +166,7 @@ links:
   out:    {wheels: {o: 42, s: 50}, inertia: 9e-6 kg m2, bearing: 1.5 N mm}
   last:   {wheels: {t: 20}, inertia: 2e-6 kg m2, bearing: 0.5 N mm, drag: 1e-4 N m s/rad}
   slot:   {inertia: 5e-6 kg m2, bearing: 0.7 N mm}
-revolutes:
-  - {pair: [frame, arm], axis: A}
-  - {pair: [arm, planet], axis: P}
-  - {pair: [frame, out], axis: A}
-  - {pair: [frame, last], axis: B}
-  - {pair: [arm, slot], axis: Q}
+revolutes: {A: [frame, arm, out], P: [arm, planet], B: [frame, last], Q: [arm, slot]}
 tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}
 gears: [{pair: [f, p]}, {pair: [q, o]}, {pair: [s, t]}]
 couplings: [{kind: pin_and_slot, pin: planet, slot: slot, pin_radius: 10 mm, offset: 3 mm}]
@@ -373,10 +363,7 @@ def test_arcs_that_turn_left_and_right_agree_with_fine_triangles() -> None:
 
 
 WHEELS = """
-links:
-  frame: {{}}
-  a: {{wheels: {{p: 20}}}}
-  b: {{wheels: {{w: {{teeth: 60, module: 1 mm}}}}{link}}}
+links: {{frame: {{}}, a: {{wheels: {{p: 20}}}}, b: {{wheels: {{w: {{teeth: 60, module: 1 mm}}}}{link}}}}}
 revolutes: [{{pair: [frame, a], axis: A}}, {{pair: [frame, b], axis: B}}]
 gears: [{{pair: [p, w]}}]
 density: 8.7 g/cm3

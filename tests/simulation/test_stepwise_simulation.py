@@ -45,26 +45,16 @@ def test_its_course_is_that_of_a_run_wherever_it_is_looked_at(restitution: float
 
 def test_a_crank_brought_to_a_speed_takes_the_impulse_of_all_that_turns_with_it() -> None:
     """A planet whose teeth touch a fixed sun, and a ring that is free: by energy, J = Jc + Jp n_p^2 + Jr n_r^2."""
-    train = GearTrain.declare(
-        {
-            "links": {
-                "frame": {"wheels": {"s": {"teeth": 24, "module": "1 mm"}}},
-                "c": {"inertia": "1e-5 kg m2"},
-                "p": {"wheels": {"q": {"teeth": 18, "module": "1 mm"}}, "inertia": "2e-6 kg m2"},
-                "r": {"wheels": {"ring": {"teeth": 60, "internal": True}}, "inertia": "4e-5 kg m2"},
-            },
-            "revolutes": [
-                {"pair": ["frame", "c"], "axis": "main"},
-                {"pair": ["frame", "r"], "axis": "main"},
-                {"pair": ["c", "p"], "axis": "planet"},
-            ],
-            "gears": [
-                {"pair": ["s", "q"], "tooth_form": {"form": "involute", "backlash": "0.05 mm"}},
-                {"pair": ["q", "ring"]},
-            ],
-            "inputs": {"c": 1},
-        }
-    )
+    train = load("""
+links:
+  frame: {wheels: {s: {teeth: 24, module: 1 mm}}}
+  c: {inertia: 1e-5 kg m2}
+  p: {wheels: {q: {teeth: 18, module: 1 mm}}, inertia: 2e-6 kg m2}
+  r: {wheels: {ring: {teeth: 60, internal: true}}, inertia: 4e-5 kg m2}
+revolutes: {main: [frame, c, r], planet: [c, p]}
+gears: [{pair: [s, q], tooth_form: {form: involute, backlash: 0.05 mm}}, {pair: [q, ring]}]
+inputs: {c: 1}
+""")
     made = train.simulation(rate=2.0, step=1e-4)
     made = made.anew(drive=0.0)
     made.advance(5e-4)

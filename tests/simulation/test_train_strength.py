@@ -17,8 +17,8 @@ from sampling import few_or_many
 import geartrain
 from geartrain.errors import DeclarationError, QuestionError
 from geartrain.report import collect_report
-from geartrain.simulation import PairStrength, TrainStrength
-from geartrain.simulation.strength.train_strength import maximum_moment
+from geartrain.simulation import TrainStrength
+from geartrain.simulation.strength import maximum_moment
 
 PAIR = """
 links:
@@ -63,17 +63,12 @@ def test_stress_and_lewis_factor_are_one_statement() -> None:
         assert wheel.shared_stress < wheel.tip_stress
 
 
-@pytest.fixture(scope="module")
-def one() -> PairStrength:
-    return declared().pairs["p~w"]
-
-
 @settings(max_examples=few_or_many(3, 10))
 @given(st.floats(0.01, 50), st.floats(0.2, 10))
-def test_scaling(one: PairStrength, more: float, wider: float) -> None:
+def test_scaling(more: float, wider: float) -> None:
     train = PAIR.replace("60 N m", f"{60 * more:.12f} N m").replace("20 mm", f"{20 * wider:.12f} mm")
     other = geartrain.load(train).strength().pairs["p~w"]
-    for first, second in zip(one.wheels, other.wheels, strict=True):
+    for first, second in zip(declared().pairs["p~w"].wheels, other.wheels, strict=True):
         assert second.tip_stress == pytest.approx(first.tip_stress * more / wider, rel=1e-6)
         assert second.pressure == pytest.approx(first.pressure * sqrt(more / wider), rel=1e-6)
 

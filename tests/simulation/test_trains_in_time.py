@@ -17,9 +17,6 @@ GRAVITY = 9.80665  # m/s2
 INERTIA = {"sun": 3e-5, "c": 5e-6, "d": 8e-6, "moon": 2e-6}
 
 
-LAGGING = (("b2~c1", "b2", "c1"), ("c2~d1", "c2", "d1"), ("d2~e", "d2", "e"))
-
-
 def moon_train(scale: float = 1.0, **more: Any) -> GearTrain:
     """Price's train to the Moon, with inertias and a drag of 1 N mm on each arbor, teeth without friction.
 
@@ -28,8 +25,8 @@ def moon_train(scale: float = 1.0, **more: Any) -> GearTrain:
     links = {name: {"inertia": f"{scale * own} kg m2", "bearing": "1 N mm"} for name, own in INERTIA.items()}
     transmissions = {mesh.name: mesh.transmission for mesh in load("moon-triangular").meshes}
     S, gears = float(transmissions["a~b1"].angle(0.0)), []
-    for name, *pair in LAGGING:
-        gears.append({"id": name, "pair": pair, "phase": repr(S / transmissions[name].period)})
+    for name in ("b2~c1", "c2~d1", "d2~e"):
+        gears.append({"id": name, "pair": name.split("~"), "phase": repr(S / transmissions[name].period)})
         S = float(transmissions[name].angle(S))
     return GearTrain.declare({"extends": "moon-triangular", "friction": 0, "links": links, "gears": gears, **more})
 
@@ -127,35 +124,34 @@ def test_a_train_declared_to_turn_backwards_is_the_mirror_image_of_itself(name: 
 @pytest.mark.parametrize("backlash", [{}, {"clearance": "0.02 mm"}])
 def test_a_pin_rubs_whichever_side_puts_the_power_in(load: str, backlash: dict[str, str]) -> None:
     pin = {"kind": "pin_and_slot", "pin": "a", "slot": "b", "pin_radius": "10 mm", "offset": "5 mm", "friction": 0.3}
-    train = GearTrain.declare(
-        {
-            "links": {"frame": {}, "a": {}, "b": {"inertia": "1e-9 kg m2"}},
-            "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "B"}],
-            "couplings": [pin | backlash],
-            "inputs": {"a": 1},
-            "outputs": {"b": {}},
-            "loads": {"b": load},
-        }
+    links, revolutes = (
+        {"frame": {}, "a": {}, "b": {"inertia": "1e-9 kg m2"}},
+        {"A": ["frame", "a"], "B": ["frame", "b"]},
     )
+    drawn = {"links": links, "revolutes": revolutes, "couplings": [pin | backlash]}
+    train = GearTrain.declare({**drawn, "inputs": {"a": 1}, "outputs": {"b": {}}, "loads": {"b": load}})
     run = train.dynamics(rate="0.05 turn/s", turns=1, skip=0.25, steps=2000, fast=False)
     requested = train.torques(turns=1).mean
     assert run.torque == pytest.approx(requested, rel=3e-3)
     assert run.energy.friction == pytest.approx(abs(run.energy.drive + run.energy.loads), rel=3e-3)
 
 
-@pytest.mark.parametrize("gear", [{"friction": 0.2}, {"efficiency": {"forward": 0.9, "backward": 0.8}}])
-def test_a_load_that_drives_gives_back_what_teeth_leave_of_it(gear: dict[str, object]) -> None:
-    form = {"form": "triangular", "half_angle": "30 deg", "window": 0.5} if "friction" in gear else None
-    train = GearTrain.declare(
-        {
-            "links": {"frame": {}, "a": {"wheels": {"p": 24}}, "b": {"wheels": {"q": 36}, "inertia": "1e-9 kg m2"}},
-            "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "B"}],
-            "gears": [{"pair": ["p", "q"], "driver": "p", **gear} | ({"tooth_form": form} if form else {})],
-            "inputs": {"a": 1},
-            "outputs": {"b": {}},
-            "loads": {"b": "-1 N mm"},
-        }
-    )
+@pytest.mark.parametrize(
+    "gear",
+    [
+        "friction: 0.2, tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}",
+        "efficiency: {forward: 0.9, backward: 0.8}",
+    ],
+)
+def test_a_load_that_drives_gives_back_what_teeth_leave_of_it(gear: str) -> None:
+    train = load(f"""
+links: {{frame: {{}}, a: {{wheels: {{p: 24}}}}, b: {{wheels: {{q: 36}}, inertia: 1e-9 kg m2}}}}
+revolutes: {{A: [frame, a], B: [frame, b]}}
+gears: [{{pair: [p, q], driver: p, {gear}}}]
+inputs: {{a: 1}}
+outputs: {{b: {{}}}}
+loads: {{b: -1 N mm}}
+""")
     run = train.dynamics(rate="0.05 turn/s", turns=0.5, skip=0.25, steps=2000, fast=False)
     requested = train.torques(turns=0.5).mean
     assert requested < 0 < run.energy.friction
@@ -243,21 +239,19 @@ def test_impacts_take_what_carnot_says() -> None:
     assert torques[1] == pytest.approx(0.5762 * 0.3**2, rel=0.02)
 
 
+HEAVY = {"sun": 1e-5, "planet": 2e-6, "carrier": 4e-5}
+
+
 def planetary(**more: Any) -> GearTrain:
     """Sun 24, planet 18, ring 60 at rest; the planet's link drives nothing."""
-    inertia = {
-        "sun": {"inertia": "1e-5 kg m2"},
-        "planet": {"inertia": "2e-6 kg m2"},
-        "carrier": {"inertia": "4e-5 kg m2"},
-    }
-    return GearTrain.declare({"extends": "planetary-24-18-60", "links": inertia, **more})
+    links = {name: {"inertia": f"{own} kg m2"} for name, own in HEAVY.items()}
+    return GearTrain.declare({"extends": "planetary-24-18-60", "links": links, **more})
 
 
 def reduced(train: GearTrain) -> float:
     """Inertia about the sun's axis of all that turns with it."""
     speed = train.solve().speeds
-    inertias = {"sun": 1e-5, "carrier": 4e-5, "planet": 2e-6}
-    return sum(own * float(speed[name] / speed["sun"]) ** 2 for name, own in inertias.items())
+    return sum(own * float(speed[name] / speed["sun"]) ** 2 for name, own in HEAVY.items())
 
 
 def test_a_planetary_set_speeds_up_as_its_reduced_inertia_says() -> None:
@@ -379,11 +373,7 @@ links:
   planet: {wheels: {p: 30, q: 28}, inertia: 6e-6 kg m2, bearing: 1 N mm}
   out:    {wheels: {o: 42, s: 50}, inertia: 9e-6 kg m2, bearing: 1.5 N mm}
   last:   {wheels: {t: 20}, inertia: 2e-6 kg m2, bearing: 0.5 N mm, drag: 1e-4 N m s/rad}
-revolutes:
-  - {pair: [frame, arm], axis: A}
-  - {pair: [arm, planet], axis: P}
-  - {pair: [frame, out], axis: A}
-  - {pair: [frame, last], axis: B}
+revolutes: {A: [frame, arm, out], P: [arm, planet], B: [frame, last]}
 tooth_form: {form: triangular, half_angle: 30 deg, window: 0.5}
 gears: [{pair: [f, p]}, {pair: [q, o]}, {pair: [s, t]}]
 inputs: {arm: 1}

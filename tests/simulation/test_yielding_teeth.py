@@ -15,15 +15,19 @@ import pytest
 from numpy.typing import ArrayLike, NDArray
 from scipy.integrate import solve_ivp
 
-from geartrain import GearTrain
+from geartrain import GearTrain, load
 from geartrain.errors import QuestionError
 from geartrain.simulation import find_vibration_modes
-from geartrain.simulation.contacts.compliant_train import damping_ratio
-from geartrain.simulation.contacts.contact_model import Bearing, ContactModel, ContactPair, ToothCompliance
-from geartrain.simulation.contacts.pair_tables import tabled_angle
-from geartrain.simulation.contacts.train_model import SlackPin
-from geartrain.simulation.steps.contact_solution import GAP, TIME_APART
-from geartrain.simulation.steps.simulation import StepPlan, simulate
+from geartrain.simulation.contacts import (
+    Bearing,
+    ContactModel,
+    ContactPair,
+    SlackPin,
+    ToothCompliance,
+    damping_ratio,
+    tabled_angle,
+)
+from geartrain.simulation.steps import GAP, TIME_APART, StepPlan, simulate
 from geartrain.teeth import PinToSlotTransmission
 from geartrain.teeth.transmission import ExactRatio
 
@@ -238,19 +242,18 @@ def test_teeth_of_a_form_swing_as_stiffly_as_it_says_and_their_pairs_own_stand_b
 
 
 def test_two_discs_on_teeth_turn_together_and_swing_against_each_other() -> None:
-    wheels = {
-        "links": {
-            "frame": {},
-            "a": {"wheels": {"p": {"teeth": 20, "module": "0.5 mm"}}, "inertia": "3e-6 kg m2"},
-            "b": {"wheels": {"w": {"teeth": 60, "module": "0.5 mm"}}, "inertia": "5e-5 kg m2"},
-        },
-        "revolutes": [{"pair": ["frame", "a"], "axis": "A"}, {"pair": ["frame", "b"], "axis": "B"}],
-        "gears": [{"pair": ["p", "w"], "stiffness": "2 N/um", "damping": "30 N s/m"}],
-        "inputs": {"a": 1},
-        "drive": {"torque": "1 N mm"},
-        "rate": "1 turn/s",
-    }
-    found = find_vibration_modes(GearTrain.declare(wheels).mechanics)
+    train = load("""
+links:
+  frame: {}
+  a: {wheels: {p: {teeth: 20, module: 0.5 mm}}, inertia: 3e-6 kg m2}
+  b: {wheels: {w: {teeth: 60, module: 0.5 mm}}, inertia: 5e-5 kg m2}
+revolutes: {A: [frame, a], B: [frame, b]}
+gears: [{pair: [p, w], stiffness: 2 N/um, damping: 30 N s/m}]
+inputs: {a: 1}
+drive: {torque: 1 N mm}
+rate: 1 turn/s
+""")
+    found = find_vibration_modes(train.mechanics)
     k, ease = 2e6 * 0.015**2, 1 / 5e-5 + 1 / 9 / 3e-6  # of the driven wheel's radius, half of 60 times 0.5 mm
     assert found.frequencies == pytest.approx([0, sqrt(k * ease) / tau], rel=1e-9)
     assert found.damping == pytest.approx([0, 30 * 0.015**2 * sqrt(ease / k) / 2], rel=1e-9)

@@ -1,9 +1,7 @@
-"""Composition of tooth and pin errors: the error of every pair propagates to the links and to the driver angles of
-other pairs.
+"""Composition of tooth and pin errors, equations (2) to (5) of docs/motion.md.
 
-`ErrorComposition` evaluates equations (2) to (4) of docs/motion.md. The error of a pair depends on the angle of its
-driver, which includes the errors of other pairs. In the order of solution, these other pairs come first, so that a
-single pass composes the transmission functions exactly. Errors of coupled pairs are solved simultaneously (5).
+The error of a pair depends on its driver's angle, which includes the errors of other pairs. In the order of solution
+these come first, so that a single pass composes the transmission functions exactly.
 """
 
 from __future__ import annotations
@@ -13,7 +11,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from math import gcd, lcm
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -64,9 +62,7 @@ class PairErrorSource:
 
     @property
     def start(self) -> float:
-        """Angle of the driver at position 0 of the input, in its mean sense of rotation, without the errors of links
-        [rad].
-        """
+        """Angle of the driver at position 0 of the input without link errors, positive in its mean sense [rad]."""
         return self.phase - self.set_back
 
     @property
@@ -81,9 +77,7 @@ class PairErrorSource:
 
 
 def common_period(sources: Sequence[PairErrorSource]) -> Fraction | None:
-    """Return the number of revolutions of the input after which all sources repeat their positions; None if no driver
-    turns.
-    """
+    """Return the revolutions of the input after which all sources repeat their positions; None if no driver turns."""
     cycles = [source.cycles for source in sources if source.cycles]
     if not cycles:
         return None
@@ -92,9 +86,7 @@ def common_period(sources: Sequence[PairErrorSource]) -> Fraction | None:
 
 
 class CompositionStep(NamedTuple):
-    """Step in the order of solution. It contains the indices of the error sources that are solved together, because
-    their drivers depend on earlier sources and on each other.
-    """
+    """Error sources that are solved together, given by index, because their drivers depend on each other."""
 
     sources: tuple[int, ...]
     known: tuple[int, ...]
@@ -107,7 +99,7 @@ class CompositionStep(NamedTuple):
 
     @property
     def coupled(self) -> bool:
-        """True if the errors of the step change the angles of its own drivers."""
+        """True if the errors of these sources change the driver angles of the same sources."""
         return bool(self.own.any())
 
 
@@ -123,8 +115,8 @@ class SeenLink(NamedTuple):
     scale: float = 1.0
 
     def difference(self, values: Floats) -> float:
-        """Return the value of the link minus the value of its reference link. Each value refers to the axis of its own
-        link.
+        """Return the value of the link minus the value of its reference link, where `values` has a value for each link
+        about the link's own axis.
         """
         return float(self.scale * (values[self.of] - self.sense * values[self.base]))
 
@@ -159,21 +151,8 @@ class ErrorSamples(NamedTuple):
         return short_repr(self)
 
 
-class ErrorSampler(Protocol):
-    """Protocol of objects that compute transmission errors of outputs, for at most `chunk` positions in one call."""
-
-    @property
-    def chunk(self) -> int:
-        """Maximum number of positions that can be evaluated in one call."""
-
-    def at(self, turns: Floats) -> ErrorSamples:
-        """Return errors [rad] and rates [1] of the outputs at positions of the input [revolutions]."""
-
-
-def evaluate(sampler: ErrorSampler, turns: Floats) -> ErrorSamples:
-    """Return the errors [rad] and rates [1] of the outputs at any number of input positions [revolutions]. They are
-    computed in chunks.
-    """
+def evaluate(sampler: ErrorComposition | ErrorDifference, turns: Floats) -> ErrorSamples:
+    """Return the errors [rad] and rates [1] of the outputs at input positions [revolutions], in chunks."""
     parts = [sampler.at(turns[start : start + sampler.chunk]) for start in range(0, len(turns), sampler.chunk)]
     error, rate = (np.concatenate([part[column] for part in parts], axis=1) for column in (1, 2))
     return ErrorSamples(turns, error, rate, frozenset().union(*(part.reversing_drivers for part in parts)))
@@ -183,8 +162,8 @@ def evaluate(sampler: ErrorSampler, turns: Floats) -> ErrorSamples:
 class ErrorDifference:
     """Difference of the output errors of two composed motions with the same outputs, at equal input positions."""
 
-    one: ErrorSampler
-    other: ErrorSampler
+    one: ErrorComposition
+    other: ErrorComposition
 
     @property
     def chunk(self) -> int:
@@ -192,9 +171,7 @@ class ErrorDifference:
         return min(self.one.chunk, self.other.chunk)
 
     def at(self, turns: Floats) -> ErrorSamples:
-        """Return the differences of the errors and rates at no more than `chunk` input positions `turns`
-        [revolutions].
-        """
+        """Return the differences of errors and rates at up to `chunk` input positions `turns` [revolutions]."""
         one, other = self.one.at(turns), self.other.at(turns)
         both = one.reversing_drivers | other.reversing_drivers
         return ErrorSamples(turns, one.error - other.error, one.rate - other.rate, both)
@@ -202,9 +179,7 @@ class ErrorDifference:
 
 @dataclass
 class ErrorComposition:
-    """Composition of the error sources of a train, which computes the errors of the requested outputs at any input
-    position.
-    """
+    """Composition of the error sources of a train, which gives the errors of the outputs at any input position."""
 
     spread: ErrorPropagation
     sources: tuple[PairErrorSource, ...]
@@ -270,19 +245,14 @@ class ErrorComposition:
         return S
 
     def turned_by(self, source: PairErrorSource) -> tuple[tuple[int, int], tuple[int, int]]:
-        """Return the indices of a source's driver and of its carrier, whose errors change the driver angle. Each index
-        is followed by its sign in equation (3).
+        """Return the indices of the driver and of the carrier of an error source, each with the sign with which its
+        error changes the driver angle, equation (3) of docs/motion.md.
         """
         joint = self.spread.joints[source.pair]
         return (
             (joint.driver, source.forward * source.driver_sense),
             (joint.carrier, -source.forward * source.carrier_sense),
         )
-
-    def seen_driver(self, source: PairErrorSource) -> SeenLink:
-        """Return a source's driver and its carrier as a link and its reference link, in the same form as an output."""
-        joint = self.spread.joints[source.pair]
-        return SeenLink(joint.driver, joint.carrier, source.driver_sense * source.carrier_sense)
 
     @cached_property
     def chunk(self) -> int:
@@ -292,9 +262,7 @@ class ErrorComposition:
         return max(64, min(_CHUNK, _NUMBERS // (4 * (len(self.sources) + widest) + 1)))
 
     def at(self, turns: Floats) -> ErrorSamples:
-        """Return the errors [rad] and rates [1] of the outputs at no more than `chunk` positions of the input
-        [revolutions].
-        """
+        """Return the errors [rad] and rates [1] of the outputs at up to `chunk` input positions [revolutions]."""
         phase = InputPhase(turns)
         error = np.zeros((len(self.sources), len(turns)))
         rate = np.zeros_like(error)
@@ -309,8 +277,8 @@ class ErrorComposition:
         return ErrorSamples(turns, found[0], found[1], reversing_drivers)
 
     def _take(self, step: CompositionStep, phase: InputPhase, error: Floats, rate: Floats) -> Iterator[str]:
-        """Compute the errors and rates of the driven links for one step of the solution, in place. Yield the names of
-        pairs whose driver turns against its mean sense of rotation.
+        """Compute the errors and speed deviations of the links driven by one group of sources, in place. Yield the
+        names of pairs whose driver turns against the sense of its mean speed.
         """
         own, known = list(step.sources), list(step.known)
         sources = [self.sources[at] for at in own]
@@ -320,7 +288,9 @@ class ErrorComposition:
             S[row] += phase.cycles(source.cycles) * source.transmission.period + source.start
             turning[row] += source.mean
         if step.coupled:
-            error[own], rate[own], turning = solve_coupled_errors(self._coupled(step), S, turning)
+            names, transmissions = tuple(each.id for each in sources), tuple(each.transmission for each in sources)
+            pairs = CoupledErrors(names, transmissions, np.array([float(each.sense) for each in sources]), step.own)
+            error[own], rate[own], turning = solve_coupled_errors(pairs, S, turning)
         else:
             (source,) = sources
             value, tau = source.transmission.error_and_speed(S[0])
@@ -328,15 +298,6 @@ class ErrorComposition:
             rate[own] = source.sense * (tau - float(source.transmission.ratio)) * turning[0]
         yield from (
             source.id for source, speed in zip(sources, turning, strict=True) if np.min(speed) < -REST * source.mean
-        )
-
-    def _coupled(self, step: CompositionStep) -> CoupledErrors:
-        sources = [self.sources[at] for at in step.sources]
-        return CoupledErrors(
-            tuple(source.id for source in sources),
-            tuple(source.transmission for source in sources),
-            np.array([float(source.sense) for source in sources]),
-            step.own,
         )
 
 

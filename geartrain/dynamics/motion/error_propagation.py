@@ -1,14 +1,8 @@
 """Propagation of the errors of pairs to links: exact solution of equation (2) of docs/motion.md (section 2).
 
-For a pair of links i and j on carrier k, a (e_i - e_k) + b (e_j - e_k) = c delta, where e is the error of a link's
-angle, delta the error of the pair's driven side, and c its coefficient a or b. This is the Willis system without the
-mean speeds. One elimination gives the error of every link as a sum over the errors of pairs.
-
-Coupled pairs, as around a differential, are solved simultaneously by Newton's method with step halving, equation (5) of
-docs/motion.md, for delta_m = sense_m error_m(S_m + gain_m delta), at all positions at once. Here S_m is the driver
-angle of pair m without these errors. Transmission functions have kinks, so a step that does not reduce the residual is
-halved. If step halving fails, a single pair is solved by bisection, because Newton's method cannot leave a dwell, in
-which the driven wheel is at rest while its driver turns.
+One elimination gives the error of every link as a sum over the errors of pairs. Coupled pairs, as around a
+differential, are solved simultaneously by Newton's method with step halving, equation (5), because transmission
+functions have kinks. If halving fails, as in a dwell of a single pair, bisection is used.
 """
 
 from __future__ import annotations
@@ -93,8 +87,8 @@ def solve_coupled_errors(pairs: CoupledErrors, base: Floats, turning: Floats) ->
 
 @np.errstate(invalid="ignore")  # inf - inf where nothing touches
 def _newton(pairs: CoupledErrors, base: Floats) -> tuple[Floats, Floats]:
-    """Return the errors of coupled pairs [rad], found by Newton's method, and the slopes of their transmission
-    functions [1].
+    """Return the errors of coupled pairs [rad] and the slopes of their transmission functions [1], found by Newton's
+    method with step halving.
     """
     tolerance = _CONVERGED * (1 + np.max(np.abs(base), initial=0.0) + np.abs(pairs.gain).sum(axis=1).max())
     active = np.arange(base.shape[1])
@@ -129,11 +123,8 @@ def _newton(pairs: CoupledErrors, base: Floats) -> tuple[Floats, Floats]:
 
 @np.errstate(invalid="ignore")
 def _bisected(pairs: CoupledErrors, base: Floats, columns: Ints) -> tuple[Floats, Floats]:
-    """Return the error delta [rad] and the slope [1] of a single pair, found by bisection. The residual of equation (5)
-    increases with delta up to a dead centre.
-
-    If the transmission function jumps at the solution, as for cut teeth that collide, the position of the jump is
-    returned with slope 0. Without contact, the error is infinite, like the value of the transmission function.
+    """Return the error [rad] of a single pair and the slope of its transmission function [1], found by bisection. At a
+    jump of the function, the slope is 0; without contact of the teeth, the error is infinite.
     """
     if len(pairs.transmissions) > 1:
         raise _refusal(pairs.names, _NO_FIT)
@@ -150,7 +141,9 @@ def _bisected(pairs: CoupledErrors, base: Floats, columns: Ints) -> tuple[Floats
 
 
 def _stepped(matrices: Floats, right: Floats) -> Floats:
-    """Return the Newton step, or 0 at dead centres, where the Jacobian is singular."""
+    """Return the Newton step J^-1 r at each position, with the Jacobians `matrices` (J) and the residuals `right` (r);
+    0 where J is singular.
+    """
     dead = _determinants(matrices) == 0
     if not dead.any():
         return _solve_coupled(matrices, right)
@@ -185,9 +178,7 @@ def _refusal(pairs: Sequence[str], why: str) -> GearTrainError:
 
 
 class ErrorPath(NamedTuple):
-    """Links of a pair or coupling through which its error propagates, and the coefficient of the driven link in its
-    equation.
-    """
+    """Links of a pair through which its error propagates, and the coefficient of the driven link in its equation."""
 
     driver: int
     driven: int
@@ -228,9 +219,7 @@ class ErrorPropagation:
         return found
 
     def errors(self, deltas: Floats) -> Floats:
-        """Return the errors of all links [rad], shape (links, n), for given errors of all pairs `deltas` [rad], shape
-        (pairs, n).
-        """
+        """Return the errors of all links [rad], shape (links, n), from those of all pairs [rad], shape (pairs, n)."""
         with np.errstate(invalid="ignore"):  # an infinite response times 0, which `sensitivity` refuses
             return np.asarray(self.response @ deltas)
 

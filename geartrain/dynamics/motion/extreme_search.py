@@ -1,9 +1,7 @@
-"""Extreme errors and rates of outputs over a run of the input. Extremes at kinks and smooth extremes are both found.
+"""Extreme errors and rates of outputs over a run of the input, at kinks and between them.
 
-The kinks of all transmission functions divide the run into pieces on which errors and rates are smooth. Each piece is
-evaluated in the middle and at its ends, where one-sided limits are taken because rates jump at kinks. A maximum between
-these positions is located only if it may exceed all of them. The result does not depend on the positions at which a run
-is sampled.
+The kinks of all transmission functions divide the run into smooth pieces, which are evaluated at their ends and in the
+middle. A maximum between these positions is located only if it may exceed all of them.
 """
 
 from __future__ import annotations
@@ -17,7 +15,7 @@ from geartrain.dynamics.motion.error_composition import common_period, evaluate
 from geartrain.dynamics.motion.kink_positions import KinkSearch
 
 if TYPE_CHECKING:
-    from geartrain.dynamics.motion.error_composition import ErrorComposition, ErrorSampler, ErrorSamples
+    from geartrain.dynamics.motion.error_composition import ErrorComposition, ErrorDifference
     from geartrain.dynamics.motion.run_statistics import RunningStatistics
     from geartrain.numerics.arrays import Bools, Floats, Indices
 
@@ -34,8 +32,8 @@ _ROUNDS = 6  # rounds of subdivision: each narrows the interval by 4
 
 
 class _Candidates(NamedTuple):
-    """Pieces of the run in which an error or rate may exceed the maximum found so far. Each has the index of the
-    quantity, its estimated maximum, and both ends of the piece.
+    """Intervals of the input positions in which an error or speed may exceed the maximum found so far: index of the
+    quantity, estimated maximum, and both ends of each interval.
     """
 
     sought: Indices
@@ -48,14 +46,15 @@ class _Candidates(NamedTuple):
         return _Candidates(self.sought[which], self.promise[which], self.low[which], self.high[which])
 
     def exceeding(self, maxima: Floats) -> _Candidates:
-        """Return the candidates whose estimated maximum exceeds the maximum found so far. Candidates that repeat an
-        equal maximum are omitted.
-        """
+        """Return the intervals with an estimate above the maximum found so far, one of several equal estimates."""
         return self.chosen(self.promise > (maxima + _tolerance(maxima))[self.sought])
 
 
 def count_extremes(
-    compositions: Sequence[ErrorComposition], sampler: ErrorSampler, turns: float, tallies: Sequence[RunningStatistics]
+    compositions: Sequence[ErrorComposition],
+    sampler: ErrorComposition | ErrorDifference,
+    turns: float,
+    tallies: Sequence[RunningStatistics],
 ) -> frozenset[str]:
     """Include the extremes over a run from position 0 to `turns` [revolutions] in `tallies`, the statistics of the
     outputs. Return the names of the pairs whose driver turns against its mean sense of rotation at some position.
@@ -79,10 +78,9 @@ def count_extremes(
     for start, end in pieces(searches, low, high, max(1, sampler.chunk // 3)):
         found = evaluate(sampler, np.concatenate([start, (start + end) / 2, end]))
         reversing |= found.reversing_drivers
-        values = _signed(found)
+        values = np.stack([found.error, -found.error, found.rate, -found.rate], axis=1).reshape(len(maxima), 3, -1)
         # NaN marks positions where no teeth touch
-        maxima = np.fmax(maxima, np.fmax.reduce(values, axis=1))
-        values = values.reshape(len(values), 3, -1)
+        maxima = np.fmax(maxima, np.fmax.reduce(values, axis=(1, 2)))
         promise = _promise(*np.moveaxis(values, 1, 0))
         sought, piece = np.nonzero(promise > (maxima + _tolerance(maxima))[:, None])
         kept.append(_Candidates(sought, promise[sought, piece], start[piece], end[piece]))
@@ -112,19 +110,8 @@ def pieces(searches: Sequence[KinkSearch], low: float, high: float, size: int) -
         yield from ((first[at : at + size], last[at : at + size]) for at in range(0, len(first), size))
 
 
-def _signed(found: ErrorSamples) -> Floats:
-    """Return the quantities whose maxima are searched: errors, negated errors, rates and negated rates of each output.
-
-    The shape is (4 outputs, n).
-    """
-    values = np.stack([found.error, -found.error, found.rate, -found.rate], axis=1)
-    return values.reshape(-1, len(found.turns))
-
-
 def _promise(first: Floats, middle: Floats, last: Floats) -> Floats:
-    """Return an estimate of the maximum in each piece from the values at both ends and in the middle. Smooth functions
-    rarely exceed this estimate.
-    """
+    """Return an estimated upper bound on a smooth function in each interval, from its values at three positions."""
     highest, lowest = (each.reduce([first, middle, last]) for each in (np.maximum, np.minimum))
     bend, rise = 2 * middle - first - last, np.abs(last - first)
     # vertex of the parabola through the three values, if it is between the ends
@@ -137,16 +124,14 @@ def _promise(first: Floats, middle: Floats, last: Floats) -> Floats:
 
 
 def _tolerance(maxima: Floats) -> Floats:
-    """Return the tolerance to which each maximum is located, derived from the range of the output's errors or rates."""
+    """Return the absolute tolerance of each maximum, a small fraction of the range of the errors or speeds."""
     # a maximum plus the maximum of the negatives is the range
     ranges = np.repeat(maxima[::2] + maxima[1::2], 2)
     return np.maximum(_SURE * ranges, _ROUNDING)
 
 
-def _locate(sampler: ErrorSampler, maxima: Floats, given: _Candidates) -> None:
-    """Update the maxima in place with the maxima inside the pieces of the candidates, which are found by
-    subdivision.
-    """
+def _locate(sampler: ErrorComposition | ErrorDifference, maxima: Floats, given: _Candidates) -> None:
+    """Replace each value in `maxima` by the maximum inside the candidate intervals if that is larger."""
     for _ in range(_ROUNDS):
         given = given.exceeding(maxima)
         rows = np.arange(len(given.sought))

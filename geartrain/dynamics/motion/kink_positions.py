@@ -1,11 +1,7 @@
-"""Positions of the input at which pairs pass kinks of their transmission functions. All errors are smooth between these
-positions.
+"""Positions of the input at which pairs pass kinks of their transmission functions. All errors are smooth between them.
 
-A transmission function lists the angles of its driver at which it has kinks. The driver of pair m has the angle S_m(x),
-equation (3) of docs/motion.md, which includes the errors of earlier pairs. The position x of a kink satisfies S_m(x) =
-kink + an integer number of periods. The values of S_m at the ends of a narrow step determine the number of kinks in
-this step, and each kink is located by the method of false position. If a driver reverses, the step is divided at the
-reversal.
+The driver angle of a pair, equation (3) of docs/motion.md, includes the errors of earlier pairs. Its values at the ends
+of a narrow step give the number of kinks in the step, and each kink is located by the method of false position.
 """
 
 from __future__ import annotations
@@ -17,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geartrain.dynamics.motion.error_composition import REST, ErrorComposition, InputPhase, evaluate
+from geartrain.dynamics.motion.error_composition import REST, ErrorComposition, InputPhase, SeenLink, evaluate
 from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.results import short_repr
 from geartrain.numerics.roots import roots_by_false_position
@@ -110,8 +106,8 @@ class PairKinks:
         return self._crossings(steps, low, high)
 
     def _cut_where_it_turns(self, steps: InputSteps, slowest: Floats) -> InputSteps:
-        """Return the steps, divided at the positions at which the driver reverses. These positions are found by
-        bisection.
+        """Return the intervals of the input, divided at the positions at which the driver of the pair reverses, which
+        are found by bisection.
         """
         slow = slowest < _SLOW * self.source.mean
         ends = steps.low[slow, None] + (steps.high - steps.low)[slow, None] * (np.arange(_PARTS + 1) / _PARTS)
@@ -131,8 +127,8 @@ class PairKinks:
         )
 
     def _crossings(self, steps: InputSteps, low: Floats, high: Floats) -> Floats:
-        """Return the positions and indices of the kinks in steps without reversals. `low` and `high` are the shifts of
-        the driver's angle at the two ends of each step [rad].
+        """Return the input positions [revolutions] and the indices of the kinks in intervals without reversals. `low`
+        and `high` are the errors of the driver's angle at the two ends of each interval [rad].
         """
         period, cycles = self.source.transmission.period, self.source.cycles
         width = steps.high - steps.low
@@ -176,9 +172,10 @@ class KinkSearch:
         """Kinks of each pair on which an output depends, with the motion of the pair's driver."""
         found = []
         for source in self.composition.used:
+            joint = self.composition.spread.joints[source.pair]
+            seen = SeenLink(joint.driver, joint.carrier, source.driver_sense * source.carrier_sense)
             # no offsets: a pointer that is set does not turn any driver
-            drivers = replace(self.composition, outputs=(self.composition.seen_driver(source),), offsets=())
-            found.append(PairKinks(source, drivers))
+            found.append(PairKinks(source, replace(self.composition, outputs=(seen,), offsets=())))
         return tuple(found)
 
     @cached_property

@@ -37,7 +37,6 @@ from geartrain.numerics.results import Key, Result, Shown, Tabular, brief, impor
 if TYPE_CHECKING:
     from numpy.random import Generator
 
-    from geartrain.dynamics.motion.error_composition import ErrorSampler
     from geartrain.dynamics.motion.error_propagation import ErrorPath, ErrorPropagation
     from geartrain.numerics.arrays import Floats
 
@@ -108,18 +107,6 @@ class TransmissionErrorCurve(Tabular, Result):
 _MAIN = 3  # outputs in a summary
 
 
-def _refuse_jumps(composition: ErrorComposition) -> None:
-    """Raise `GearTrainError` if the driver of an instantaneous step is itself moved by this step, because its position
-    is then not unique.
-    """
-    for step in composition.steps:
-        jumping = [composition.sources[at].id for at in step.sources if composition.sources[at].transmission.at_once]
-        if step.coupled and jumping:
-            what = f"the step of '{jumping[0]}' turns its own driver"
-            why = "an instantaneous step does not define the position of the driver during the step"
-            raise GearTrainError(Problem(what, why, "give `over`, or let the driver of the coupling be the input"))
-
-
 class Motion(Shown):
     """Motion of a train, including the errors of its teeth and pins, as a function of the revolutions of its input.
 
@@ -154,11 +141,7 @@ class Motion(Shown):
 
     PAGE = "report.motion_report:motion_document"
 
-    def __init__(
-        self,
-        train: MotionProblem,
-        outputs: Mapping[str, tuple[str, str]],
-    ) -> None:
+    def __init__(self, train: MotionProblem, outputs: Mapping[str, tuple[str, str]]) -> None:
         self._problem, self.outputs = train, outputs
         self._errors = PairErrors(train, {link for ends in outputs.values() for link in ends})
         self._index = self._errors.index
@@ -167,7 +150,15 @@ class Motion(Shown):
         self._without: tuple[str, ...] = ()
         self._shown = tuple(outputs)  # outputs that a plot shows
         self._ideal: Motion | None = None  # motion whose errors are subtracted
-        self._refuse_loops()
+        for loop, real in train.contradictions():
+            path = " - ".join((*loop.links, loop.links[0]))
+            raise GearTrainError(
+                Problem(
+                    f"the pairs {', '.join(loop.pairs)} form a loop, {path}, that locks with real teeth",
+                    f"its mean speeds agree, but the errors of {', '.join(real)} would have to cancel at every instant",
+                    f"omit a pair of the loop, such as `--without {loop.pairs[-1]}`",
+                )
+            )
 
     def _summary(self) -> str:
         name = "" if self._declaration is None else self._declaration.name
@@ -185,10 +176,7 @@ class Motion(Shown):
         return self._errors.spread
 
     def _path(self, pair: str) -> ErrorPath:
-        """Return the links through which the errors of a pair or coupling propagate.
-
-        Raise `QuestionError` if the pair is redundant, because the effect of its errors is then not unique.
-        """
+        """Return the links through which a pair's error propagates. Raise `QuestionError` for a redundant pair."""
         if pair in self._propagation.pairs:
             return self._propagation.joints[self._propagation.pairs.index(pair)]
         why = (
@@ -200,26 +188,23 @@ class Motion(Shown):
 
     @cached_property
     def _forward(self) -> ErrorComposition:
-        """Composition of the errors while the input turns in its declared sense."""
+        """Composition of the transmission errors of all pairs while the input turns in its declared sense."""
         return self._composed(1)
 
     def _with_sources(self, pairs: Collection[str]) -> ErrorComposition:
-        """Return the error composition for the declared sense of the input, with the given pairs as additional sources.
-
-        Pairs with constant ratio can thus be given other transmission functions.
-        """
+        """Return the composition for the declared sense of the input that also evaluates the given pairs."""
         return self._composed(1, pairs)
 
     @cached_property
     def _unset(self) -> ErrorComposition:
-        """Error composition before the pointers are set; every link has the position that follows from the transmission
-        functions.
-        """
+        """Error composition in which no output is set to the error 0 at position 0 of the input."""
         return replace(self._forward, offsets=())
 
     @cached_property
     def _backward(self) -> ErrorComposition:
-        """Composition of the errors while the input turns against its declared sense, with coast flanks in contact."""
+        """Composition of the transmission errors of all pairs while the input turns against its declared sense and
+        coast flanks are in contact.
+        """
         return self._composed(-1)
 
     @cached_property
@@ -233,14 +218,17 @@ class Motion(Shown):
         )
 
     def _composed(self, way: int, besides: Collection[str] = ()) -> ErrorComposition:
-        """Return the error composition for one direction `way` of the input, 1 or -1, with the pairs in `besides` as
-        further sources.
-
-        Every pointer is set at position 0, with the input turning in the declared sense.
+        """Return the error composition for one sense of the input, 1 (declared) or -1, in which the pairs `besides` are
+        also evaluated at each position. At position 0, the error of every output is 0.
         """
         backlash, (teeth, pins) = self._errors.backlash(way), self._start
         found = ErrorComposition(self._errors.spread, tuple(self._errors.sources(way, besides)), self._seen)
-        _refuse_jumps(found)
+        for step in found.steps:
+            jumping = [found.sources[at].id for at in step.sources if found.sources[at].transmission.at_once]
+            if step.coupled and jumping:
+                what = f"the step of '{jumping[0]}' turns its own driver"
+                why = "an instantaneous step does not define the position of the driver during the step"
+                raise GearTrainError(Problem(what, why, "give `over`, or let the driver of the coupling be the input"))
         sources = tuple(
             replace(
                 each,
@@ -254,10 +242,8 @@ class Motion(Shown):
 
     @cached_property
     def _start(self) -> tuple[Floats, Floats]:
-        """Angles by which the errors of teeth turn each link at position 0 of the input, and angles by which the errors
-        of pins turn it [rad].
-
-        The angles are linear in the errors of the pairs, because all driver angles are known.
+        """Angles [rad] by which the errors of teeth turn each link at position 0 of the input, and angles by which the
+        errors of pins turn it.
         """
         deltas = np.zeros((len(self._errors.spread.pairs), 2))
         pins = {joint.coupling.name for joint in self._problem.couplings}
@@ -273,19 +259,8 @@ class Motion(Shown):
         """
         return {name: seen.difference(-self._start[0]) for name, seen in zip(self.outputs, self._seen, strict=True)}
 
-    def _refuse_loops(self) -> None:
-        for loop, real in self._problem.contradictions():
-            path = " - ".join((*loop.links, loop.links[0]))
-            raise GearTrainError(
-                Problem(
-                    f"the pairs {', '.join(loop.pairs)} form a loop, {path}, that locks with real teeth",
-                    f"its mean speeds agree, but the errors of {', '.join(real)} would have to cancel at every instant",
-                    f"omit a pair of the loop, such as `--without {loop.pairs[-1]}`",
-                )
-            )
-
     def _with_angles(self, angles: Mapping[str, float]) -> Motion:
-        """Return the motion with different initial angles of some links [rad]."""
+        """Return the motion of the same train in which some links have the given initial angles [rad], by link."""
         return Motion(replace(self._problem, angles={**self._problem.angles, **angles}), self.outputs)
 
     def with_random_phases(self, random: Generator) -> Motion:
@@ -350,7 +325,7 @@ class Motion(Shown):
 
     @property
     def _start_angles(self) -> list[float]:
-        """Angle of each output at position 0 [rad], positive in the sense in which the input turns."""
+        """Declared angle of each output at position 0 [rad], positive in the sense in which the input turns."""
         angles = self._problem.way * np.array([self._problem.angles.get(link, 0.0) for link in self._propagation.links])
         return [seen.difference(angles) for seen in self._seen]
 
@@ -368,13 +343,15 @@ class Motion(Shown):
             yield sampler.at(turns * (at / (samples - 1)))
 
     def _composition(self, turns: float) -> ErrorComposition:
-        """Return the error composition for a run of `turns` revolutions; if `turns` is negative, the coast flanks are
-        in contact.
+        """Return the error composition for a motion over `turns` revolutions of the input, which are negative if coast
+        flanks are in contact.
         """
         return self._forward if turns >= 0 else self._backward
 
-    def _sampler(self, turns: float) -> ErrorSampler:
-        """Return the sampler of the errors of a run, which is one composition or the difference of two."""
+    def _sampler(self, turns: float) -> ErrorComposition | ErrorDifference:
+        """Return the object that evaluates the output errors at given positions: an error composition, or the
+        difference between real and ideal teeth.
+        """
         own = self._composition(turns)
         return own if self._ideal is None else ErrorDifference(own, self._ideal._composition(turns))
 
@@ -531,7 +508,7 @@ class Motion(Shown):
 
     @cached_property
     def _usual_run(self) -> Any:
-        """Run with the default options of the command `geartrain motion`; `print` displays it."""
+        """Evaluation of the motion with the default options of `geartrain motion`, which `print` displays."""
         return self.run()
 
     def _with_transmissions(self, transmissions: Mapping[str, Any]) -> Motion:

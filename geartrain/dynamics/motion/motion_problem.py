@@ -91,9 +91,7 @@ class MotionProblem:
 
     @property
     def way(self) -> int:
-        """Sign of the driving link's speed about its own axis. Its revolutions and angles are positive in its sense of
-        rotation.
-        """
+        """Sign of the driving link's speed about its own axis; its angles are positive in its sense of rotation."""
         return -1 if self.speeds[self.driving_link] < 0 else 1
 
     def ratio(self, link: str) -> Fraction:
@@ -142,12 +140,13 @@ class MotionProblem:
         """Return the loops closed by redundant pairs around which the transmission errors vary, each with the names of
         the pairs that cause these errors.
         """
-        found = ((loop, [pair for pair in loop.pairs if self._ripples(pair)]) for loop in self.loops)
-        return [(loop, real) for loop, real in found if real]
-
-    def _ripples(self, pair: str) -> bool:
-        mesh = self.meshes.get(pair)
-        return any(joint.coupling.name == pair for joint in self.couplings) if mesh is None else not mesh.rigid
+        found = []
+        for loop in self.loops:
+            meshes = {pair: self.meshes.get(pair) for pair in loop.pairs}
+            real = [pair for pair, mesh in meshes.items() if (pair in self.periods if mesh is None else not mesh.rigid)]
+            if real:
+                found.append((loop, real))
+        return found
 
 
 def find_motion_problem(

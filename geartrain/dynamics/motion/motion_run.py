@@ -1,16 +1,11 @@
-"""Run of a motion over a number of revolutions of the input, with its statistics and spectrum.
-
-The spectrum by exact orders of the input follows section 5 of docs/motion.md. A pair has `cycles` periods per
-revolution of the input, an exact rational number, so its harmonic k has the order k times `cycles`. To first order, the
-amplitude of a spectral line is the amplitude of the pair's harmonic times the output's sensitivity. The amplitude in
-the composed motion is also computed, by a Fourier sum with a Hann window. The two amplitudes differ because pairs
-modulate each other.
+"""Run of a motion over a number of revolutions of the input, with its statistics and its spectrum by exact orders of
+the input (docs/motion.md, section 5).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from math import pi
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
@@ -82,9 +77,7 @@ def find_spectrum(
 
     superposed = Superposition(motion._composition(turns))
     harmonics = [_harmonics(superposed, at) for at in range(len(superposed.sources))]
-    found = {}
-    for at, name in enumerate(motion.outputs):
-        found[name] = _expected(superposed, harmonics, at)
+    found = {name: _expected(superposed, harmonics, at) for at, name in enumerate(motion.outputs)}
     # lines of all outputs are measured in one pass through the run
     orders = sorted({line.order for lines in found.values() for line in lines})
     if not orders:
@@ -93,18 +86,14 @@ def find_spectrum(
         return {name: [] for name in found}
     measured = _measure(motion, turns, samples, orders, on_done)
     return {
-        name: [
-            SpectrumLine(line.order, line.shares, line.expected, measured[at, orders.index(line.order)])
-            for line in found[name]
-        ]
-        for at, name in enumerate(motion.outputs)
+        name: [replace(line, measured=measured[at, orders.index(line.order)]) for line in lines]
+        for at, (name, lines) in enumerate(found.items())
     }
 
 
 def _harmonics(superposed: Superposition, at: int) -> Complex:
-    """Return the complex amplitudes of a pair's error at harmonics 1, 2, ... of its period [rad].
-
-    The phases are relative to the beginning of the run.
+    """Return the complex amplitudes of the error of pair number `at` at harmonics 1, 2, ... of its period [rad]. The
+    phases refer to position 0 of the input.
     """
     source = superposed.sources[at]
     pitches = source.transmission.pitch_count
@@ -147,9 +136,8 @@ def _expected(superposed: Superposition, harmonics: list[Complex], output: int) 
 def _measure(
     motion: Motion, turns: float, samples: int, orders: list[Fraction], on_done: Callable[[int], None]
 ) -> Floats:
-    """Return the amplitudes [rad] of the total output errors at the given orders, shape (outputs, orders).
-
-    A Hann window is applied unless the length of the run is an integer number of periods.
+    """Return the amplitudes of the output errors at given orders of the input [rad], shape (outputs, orders), from a
+    Fourier sum over all positions. A Hann window is used unless `turns` is an integer number of periods.
     """
     closes = bool(motion.period) and (Fraction(turns) / (motion.period or 1)).denominator == 1
     sums = np.zeros((len(motion.outputs), len(orders)), dtype=complex)
@@ -174,10 +162,6 @@ def _measure(
 
 MOST_TURNS = 10**12
 """Maximum number of revolutions. Beyond it, positions in float64 do not resolve single teeth."""
-
-
-def _ignore(_: int) -> None:
-    pass
 
 
 @dataclass
@@ -292,7 +276,7 @@ class MotionRun(Tabular, Pictured):
             found |= {head: [row[at] for row in rows] for at, head in enumerate(heads)}
         return found
 
-    def run(self, on_done: OnDone = _ignore) -> None:
+    def run(self, on_done: OnDone = lambda _: None) -> None:
         """Evaluate the outputs at every position, and search for extremes between the positions.
 
         Parameters
@@ -317,7 +301,7 @@ class MotionRun(Tabular, Pictured):
         compositions, sampler = [each._composition(self.turns) for each in motions], self.motion._sampler(self.turns)
         self.reversing_drivers |= count_extremes(compositions, sampler, self.turns, self.statistics)
 
-    def run_random_phases(self, count: int, seed: int, on_done: OnDone = _ignore) -> None:
+    def run_random_phases(self, count: int, seed: int, on_done: OnDone = lambda _: None) -> None:
         """Repeat the run with random phases of the pairs that declare no phase.
 
         Parameters
@@ -340,7 +324,7 @@ class MotionRun(Tabular, Pictured):
             other.run(on_done)
             self.phase_statistics.append(other.statistics)
 
-    def find_spectra(self, on_done: OnDone = _ignore) -> None:
+    def find_spectra(self, on_done: OnDone = lambda _: None) -> None:
         """Compute the spectrum of every output at exact orders of the input.
 
         Parameters
@@ -359,11 +343,8 @@ class MotionRun(Tabular, Pictured):
         return ["turns", *(f"{name} {what}" for name, heads in units for what in heads)]
 
     def _values(self, passage: ErrorSamples) -> list[Floats]:
-        """Return the table columns for the positions in `passage`: revolutions of the input, then the angle [rad],
-        error [rad] and speed [1] of each output. For an output that slides, they are travel [mm], error [mm] and speed
-        [mm/turn].
-
-        An angle is the sum of the initial angle, the mean motion and the error.
+        """Return the columns of a table of positions: revolutions of the input, then the angle [rad], the error [rad]
+        and the relative speed [1] of each output; for a sliding output its travel [mm], error [mm] and speed [mm/turn].
         """
         found = [passage.turns]
         for at, (tally, start) in enumerate(zip(self.motion._statistics(), self.motion._start_angles, strict=True)):
@@ -372,10 +353,7 @@ class MotionRun(Tabular, Pictured):
         return found
 
     def _check_resumed(self, row: str, rows: int) -> None:
-        """Raise an error if `row`, the last comma-separated row of a partial table, does not belong to this run.
-
-        rows   number of rows of the partial table
-        """
+        """Raise an error if `row`, number `rows` of a partial table, has another position than in this run."""
         # same order of operations as in `_stretches`, so that the float and its text are identical
         turns = self.turns * ((rows - 1) / (self.samples - 1))
         if rows > self.samples or row.split(",")[0] != repr(turns):

@@ -157,13 +157,8 @@ class PairErrors:
         return PairErrorSource(circuit.id, transmission, at, *senses, cycles, phase, forward, sense)
 
     def _phase(self, circuit: Circuit, transmission: TransmissionFunction, driven: int) -> float:
-        """Return the driver's angle in its mean sense of rotation [rad] at which a tooth of the first wheel has the
-        declared phase.
-
-        The angle is 0 for a coupling, whose transmission function includes its phase. If the first wheel is driven, the
-        transmission function is inverted. A planet between sun and ring has no independent phase in its second pair:
-        its first pair determines the phase, with half a pitch added if its tooth count is odd and the contacts are on
-        opposite sides.
+        """Return the driver's angle [rad] at which a tooth of the first wheel has the declared phase; 0 for a coupling.
+        In the second gear pair of a planet between a sun and a ring, the angle follows from the first pair.
         """
         placed = None if circuit.id in self.train.phases else self.train.placed_by(circuit.id)
         if placed is not None:

@@ -1,13 +1,8 @@
 """Energy of tooth impacts of a pair, and the speed above which its quasi-static transmission function is invalid.
 
-Let s = max(-d tau / dS) be the maximum rate at which the speed ratio tau decreases with the driver angle S. At the
-speed w of the driver, a driven link with the moment of inertia J stays in contact if the load torque is at least J w^2
-s. Under a load T, contact is lost above w = sqrt(T / (J s)).
-
-In a train (Carnot's theorem, equation (7) of docs/motion.md) the input keeps its speed. If the speed of a pair's driven
-link jumps by 1 rad/s, the speed of every link l jumps by its response g_l, so the effective inertia of the driven link
-is J = sum J_l g_l^2. An inelastic impact with the speed difference v dissipates J v^2/2. In an ordinary train the
-effective inertia contains all links that the driven wheel drives, referred to its speed.
+If the speed of a pair's driven link jumps by 1 rad/s while the input keeps its speed, the speed of every link l jumps
+by its response g_l. The effective inertia is J = sum J_l g_l^2, and an inelastic impact with the speed difference v
+dissipates J v^2/2 (Carnot's theorem, equation (7) of docs/motion.md).
 """
 
 from __future__ import annotations
@@ -30,9 +25,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class ToothImpact(Shown):
-    """Impacts of the teeth of one pair, which occur where its speed ratio increases abruptly; see equation (7) of
-    docs/motion.md.
-    """
+    """Impacts of the teeth of one pair where its speed ratio increases abruptly, equation (7) of docs/motion.md."""
 
     inertia: float
     """Effective inertia at the driven wheel [kg m^2]."""

@@ -117,9 +117,7 @@ class RunningStatistics(Result):
 
     @property
     def degrees_or_mm(self) -> float:
-        """Factor that converts deviations from `unit` to the unit in which they are printed: deg, or mm if the link
-        slides.
-        """
+        """Factor that converts deviations from `unit` to the printed unit: deg, or mm if the link slides."""
         return 1.0 if self.slides else 180 / pi
 
     @property

@@ -1,10 +1,5 @@
-"""First-order estimates of the transmission error, equation (6) of docs/motion.md.
-
-The estimates neglect the effect of pairs on each other. To first order, an output's error is the sum over all pairs of
-the output's sensitivity times the pair's error. The sum of the ranges of these terms is an upper bound on the range of
-the output's error. If the phases are independent, the squares of the rms values of these terms add. Superposition with
-phases neglects only the change of driver angles by errors. Part of this change is taken into account by the mean error
-of each driver relative to position 0 (lag).
+"""First-order estimates of the transmission error, equation (6) of docs/motion.md, which neglect the effect of pairs
+on each other: an output's error is the sum over all pairs of its sensitivity times the pair's error.
 """
 
 from __future__ import annotations
@@ -23,9 +18,7 @@ if TYPE_CHECKING:
 
 
 class Superposition:
-    """First-order errors of the outputs of an error composition. Each pair is evaluated at the mean angle of its
-    driver.
-    """
+    """First-order errors of the outputs, with each pair evaluated at the mean angle of its driver."""
 
     def __init__(self, composition: ErrorComposition) -> None:
         self.composition, self.sources = composition, composition.used

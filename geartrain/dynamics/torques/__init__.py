@@ -11,3 +11,22 @@ power_flow                           power flow of a result, and recirculating p
 drivers                              driving side of each pair
 neglected_effects                    effects that a balance of mean torques neglects
 """
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from geartrain.numerics.lazy_names import public_names
+
+if TYPE_CHECKING:
+    from geartrain.dynamics.torques.flow_patterns import find_flow_patterns as find_flow_patterns
+    from geartrain.dynamics.torques.torque_balance import LoadedPair as LoadedPair
+    from geartrain.dynamics.torques.torque_balance import TorqueBalance as TorqueBalance
+
+__getattr__, __all__ = public_names(
+    __name__,
+    {
+        "flow_patterns": "find_flow_patterns",
+        "torque_balance": "LoadedPair TorqueBalance",
+    },
+)

@@ -1,12 +1,9 @@
 """Forces of gear pairs on the axes of their wheels, and the bearing friction that is proportional to these forces.
 
-A pair on parallel axes exerts a force on one wheel and the opposite force on the other. The moments of the force about
-the two axes are the torques T_i and T_j of the pair, so its component perpendicular to the line of centres is (T_i +
-T_j)/a, where a is the centre distance, for any point of contact and any friction. Its component along the line of
-centres is proportional to this component. The resultant R of all forces on a link and on the links that it carries
-loads the bearing of this link. The friction torque of the bearing is rho |R|, where rho = r mu/sqrt(1 + mu^2) is the
-radius of the friction circle, r the pivot radius and mu the coefficient of friction; see equations (26) to (28) of
-docs/torques.md, section 6.
+With the torques T_i and T_j of a pair about its axes and the centre distance a, the component of its force
+perpendicular to the line of centres is (T_i + T_j)/a, for any point of contact. The friction torque of a bearing under
+the resultant R is rho |R|, where rho is the radius of the friction circle; see equations (26) to (28) of
+docs/torques.md.
 """
 
 from __future__ import annotations
@@ -104,14 +101,10 @@ class BearingLoads:
         return self._left_out
 
     def _inside(self, link: str, end: str | None) -> bool:
-        """Return True if a force on the link `end` loads the bearing of `link`, which is `end` or carries it."""
+        """Return True if `link` is `end` or carries it, so that a force on `end` loads the bearing of `link`."""
         while end is not None and end != link:
             end = self.setting.tree.above(end)
         return end is not None
-
-    def _has_shoulder(self, end: str) -> bool:
-        links = self.setting.train.links
-        return any(links[link].shoulder_friction and self._inside(link, end) for link in self.links)
 
     def _pairs(self) -> Iterator[AxisForce]:
         setting, train = self.setting, self.setting.train
@@ -129,17 +122,16 @@ class BearingLoads:
                 self._leave_out(circuit, "the direction of the force of these teeth is unknown")
                 continue
             first, second = (point for point in points if point is not None)
+            wheels = [train.wheels[name] for name in circuit.wheels]
+            thrusting = [end for end, wheel in wheels if wheel.is_helical]
+            shoulders = [link for link in self.links if train.links[link].shoulder_friction]
+            if any(self._inside(link, end) for link in shoulders for end in thrusting):
+                why = "thrusts of helical teeth on shoulders are not included"
+                self._left_out.setdefault(why, []).append(circuit.id)
             # about the reference direction of parallel axes, as the signs of the torques
-            if any(
-                train.wheels[name][1].is_helical and self._has_shoulder(train.wheels[name][0])
-                for name in circuit.wheels
-            ):
-                self._left_out.setdefault("thrusts of helical teeth on shoulders are not included", []).append(
-                    circuit.id
-                )
             way = scaled((axes[0] or Axis()).way, setting.axes.sign(labels[0]))
             line = across(scaled(minus(second, first), _MM), way)
-            i, j = (train.wheels[name][1] for name in circuit.wheels)
+            i, j = (wheel for _, wheel in wheels)
             square = float(np.dot(line, line)) * (-1 if i.internal or j.internal else 1)
             yield AxisForce(
                 circuit.id,
@@ -152,7 +144,7 @@ class BearingLoads:
             )
 
     def _line(self) -> Iterator[AxisForce]:
-        """Yield the force of the line of a driving weight, which is proportional to the torque on its drum."""
+        """Yield the force that the line of a driving weight exerts on its drum."""
         drive, source = self.setting.case.drive, next(iter(power_inputs(self.setting)), None)
         if drive is None or drive.drum is None or source is None:
             return
@@ -214,9 +206,7 @@ class BearingLoads:
 
     @cached_property
     def thrust(self) -> Floats:
-        """Friction torque on the shoulder of each link that is caused by the weights along its axis [N m], shape
-        (links, 1).
-        """
+        """Friction torque on the shoulder of each link due to weights along its axis [N m], shape (links, 1)."""
         down = self._down or (0.0,) * 3
         along = np.abs(self.ways(self.links)[:, :, 0] @ down)
         carried = [sum(m or 0.0 for end, m in self.masses.items() if self._inside(link, end)) for link in self.links]
@@ -254,9 +244,7 @@ class BearingLoads:
         return found
 
     def _turned(self, vectors: Floats, angles: Floats) -> Floats:
-        """Return the forces `vectors` rotated by `angles` [rad] about the axes of their carriers by Rodrigues' formula,
-        shape (forces, 3, n).
-        """
+        """Return force vectors of shape (forces, 3, n), rotated by `angles` [rad] about the axes of their carriers."""
         way = self.ways(force.carrier for force in self.forces)
         inside = way * (vectors * way).sum(axis=1, keepdims=True)
         turn = angles[:, None]
@@ -297,9 +285,8 @@ class BearingLoads:
         return {link: (torque, load) for link, torque, load in rows}
 
     def _responses(self, balance: TorqueBalance, flow: FlowPattern, applied: Mapping[str, Fraction]) -> Floats | None:
-        """Return the carrier torque of each force, shape (forces, 1 + links). The first column is without
-        load-dependent friction; the other columns are for a unit friction torque in each bearing. Equal planets have
-        one column, which belongs to the first of them.
+        """Return the carrier torque of each force, shape (forces, 1 + links): the first column without load-dependent
+        friction, the others per unit friction torque in the bearing of a link. None if the torques do not balance.
         """
         like = equal_planets(balance)
         known: dict[str, LinearForm] = {link: {_KNOWN: torque} for link, torque in balance.known.items()}
@@ -337,9 +324,7 @@ class BearingLoads:
 
 
 def _share(own: float | None, other: float | None, place: float | None) -> float:
-    """Return the fraction of a force at the position `place` that the bearing at `own` carries, by the law of the
-    lever; the other bearing is at `other` [m].
-    """
+    """Return the fraction of a force at `place` [m] that a bearing at `own` carries beside another one at `other`."""
     if own is None or other is None:
         return 1.0
     return 0.5 if place is None else (other - place) / (other - own)

@@ -1,20 +1,14 @@
-"""Driver of each gear pair and coupling, from the power that flows through it relative to its carrier.
+"""Driver of each gear pair and coupling, from the power that flows through it relative to its carrier (docs/torques.md,
+section 3, "Who drives a pair").
 
-The rules are in docs/torques.md, section 3, "Who drives a pair". If loads are declared, torques determine the driver of
-all pairs that transmit a load. Otherwise the motion of every pointer on a dial is assumed to be resisted by an unknown
-torque. Without losses, the multiplier x of a pair is linear in these torques T_o >= 0 of the pointers o, x = sum c_o
-T_o. If all c_o of a pair have the same sign, the power flows in one direction for any torques of the pointers. If their
-signs differ, the direction is undetermined. For pairs that transmit no power to a pointer, resistance is assumed at the
-outputs on shafts, then at all outputs, at all shafts, and finally at every joint. The result does not depend on the
-order of declaration.
-
-The coefficients c_o are exact. One elimination treats all loads at once: each load is a symbol, and every unknown
-torque is a linear form of the symbols.
+If loads are declared, torques determine the drivers. Otherwise unknown torques T_o >= 0 are assumed to resist the
+motion of the outputs o. Without losses, the multiplier of a pair is linear in them, x = sum c_o T_o, so that the
+direction of power flow is known if all c_o have the same sign. One elimination gives the exact c_o of all loads.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
@@ -32,7 +26,6 @@ from geartrain.teeth.meshing_wheels import MeshDriver
 if TYPE_CHECKING:
     from geartrain.dynamics.torques.load_case import LoadCase
     from geartrain.dynamics.torques.torque_balance import TorqueBalance
-    from geartrain.dynamics.torques.torque_results import Torques
     from geartrain.kinematics.circuits import Circuit
     from geartrain.train import Train
 
@@ -104,20 +97,11 @@ def find_drivers(train: Train, circuits: Sequence[Circuit], setting: LoadCase | 
 
     circuits   circuits of the pairs and couplings to include
     setting    load case with the speeds of the state, or None if the speeds are undetermined. In that case, only
-    declared
-               drivers are certain.
+               declared drivers are certain.
     """
-    if setting is None:
-        return _undetermined(train, circuits, "the speeds of the train are not determined")
-    return _Drivers(replace(setting, circuits=circuits)).found
-
-
-def _undetermined(train: Train, circuits: Iterable[Circuit], why: str) -> dict[str, MeshDriver]:
-    """Return the drivers of a train whose speeds are unknown for the reason `why`. Only declared drivers are
-    certain.
-    """
-    declared = _declared(train)
-    text = f"undetermined: {why}"
+    if setting is not None:
+        return _Drivers(replace(setting, circuits=circuits)).found
+    declared, text = _declared(train), "undetermined: the speeds of the train are not determined"
     return {
         each.id: declared.get(each.id) or MeshDriver(_assumed_driver(train, each), text, False) for each in circuits
     }
@@ -128,7 +112,7 @@ def _declared(train: Train) -> dict[str, MeshDriver]:
 
 
 class _Drivers:
-    """Drivers of all pairs in one state. Efficiencies are computed only for pairs that transmit a load."""
+    """Drivers of all pairs of a train in one state."""
 
     def __init__(self, setting: LoadCase) -> None:
         self.setting = setting
@@ -141,14 +125,33 @@ class _Drivers:
             return self.declared[name]
         if name not in self._idle and name in self._loaded:
             return self._loaded[name]
-        source = " and ".join(sorted(power_inputs(self.setting)))
-        return _driver_of(self.setting, self.circuits[name], self._ways.get(name, FlowDirections()), source)
+        circuit, way = self.circuits[name], self._ways.get(name, FlowDirections())
+        (first, second), driver = circuit.wheels, _assumed_driver(self.setting.train, circuit)
+        if way.shared:
+            why = "redundant pairs share the load in an unknown ratio; declare `share` or `loads`"
+        elif way.ahead and way.back:
+            # the direction with more loads is assumed; with equal numbers neither is preferred
+            ways = sorted([(-len(way.ahead), first, second, way.ahead), (-len(way.back), second, first, way.back)])
+            (more, likely, other, most), (less, *_, rest) = ways
+            driver = likely if more < less else driver
+            flows = f"from {likely} to {other} for {group_text(most)}, and back for {group_text(rest)}"
+            why = f"{way.note}power flows {flows}; declare `loads`"
+        elif way:
+            source = " and ".join(sorted(power_inputs(self.setting)))
+            text = f"{way.note}power flow {source} -> {group_text(way.ahead or way.back)}"
+            return MeshDriver(first if way.ahead else second, text)
+        elif (turn := self.setting.turn(circuit)) is None:
+            why = "the relative speed of its two sides is not determined"
+        elif turn:
+            why = "no power flows through it"
+        else:
+            what = "its driven side only oscillates" if circuit.swings else "its two sides have no relative motion"
+            why = f"{what}, so no power flows on average"
+        return MeshDriver(driver, f"undetermined: {why}", False)
 
     @cached_property
     def _idle(self) -> Collection[str]:
-        """Pairs that transmit no load, so that their efficiencies are not required. They are determined only if the
-        computation of efficiencies requires teeth.
-        """
+        """Names of the pairs that transmit no torque under the declared loads; empty if no pair has teeth."""
         return find_idle_pairs(self.setting) if self.setting.meshes else ()
 
     @cached_property
@@ -156,85 +159,49 @@ class _Drivers:
         if not self.setting.train.is_loaded(self.setting.case.state):
             return {}
         loaded = find_torques(self.setting, flows_only=True)
-        return _under_loads(loaded) if loaded.verdict else {}
+        if not loaded.verdict:
+            return {}
+        why = "power flow under the loads"
+        if loaded.verdict.kind == "ambiguous":
+            why += ", in the pattern with minimum loss"
+        pairs = {name: pair for name, pair in loaded.pairs.items() if pair.driver and not pair.loose}
+        return {name: MeshDriver(pair.driver, why) for name, pair in pairs.items()}
 
     @cached_property
     def _ways(self) -> Mapping[str, FlowDirections]:
-        rest = (circuit for name, circuit in self.circuits.items() if name not in self.declared)
-        return _ways(self.setting, {circuit.id for circuit in rest if self.setting.turn(circuit)})
-
-
-def _under_loads(loaded: Torques) -> dict[str, MeshDriver]:
-    why = "power flow under the loads"
-    if loaded.verdict.kind == "ambiguous":
-        why += ", in the pattern with minimum loss"
-    return {name: MeshDriver(pair.driver, why) for name, pair in loaded.pairs.items() if pair.driver and not pair.loose}
+        """Directions in which assumed resistances drive power through each pair without a declared driver."""
+        setting, found, note = self.setting, dict[str, FlowDirections](), ""
+        left = {name for name, each in self.circuits.items() if name not in self.declared and setting.turn(each)}
+        for loads, missed in _resistances(setting):
+            if not left:
+                break
+            if loads:
+                ways = {name: way for name, way in _directions(setting, loads).items() if way and name in left}
+                found |= {name: way._replace(note=note) for name, way in ways.items()}
+                left -= ways.keys()
+                note = f"{missed} takes power through it; " if missed else note
+        return found
 
 
 # ----------------------------------------------------------------------------------------------- assumed resistances
 
 
-def _ways(setting: LoadCase, wanted: Collection[str]) -> dict[str, FlowDirections]:
-    """Return the directions of power through the pairs in `wanted`, by pair, assuming resistance at pointers, outputs,
-    shafts or joints.
+def _resistances(setting: LoadCase) -> Iterator[tuple[UnitLoads, str]]:
+    """Yield groups of assumed unit loads that oppose the motion, in order of precedence, each with the phrase that
+    names them in a note on pairs without power.
     """
-    found: dict[str, FlowDirections] = {}
-    note = ""
-    for loads, missed in _RESISTING:
-        left = {name for name in wanted if name not in found}
-        if not left or not (resisting := loads(setting)):
-            continue
-        found |= {name: way._replace(note=note) for name, way in _directions(setting, resisting).items()
-                  if way and name in left}  # fmt: skip
-        note = f"{missed} takes power through it; " if missed else note
-    return found
-
-
-def _pointers(setting: LoadCase) -> UnitLoads:
-    """Return a unit load at every output with a dial, which opposes the motion of the output."""
-    outputs = setting.case.outputs
-    return {name: drag for name, drag in _outputs(setting).items() if outputs[name].dial is not None}
-
-
-def _output_shafts(setting: LoadCase) -> UnitLoads:
-    """Return a unit load at every output shaft that turns in the frame, which opposes its motion.
-
-    Outputs on carriers, or relative to a carrier, are treated as displays that take no power.
-    """
-    frame = setting.train.frame
-    ends = {name: output.links(name, frame) for name, output in setting.case.outputs.items()}
+    frame, declared = setting.train.frame, setting.case.outputs
+    ends = {name: output.links(name, frame) for name, output in declared.items()}
+    outputs = {name: drag for name, (of, base) in ends.items() if (drag := drag_torques(setting, of, base))}
+    yield {name: drag for name, drag in outputs.items() if declared[name].dial is not None}, "no dial"
+    # outputs on carriers, or relative to a carrier, are displays that take no power
     outer = {name for name, (of, base) in ends.items() if base == frame == setting.bearer(of)}
-    return {name: drag for name, drag in _outputs(setting).items() if name in outer}
-
-
-def _outputs(setting: LoadCase) -> UnitLoads:
-    """Return a unit load at every output, which opposes the motion of the output."""
-    frame = setting.train.frame
-    ends = {name: output.links(name, frame) for name, output in setting.case.outputs.items()}
-    return {name: drag for name, (of, base) in ends.items() if (drag := drag_torques(setting, of, base))}
-
-
-def _shafts(setting: LoadCase) -> UnitLoads:
-    """Return a unit load at every link that turns in the frame, which opposes the motion of the link."""
-    return {link: drag for link, drag in _joints(setting).items() if setting.bearer(link) == setting.train.frame}
-
-
-def _joints(setting: LoadCase) -> UnitLoads:
-    """Return a unit load at every link, which opposes its rotation in its bearing."""
-    links = (link for link in setting.train.links if link != setting.train.frame)
-    return {link: drag for link in links if (drag := drag_torques(setting, link, setting.bearer(link)))}
-
-
-_RESISTING: Sequence[tuple[Callable[[LoadCase], UnitLoads], str]] = (
-    (_pointers, "no dial"),
-    (_output_shafts, "no output shaft"),
-    (_outputs, "no output"),
-    (_shafts, ""),
-    (_joints, ""),
-)
-"""Kinds of assumed resistance in order of precedence. Each has the subject of a note on pairs that transmit no power to
-such loads.
-"""
+    yield {name: drag for name, drag in outputs.items() if name in outer}, "no output shaft"
+    yield outputs, "no output"
+    bearers = {link: setting.bearer(link) for link in setting.train.links if link != frame}
+    joints = {link: drag for link, bearer in bearers.items() if (drag := drag_torques(setting, link, bearer))}
+    yield {link: drag for link, drag in joints.items() if bearers[link] == frame}, ""
+    yield joints, ""
 
 
 def drag_torques(setting: LoadCase, of: str, base: str) -> dict[str, Fraction]:
@@ -251,9 +218,9 @@ def drag_torques(setting: LoadCase, of: str, base: str) -> dict[str, Fraction]:
 
 
 def _directions(setting: LoadCase, loads: UnitLoads) -> dict[str, FlowDirections]:
-    """Return the directions of power in every pair for all combinations of the loads with positive factors."""
+    """Return the directions of power flow in each pair under all positive combinations of the loads, by pair."""
     found: dict[str, FlowDirections] = {}
-    for requested in _sources(setting) if loads else ():
+    for requested in _sources(setting):
         like = equal_planets(build_balance(setting, {}, requested))
         spread = {name: _spread(each, like) for name, each in loads.items()}
         loaded = sorted({like.get(link, (link,))[0] for each in spread.values() for link in each})
@@ -265,11 +232,7 @@ def _directions(setting: LoadCase, loads: UnitLoads) -> dict[str, FlowDirections
 
 
 def _sources(setting: LoadCase) -> Iterator[tuple[str, ...]]:
-    """Yield the possible sets of links with unknown torque. The number of links in each set equals the number of
-    inputs.
-
-    If the crank is not an input, the sets are all combinations of the crank with further links.
-    """
+    """Yield each possible choice of the links with unknown torque, whose number equals the number of inputs."""
     links, inputs = power_inputs(setting), tuple(setting.case.inputs)
     if len(links) == 1 and not setting.speeds.get(links[0]):
         links = inputs  # the crank is at rest and passes no power
@@ -280,8 +243,8 @@ def _sources(setting: LoadCase) -> Iterator[tuple[str, ...]]:
 
 
 def _spread(load: Mapping[str, Fraction], like: Mapping[str, tuple[str, ...]]) -> dict[str, Fraction]:
-    """Return a load that is repeated on all planets equal to the loaded planet. The torque on other links is multiplied
-    by the number of these planets.
+    """Return a load [N m] that acts on all equal planets instead of one, with the torques on all other links multiplied
+    by the number of planets.
     """
     most = max((len(like.get(link, (link,))) for link in load), default=1)
     return {
@@ -291,43 +254,9 @@ def _spread(load: Mapping[str, Fraction], like: Mapping[str, tuple[str, ...]]) -
     }
 
 
-# ------------------------------------------------------------------------------------------------------------- verdicts
-
-
-def _driver_of(setting: LoadCase, circuit: Circuit, way: FlowDirections, source: str) -> MeshDriver:
-    first, second = circuit.wheels
-    if way.shared:
-        why = "redundant pairs share the load in an unknown ratio; declare `share` or `loads`"
-        return _open(setting, circuit, why)
-    if way.ahead and way.back:
-        # the direction with more loads is assumed; with equal numbers neither is preferred
-        ways = sorted([(-len(way.ahead), first, second, way.ahead), (-len(way.back), second, first, way.back)])
-        (more, likely, other, most), (less, *_, rest) = ways
-        flows = f"from {likely} to {other} for {group_text(most)}, and back for {group_text(rest)}"
-        found = _open(setting, circuit, f"{way.note}power flows {flows}; declare `loads`")
-        return replace(found, wheel=likely) if more < less else found
-    if way:
-        source_text = f"{way.note}power flow {source} -> {group_text(way.ahead or way.back)}"
-        return MeshDriver(first if way.ahead else second, source_text)
-    turn = setting.turn(circuit)
-    if turn is None:
-        return _open(setting, circuit, "the relative speed of its two sides is not determined")
-    if not turn:
-        what = "its driven side only oscillates" if circuit.swings else "its two sides have no relative motion"
-        return _open(setting, circuit, f"{what}, so no power flows on average")
-    return _open(setting, circuit, "no power flows through it")
-
-
-def _open(setting: LoadCase, circuit: Circuit, why: str) -> MeshDriver:
-    return MeshDriver(_assumed_driver(setting.train, circuit), f"undetermined: {why}", False)
-
-
 def _assumed_driver(train: Train, circuit: Circuit) -> str:
-    """Return the assumed driver of a pair whose driver is undetermined: the declared driving link of a coupling, or the
-    wheel with fewer teeth.
-
-    An external wheel takes precedence over a ring gear. If tooth counts are equal, the wheel whose name is first in
-    alphabetical order is chosen.
+    """Return the assumed driver of a pair: the declared driving link of a coupling, the external wheel of a ring gear,
+    the wheel with fewer teeth, or, for equal tooth counts, the wheel whose name is first in alphabetical order.
     """
     if circuit.kind != "gear":
         return circuit.j

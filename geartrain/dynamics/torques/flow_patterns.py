@@ -9,7 +9,7 @@ the result is marked as not exhaustively checked.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import chain, product
@@ -73,16 +73,11 @@ class FlowPattern:
 
 @dataclass
 class _Partial:
-    """Solution of the first blocks of the balance: driving sides and torques by column, and the sum of the torques in
-    each row.
-    """
+    """Solution of the first blocks of the balance: driving sides and torques by column, sums of torques by row."""
 
     sides: dict[int, int]
     values: Values
     rows: dict[int, Fraction]
-
-    def copy(self) -> _Partial:
-        return _Partial(dict(self.sides), dict(self.values), dict(self.rows))
 
 
 def find_flow_patterns(balance: TorqueBalance) -> tuple[tuple[FlowPattern, ...], bool]:
@@ -99,9 +94,8 @@ def find_flow_patterns(balance: TorqueBalance) -> tuple[tuple[FlowPattern, ...],
 
 
 def _solve_blocks(balance: TorqueBalance, blocks: Sequence[Block]) -> tuple[list[_Partial], bool] | None:
-    """Return all combinations of the solutions of the blocks, and True if all patterns of power flow were tried.
-
-    The result is None if a block does not determine a torque that a later block may require or determine.
+    """Return all combinations of the solutions of the blocks, and True if all directions of power flow were tried; None
+    if a block leaves a torque undetermined that a later block requires.
     """
     partials, complete = [_Partial({}, {}, dict(balance.rows))], True
     for block in blocks:
@@ -112,28 +106,22 @@ def _solve_blocks(balance: TorqueBalance, blocks: Sequence[Block]) -> tuple[list
             # an undetermined torque may be determined by a later block
             if block is not blocks[-1] and any(value is None for _, values in found for value in values.values()):
                 return None
-            followed += _branches(balance.columns, partial, found)
+            for at, (sides, values) in enumerate(found):
+                # the last solution extends the partial solution in place
+                branch = partial
+                if at + 1 < len(found):
+                    branch = _Partial(dict(partial.sides), dict(partial.values), dict(partial.rows))
+                branch.sides.update(sides)
+                branch.values.update(values)
+                for column, value in values.items():
+                    if value:
+                        for row, coefficient in balance.columns[column].pieces[sides[column]].items():
+                            if row in branch.rows:
+                                branch.rows[row] += coefficient * value
+                followed.append(branch)
         complete &= len(followed) <= _MOST_FLOWS
         partials = followed[:_MOST_FLOWS]
     return partials, complete
-
-
-def _branches(
-    columns: Sequence[TorqueUnknown], partial: _Partial, found: Sequence[tuple[Sides, Values]]
-) -> Iterator[_Partial]:
-    """Yield `partial` extended by each solution of one block. The last item is `partial` itself, which is changed in
-    place.
-    """
-    for at, (sides, values) in enumerate(found):
-        branch = partial.copy() if at + 1 < len(found) else partial
-        branch.sides.update(sides)
-        branch.values.update(values)
-        for column, value in values.items():
-            if value:
-                for row, coefficient in columns[column].pieces[sides[column]].items():
-                    if row in branch.rows:
-                        branch.rows[row] += coefficient * value
-        yield branch
 
 
 def _flow(balance: TorqueBalance, partial: _Partial) -> FlowPattern:
@@ -166,10 +154,8 @@ def _flow(balance: TorqueBalance, partial: _Partial) -> FlowPattern:
 def _solutions(
     columns: Sequence[TorqueUnknown], block: Block, rows: Mapping[int, Fraction]
 ) -> tuple[list[tuple[Sides, Values]], bool]:
-    """Return all consistent combinations of driving sides and torques of one block, and True if all combinations of
-    sides were tried.
-    """
-    known = {row: rows[row] for row in block.rows}
+    """Return the driving sides and torques of all solutions of one block, and True if all sides were tried."""
+    known: KnownTorques = {row: {_KNOWN: rows[row]} if rows[row] else {} for row in block.rows}
     lossy = [column for column in block.columns if len(columns[column].sides) > 1]
     base = {column: columns[column].sides[0] for column in block.columns}
     if not any(known.values()):
@@ -194,10 +180,10 @@ def _solutions(
 
 
 def _is_consistent(
-    columns: Sequence[TorqueUnknown], block: Block, sides: Sides, values: Values, known: Mapping[int, Fraction]
+    columns: Sequence[TorqueUnknown], block: Block, sides: Sides, values: Values, known: KnownTorques
 ) -> bool:
-    """Return True if power flows in the assumed directions, equation (7), for at least one choice of the undetermined
-    torques.
+    """Return True if power flows in the assumed directions, equation (7) of docs/torques.md, for at least one choice of
+    the undetermined torques.
     """
     if not all(columns[column].admits(sides[column], value or Fraction(0)) for column, value in values.items()):
         return False
@@ -208,7 +194,7 @@ def _is_consistent(
     ]
     if not bound:
         return True
-    solved = eliminate_block(columns, block, sides, _forms(known)).forms()
+    solved = eliminate_block(columns, block, sides, known).forms()
     demands: list[LinearForm] = []
     for column in bound:
         form = solved.get(column, {column: Fraction(1)})
@@ -220,28 +206,19 @@ def _is_consistent(
     return feasible(demands, _KNOWN)
 
 
-def _solve(
-    columns: Sequence[TorqueUnknown], block: Block, sides: Sides, known: Mapping[int, Fraction]
-) -> Values | None:
-    """Return all torques of a block, by column; None if no torques balance the known torques."""
-    found = solve_block(columns, block, sides, _forms(known))
+def _solve(columns: Sequence[TorqueUnknown], block: Block, sides: Sides, known: KnownTorques) -> Values | None:
+    """Return the torques of one block, by column, for given driving sides; None if none balance the known ones."""
+    found = solve_block(columns, block, sides, known)
     if found is None:
         return None
     return {column: None if form is None else form.get(_KNOWN, Fraction(0)) for column, form in found.items()}
 
 
-def _forms(known: Mapping[int, Fraction]) -> dict[int, LinearForm]:
-    return {row: {_KNOWN: value} if value else {} for row, value in known.items()}
-
-
 def _iterate(
-    columns: Sequence[TorqueUnknown], block: Block, lossy: Sequence[int], base: Sides, known: Mapping[int, Fraction]
+    columns: Sequence[TorqueUnknown], block: Block, lossy: Sequence[int], base: Sides, known: KnownTorques
 ) -> Sides | None:
-    """Return a consistent pattern found by fixed-point iteration from the lossless solution; None if it does not
-    converge.
-
-    In each iteration, the assumed direction of power flow is reversed for every mesh in which power flows in the
-    opposite direction. The iteration ends if no such mesh remains, or if a pattern repeats.
+    """Return driving sides that agree with the torques, found from the lossless solution by reversing all sides that do
+    not agree; None if sides repeat.
     """
     sides: Sides = {**base, **dict.fromkeys(lossy, 0)}
     seen: list[Sides] = []

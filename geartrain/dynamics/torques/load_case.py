@@ -35,9 +35,20 @@ class VirtualMotion:
     power: Fraction
 
 
-def speed_forms(system: WillisSystem) -> dict[str, LinearForm]:
-    """Return the speed of every link as a linear form in the free speeds and the column `PRESCRIBED`."""
-    return _forms(system.links, system.equations)
+def speed_forms(links: Iterable[str], rows: Iterable[WillisEquation]) -> dict[str, LinearForm]:
+    """Return the speed of every link as a linear form in the free speeds and the column `PRESCRIBED`.
+
+    rows   equations of the Willis system to be satisfied
+    """
+    at = {link: number for number, link in enumerate(links)}
+    held: list[LinearForm] = []
+    for row in rows:
+        form: LinearForm = {at[link]: Fraction(coefficient) for link, coefficient in row.terms}
+        if row.right:
+            form[PRESCRIBED] = -row.right
+        held.append(form)
+    found = eliminate(held).forms()
+    return {link: found.get(number, {number: Fraction(1)}) for link, number in at.items()}
 
 
 def unbalanced_motions(
@@ -49,7 +60,7 @@ def unbalanced_motions(
     still   links with unknown torques; the links are at rest in all these motions, so that their torques do no work
     """
     held = [WillisEquation(f"still {link}", "fixed", ((link, 1),)) for link in still]
-    forms = _forms(system.links, [*(row for row in system.equations if row.kind != "input"), *held])
+    forms = speed_forms(system.links, [*(row for row in system.equations if row.kind != "input"), *held])
     found = []
     # one motion for each free speed, with the other free speeds 0
     for column in sorted({column for form in forms.values() for column in form}):
@@ -76,18 +87,6 @@ def balancing_torque(motions: Sequence[VirtualMotion], link: str) -> Fraction | 
     return found
 
 
-def _forms(links: Iterable[str], rows: Iterable[WillisEquation]) -> dict[str, LinearForm]:
-    at = {link: number for number, link in enumerate(links)}
-    held: list[LinearForm] = []
-    for row in rows:
-        form: LinearForm = {at[link]: Fraction(coefficient) for link, coefficient in row.terms}
-        if row.right:
-            form[PRESCRIBED] = -row.right
-        held.append(form)
-    found = eliminate(held).forms()
-    return {link: found.get(number, {number: Fraction(1)}) for link, number in at.items()}
-
-
 _ONE = Fraction(1)  # efficiency without loss
 
 
@@ -106,9 +105,7 @@ class MeanEfficiencies:
 
     @property
     def differ(self) -> bool:
-        """True if the efficiency depends on whether the torque of the driver or the torque of the driven link is
-        constant.
-        """
+        """True if the efficiency depends on which torque is constant, that of the driver or of the driven link."""
         return self.driver != self.load
 
     def given(self, side: int, driving: bool) -> tuple[Fraction, Fraction]:
@@ -179,9 +176,7 @@ class LoadCase:
         return dict.fromkeys(self.tree.lines, TRAVEL_ARM)
 
     def axis_labels(self, circuit: Circuit) -> tuple[str, str]:
-        """Return the labels of the axes of a circuit's first and second link, about which they turn relative to its
-        carrier.
-        """
+        """Return the labels of the axes about which a circuit's first and second link turn on its carrier."""
         seen_from = self.tree.axis_seen_from
         return seen_from(circuit.carrier, circuit.i), seen_from(circuit.carrier, circuit.j)
 
@@ -196,9 +191,7 @@ class LoadCase:
         return tuple(link for link in self.train.links if link not in self.speeds)
 
     def sense(self, link: str) -> int:
-        """Return -1 if the link's axis points against the reference direction of its parallel axes, and 1 if it does
-        not.
-        """
+        """Return -1 if the link's axis points against the reference direction of its parallel axes, else 1."""
         return self.signs.get(link, 1)
 
     def relative(self, link: str, carrier: str) -> Fraction | None:
@@ -230,9 +223,7 @@ class LoadCase:
         return friction is not None and friction.has_friction
 
     def bearer(self, link: str) -> str:
-        """Return the link that carries the axis of `link`. It does not depend on the order in which coaxial joints are
-        declared.
-        """
+        """Return the link that carries the axis of `link`, in whatever order coaxial joints are declared."""
         return self.tree.top.get(link, link)
 
     def reacts_on(self, link: str) -> str:
@@ -282,17 +273,10 @@ class LoadCase:
 
     @cached_property
     def _rubbing(self) -> Mapping[tuple[str, str], Fraction]:
-        """Positive friction torques of bearings that do not depend on the load, by link and the link that
-        carries it.
-        """
-        own = (
-            (link, self.tree.borne_by(link), friction) for link in self.train.links if (friction := self.bearing(link))
-        )
-        jumpers = (
-            (each.i, each.carrier, self.couplings[each.id].friction_torque)
-            for each in self.circuits
-            if each.kind != "gear"
-        )
+        """Positive load-independent friction torques of bearings, by link and the link that carries it."""
+        own = [(link, self.tree.borne_by(link), self.bearing(link)) for link in self.train.links if self.bearing(link)]
+        couplings = (each for each in self.circuits if each.kind != "gear")
+        jumpers = ((each.i, each.carrier, self.couplings[each.id].friction_torque) for each in couplings)
         found: dict[tuple[str, str], Fraction] = {}
         for link, carrier, friction in (*own, *jumpers):
             if friction:
@@ -302,9 +286,7 @@ class LoadCase:
     def bearing(self, link: str) -> Fraction:
         """Return the friction torque of a link's bearing [N m, or a number without a unit]; 0 if none is declared."""
         friction = self.train.links[link].bearing
-        if friction is None or link == self.train.frame:
-            return Fraction(0)
-        return friction.sliding.base
+        return Fraction(0) if friction is None or link == self.train.frame else friction.sliding.base
 
 
 def power_inputs(setting: LoadCase) -> tuple[str, ...]:

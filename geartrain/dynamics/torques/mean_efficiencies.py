@@ -1,10 +1,7 @@
-"""Mean efficiency of a pair. It is declared, or computed from the pair's teeth or pin by equations (17) to (20) of
-docs/torques.md.
+"""Mean efficiency of a pair, declared or computed from its teeth or pin by equations (17) to (20) of docs/torques.md.
 
-Over a revolution, the torques on the two links of a pair cannot both be constant. Let tau be the speed ratio and eta
-the efficiency at each position. If the driver's torque is constant, the mean efficiency is mean(eta). If the driven
-side's torque is constant, it is mean(tau)/mean(tau/eta). A torque is constant if it follows from the balance of its own
-link only.
+With the speed ratio tau and the efficiency eta at each position, the mean efficiency is mean(eta) if the driver's
+torque is constant, and mean(tau)/mean(tau/eta) if the driven side's torque is constant.
 """
 
 from __future__ import annotations
@@ -17,7 +14,7 @@ from math import cos, radians, tan
 from geartrain.dynamics.gear_meshes import PinMesh
 from geartrain.dynamics.pair_speeds import at_speed, pitch_line_speed
 from geartrain.dynamics.torques.load_case import LoadCase, MeanEfficiencies
-from geartrain.dynamics.torques.torque_balance import LoadedPair, TorqueBalance
+from geartrain.dynamics.torques.torque_balance import TorqueBalance
 from geartrain.kinematics.circuits import Circuit
 from geartrain.teeth.pair_results import SlidingEfficiency
 
@@ -39,7 +36,7 @@ def find_mean_efficiencies(setting: LoadCase, circuit: Circuit) -> MeanEfficienc
 
 
 def _of_circuit(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
-    """Return the efficiencies of a circuit. They are 1 if no loss is declared or if dimensions are unknown."""
+    """Return the mean efficiencies of a pair; 1 if no loss is declared or if required dimensions are unknown."""
     if circuit.kind != "gear":
         return _of_coupling(setting, circuit)
     gear = setting.gears[circuit.id]
@@ -61,9 +58,7 @@ def _of_circuit(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
 
 
 def _of_screw(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies | None:
-    """Return the efficiencies of a worm drive or of crossed helical gears; None if the helix angles or the friction are
-    unknown.
-    """
+    """Return the mean efficiencies of a worm drive or crossed helical gears; None without helix angles or friction."""
     gear = setting.gears[circuit.id]
     friction = setting.train.friction_of(gear)
     if friction is None or friction.sliding is None:
@@ -80,9 +75,7 @@ def _of_screw(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies | None:
 
 
 def _of_coupling(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
-    """Return the efficiencies of a coupling; the first value is for the declared driven link as the driver. They are 1
-    for a pin follower, whose mean power is 0.
-    """
+    """Return the mean efficiencies of a coupling, first with its driven link as driver; 1 for a pin follower."""
     coupling = setting.couplings[circuit.id]
     if (losses := coupling.losses) is not None and circuit.b:
         both = losses.backward.base, losses.forward.base
@@ -100,9 +93,7 @@ def _of_both(ahead: SlidingEfficiency, back: SlidingEfficiency) -> MeanEfficienc
 
 
 def _mean(efficiency: float | None) -> Fraction:
-    """Return a mean efficiency as a fraction with 15 digits. Return 0 for None, which means that friction locks the
-    pair.
-    """
+    """Return a mean efficiency as a fraction with 15 digits; 0 if it is None because friction locks the pair."""
     if efficiency is None:
         return Fraction(0)
     # rounding in the quadrature may exceed 1 slightly; decimal digits keep 0.98 equal to 49/50
@@ -119,20 +110,17 @@ def apply_mean_efficiencies(
     """
     if not any(each.differ for each in means.values()):
         return balance, ()
-    given = _given(balance)
-    meshes = tuple(_with(mesh, means[mesh.id], given.get(mesh.id, 0), driving) for mesh in balance.meshes)
+    given, meshes = _given(balance), []
+    for mesh in balance.meshes:
+        forward, backward = means[mesh.id].given(given.get(mesh.id, 0), driving)
+        meshes.append(replace(mesh, forward=forward, backward=backward))
     neither = tuple(mesh.id for mesh in meshes if means[mesh.id].differ and not given.get(mesh.id))
-    return replace(balance, meshes=meshes), neither
-
-
-def _with(mesh: LoadedPair, means: MeanEfficiencies, side: int, driving: bool) -> LoadedPair:
-    forward, backward = means.given(side, driving)
-    return replace(mesh, forward=forward, backward=backward)
+    return replace(balance, meshes=tuple(meshes)), neither
 
 
 def _given(balance: TorqueBalance) -> dict[str, int]:
-    """Return 1 or -1 for each pair whose torque follows from the balance of one of its links: 1 for the first link, -1
-    for the second link.
+    """Return, for each pair with a constant torque, 1 if this torque acts on the first link and -1 if it acts on the
+    second link, by pair.
     """
     found: dict[str, int] = {}
     for block in balance.parts:
@@ -140,14 +128,12 @@ def _given(balance: TorqueBalance) -> dict[str, int]:
         if len(block.rows) != 1 or len(block.columns) != 1 or block.rows[0] >= len(balance.links):
             continue
         link, column = balance.links[block.rows[0]], balance.columns[block.columns[0]]
-        side = next((_side(mesh, link) * mesh.turn for mesh in column.meshes if link in mesh.links), 0)
+        first = next((mesh for mesh in column.meshes if link in mesh.links), None)
+        # the carrier is neither the first nor the second link
+        side = 0 if first is None else {first.links[0]: 1, first.links[1]: -1}.get(link, 0) * first.turn
         # equal planets share one unknown torque, and may name their wheels in different orders
         found |= {mesh.id: side * mesh.turn for mesh in column.meshes}
     return found
-
-
-def _side(mesh: LoadedPair, link: str) -> int:
-    return {mesh.links[0]: 1, mesh.links[1]: -1}.get(link, 0)
 
 
 # ------------------------------------------------------------------------------------------------------------ skew axes

@@ -42,9 +42,16 @@ def find_neglected_effects(
     loose     pairs whose torque is undetermined
     """
     busy = [circuit for circuit in setting.circuits if circuit.id not in set(idle)]
-    found = [*_pins(setting, busy), *_teeth(setting, busy, means), *_open(setting, busy, means)]
+    found = [*_pins(setting, busy), *_teeth(setting, busy, means)]
+    open_ = [circuit.id for circuit in busy if setting.turn(circuit) is None]
+    # pairs whose friction depends on the speed of their teeth
+    laws = {name for name, mesh in setting.meshes.items() if mesh.wheels.friction_law is not None}
+    laws = {name for name in laws if setting.gears[name].efficiency is None}
+    if lossy := tuple(name for name in open_ if means[name] != MeanEfficiencies() or name in laws):
+        why = "their driving side depends on speeds that are not determined"
+        found.append(NeglectedEffect("losses of pairs", lossy, why))
     found += _of_couplings(setting, busy)
-    found += _bearings(setting) if bearings else _all_bearings(setting)
+    found += _bearings(setting, bearings)
     shared = tuple(circuit.id for circuit in busy if circuit.id in set(neither))
     if shared:
         why = (
@@ -53,7 +60,10 @@ def find_neglected_effects(
         )
         found.append(NeglectedEffect("mean efficiency", shared, why))
     found += [] if loads is None else unknown_forces(loads, idle, loose)
-    return (*found, *_drag(setting), *_variation(setting, busy), *_inertia(setting))
+    if links := tuple(link for link, part in setting.train.links.items() if part.drag is not None and part.drag.value):
+        why = "it depends on speed: torques over a turn include it if speeds have units"
+        found.append(NeglectedEffect("viscous drag", links, why))
+    return (*found, *_variation(setting, busy), *_inertia(setting))
 
 
 def unknown_forces(
@@ -73,14 +83,6 @@ def unknown_forces(
         yield NeglectedEffect("moments of weights", lifted, why)
 
 
-def _drag(setting: LoadCase) -> Iterator[NeglectedEffect]:
-    """Yield the effect of the viscous drag on links, which is not included in a balance of exact mean torques."""
-    if links := tuple(link for link, part in setting.train.links.items() if part.drag is not None and part.drag.value):
-        yield NeglectedEffect(
-            "viscous drag", links, "it depends on speed: torques over a turn include it if speeds have units"
-        )
-
-
 def neglected_over_turn(setting: LoadCase, at_means: Sequence[str]) -> tuple[NeglectedEffect, ...]:
     """Return the effects that are neglected in the torques at all positions of a revolution.
 
@@ -89,7 +91,7 @@ def neglected_over_turn(setting: LoadCase, at_means: Sequence[str]) -> tuple[Neg
     at_means   pairs with a declared tooth form for which the mean efficiency is used at all positions
     """
     found = [
-        *_pins_without_dimensions(setting, setting.circuits),
+        *_pins(setting, setting.circuits, over_turn=True),
         *_teeth(setting, setting.circuits, all_mean_efficiencies(setting)),
         *_of_couplings(setting, setting.circuits),
         *_inertia(setting),
@@ -102,13 +104,18 @@ def neglected_over_turn(setting: LoadCase, at_means: Sequence[str]) -> tuple[Neg
     return tuple(found)
 
 
-def _pins(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
-    """Yield the effect of the friction of pin followers, and of pins in slots without declared dimensions."""
-    bearing_friction = _rubbing_pins(setting, busy)
-    if swinging := tuple(circuit.id for circuit in bearing_friction if not circuit.b):
-        why = "a follower only oscillates and transmits no mean power, so its friction has no efficiency"
-        yield NeglectedEffect("friction of pins", swinging, why)
-    yield from _pins_without_dimensions(setting, [circuit for circuit in bearing_friction if circuit.b])
+def _pins(setting: LoadCase, busy: Sequence[Circuit], over_turn: bool = False) -> Iterator[NeglectedEffect]:
+    """Yield the neglected friction of pin followers, whose mean power is 0, and of pins without dimensions."""
+    pins = {pin.name for pin in setting.train.pin_couplings if setting.has_friction(pin)}
+    rubbing = [circuit for circuit in busy if circuit.id in pins]
+    if not over_turn:
+        if swinging := tuple(circuit.id for circuit in rubbing if not circuit.b):
+            why = "a follower only oscillates and transmits no mean power, so its friction has no efficiency"
+            yield NeglectedEffect("friction of pins", swinging, why)
+        rubbing = [circuit for circuit in rubbing if circuit.b]
+    if bare := tuple(circuit.id for circuit in rubbing if circuit.id not in setting.joints):
+        why = "it depends on `pin_radius` and `offset`, which are not declared"
+        yield NeglectedEffect("friction of pins", bare, why)
 
 
 def _of_couplings(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
@@ -120,24 +127,10 @@ def _of_couplings(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[Neglec
     yield from (NeglectedEffect(what, tuple(names), why) for (what, why), names in named.items())
 
 
-def _pins_without_dimensions(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
-    if bare := tuple(circuit.id for circuit in _rubbing_pins(setting, busy) if circuit.id not in setting.joints):
-        why = "it depends on `pin_radius` and `offset`, which are not declared"
-        yield NeglectedEffect("friction of pins", bare, why)
-
-
-def _rubbing_pins(setting: LoadCase, busy: Sequence[Circuit]) -> list[Circuit]:
-    """Return the circuits of pins that have friction."""
-    pins = {pin.name for pin in setting.train.pin_couplings if setting.has_friction(pin)}
-    return [circuit for circuit in busy if circuit.id in pins]
-
-
 def _teeth(
     setting: LoadCase, busy: Sequence[Circuit], means: Mapping[str, MeanEfficiencies]
 ) -> Iterator[NeglectedEffect]:
-    """Yield the effect of friction that is declared for teeth without a tooth form, or for worms with an unknown helix
-    angle.
-    """
+    """Yield the effect of friction declared for teeth without a tooth form, or for worms of unknown helix angle."""
     bare: dict[str, list[str]] = {_NO_FORM: [], _NO_HELIX: [], _NO_SLIDING: []}
     for circuit in busy:
         gear, mesh = setting.gears.get(circuit.id), setting.meshes.get(circuit.id)
@@ -156,50 +149,26 @@ def _teeth(
 
 
 def _slides(setting: LoadCase, circuit: Circuit) -> bool:
-    """Return True if a pair is a worm drive or a crossed helical pair, for which tooth forms do not give a mean
-    loss.
-    """
+    """Return True for a worm drive or crossed helical gears, whose teeth slide along their length."""
     wheels = [setting.train.wheels[name][1] for name in circuit.wheels]
     helical = any(wheel.is_helical for wheel in wheels) and not setting.axes.are_parallel(setting.axis_labels(circuit))
     return helical or any(wheel.kind == "worm" for wheel in wheels)
 
 
-def _open(
-    setting: LoadCase, busy: Sequence[Circuit], means: Mapping[str, MeanEfficiencies]
-) -> Iterator[NeglectedEffect]:
-    """Yield the effect of losses in pairs whose relative speed is undetermined."""
-    found = tuple(
-        circuit.id
-        for circuit in busy
-        if (means[circuit.id] != MeanEfficiencies() or _at_no_speed(setting, circuit)) and setting.turn(circuit) is None
-    )
-    if found:
-        yield NeglectedEffect("losses of pairs", found, "their driving side depends on speeds that are not determined")
-
-
-def _at_no_speed(setting: LoadCase, circuit: Circuit) -> bool:
-    tooth = setting.meshes.get(circuit.id)
-    declared = circuit.kind == "gear" and setting.gears[circuit.id].efficiency is not None
-    return tooth is not None and not declared and tooth.wheels.friction_law is not None
-
-
-def _bearing_friction(setting: LoadCase) -> list[str]:
-    return [link for link in setting.train.links if setting.bearing(link)]
-
-
-def _all_bearings(setting: LoadCase) -> Iterator[NeglectedEffect]:
-    if bearing_friction := _bearing_friction(setting):
-        why = "it does not depend on the load, so it is not part of an efficiency"
-        yield NeglectedEffect("friction of bearings", tuple(bearing_friction), why)
-
-
-def _bearings(setting: LoadCase) -> Iterator[NeglectedEffect]:
-    """Yield the effect of bearings whose sense of rotation is undetermined, or may change within a revolution."""
-    bearing_friction = _bearing_friction(setting)
-    free = tuple(link for link in bearing_friction if setting.relative(link, setting.tree.borne_by(link)) is None)
+def _bearings(setting: LoadCase, included: bool) -> Iterator[NeglectedEffect]:
+    """Yield the neglected friction of bearings: all of it unless `included`, friction of unknown sense, and friction
+    that may reverse within a revolution.
+    """
+    rubbing = tuple(link for link in setting.train.links if setting.bearing(link))
+    if not included:
+        if rubbing:
+            why = "it does not depend on the load, so it is not part of an efficiency"
+            yield NeglectedEffect("friction of bearings", rubbing, why)
+        return
+    free = tuple(link for link in rubbing if setting.relative(link, setting.tree.borne_by(link)) is None)
     if free:
         yield NeglectedEffect("friction of bearings", free, "their sense of rotation is not determined")
-    known = tuple(link for link in bearing_friction if link not in free)
+    known = tuple(link for link in rubbing if link not in free)
     if known and any(circuit.swings for circuit in setting.circuits):
         why = (
             "it is computed at mean speeds; if the speed of a bearing changes its sign within a turn, more is lost: "
@@ -209,7 +178,7 @@ def _bearings(setting: LoadCase) -> Iterator[NeglectedEffect]:
 
 
 def _variation(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
-    """Yield the effect of pairs whose torques vary with position within a revolution."""
+    """Yield the neglected variation of torques within a revolution, with the pairs that cause it."""
     found = []
     for circuit in busy:
         tooth = setting.meshes.get(circuit.id)
@@ -225,7 +194,7 @@ def _variation(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[Neglected
 
 
 def _inertia(setting: LoadCase) -> Iterator[NeglectedEffect]:
-    """Yield the effect of the inertia of links that are accelerated by pairs with a variable ratio."""
+    """Yield the neglected inertia of links that variable speed ratios accelerate."""
     heavy = tuple(link for link, part in setting.train.links.items() if part.inertia is not None)
     nonuniform = any(circuit.swings for circuit in setting.circuits)
     if heavy and (nonuniform or any(not tooth.rigid for tooth in setting.meshes.values())):

@@ -1,17 +1,9 @@
 """Behaviour of the one-way clutches (freewheels, overrunning clutches, ratchets) of a train in one state.
 
-A clutch between links a and b permits relative rotation in the sense s = 1 (forward) or -1 (backward). It satisfies the
-complementarity conditions s (w_b - w_a) >= 0, s T >= 0 and T (w_b - w_a) = 0, where w are speeds and T is the torque on
-b. The patterns of holding clutches are enumerated. A pattern is rejected if its speeds contradict each other, if the
-slip of an overrunning clutch is not positive (at equal speeds a clutch holds), if a holding clutch transmits a torque
-in the sense in which it overruns, or if the loads set the train in motion. Speeds are exact, and torques include
-declared losses.
-
-If no loads are declared, each output in turn is assumed to resist its rotation. An output that no pattern can drive is
-ignored.
-
-If an oscillating link drives another link stepwise through a clutch, the clutch is regarded as overrunning
-(`SteppedLink`).
+A clutch between links a and b permits relative rotation in the sense s = 1 (forward) or -1 (backward):
+s (w_b - w_a) >= 0, s T >= 0 and T (w_b - w_a) = 0, with speeds w and the torque T on b. The patterns of holding
+clutches are enumerated with exact speeds and with torques that include declared losses. If no loads are declared, each
+output in turn is assumed to resist its rotation.
 """
 
 from __future__ import annotations
@@ -43,9 +35,7 @@ _REJECTED = ("unbalanced", "overrunning")
 
 @dataclass(frozen=True)
 class ClutchPattern:
-    """Set of holding clutches with the resulting prescribed speeds, the load case, and the slip of the overrunning
-    clutches.
-    """
+    """Set of holding clutches with its prescribed speeds, load case, and slip speeds of the overrunning clutches."""
 
     holding: tuple[str, ...]
     case: StateCase
@@ -76,20 +66,6 @@ def decide_case(train: Train, state: str | None) -> StateCase:
         return replace(train.case(state, ()), problems=tuple(error.problems))
 
 
-def can_be_positive(forms: Sequence[LinearForm], column: int) -> bool:
-    """Return True if all linear forms can be positive at the same values of the unknowns.
-
-    column   index of a column that is not used in `forms`, for an additional unknown t
-
-    The constants are multiplied by t >= 1, so that any positive solution can be scaled until all forms are at least 1.
-    """
-    scaled: list[LinearForm] = [{column: Fraction(1), PRESCRIBED: Fraction(-1)}]
-    for form in forms:
-        unknowns = {at: value for at, value in form.items() if at != PRESCRIBED}
-        scaled.append({**unknowns, column: form.get(PRESCRIBED, Fraction(0)), PRESCRIBED: Fraction(-1)})
-    return feasible(scaled)
-
-
 @dataclass(frozen=True)
 class _Decision:
     train: TrainMechanics
@@ -104,7 +80,7 @@ class _Decision:
             return self._answer(self._contradictory(), {}, ())
         chosen = list(dict.fromkeys(each.holding for ways in self._fitting.values() for each in ways))
         if len(chosen) > 1:
-            return self._refused(*self._undecided(chosen))
+            return self._undecided(chosen)
         if not chosen:
             pattern, released = self._released()
             return self._answer(pattern, {}, (f"{_joined(released, 'let')} go under this load",) if released else ())
@@ -139,12 +115,18 @@ class _Decision:
         }
         moves = all(slip is None or slip > 0 for slip in slips.values())
         if moves and setting.forms:
-            moves = can_be_positive(list(forms.values()), len(setting.forms))
+            # the constants are multiplied by a further unknown t >= 1, so that slips above 0 can be scaled beyond 1
+            scale = len(setting.forms)
+            rows: list[LinearForm] = [{scale: Fraction(1), PRESCRIBED: Fraction(-1)}]
+            for form in forms.values():
+                unknowns = {at: value for at, value in form.items() if at != PRESCRIBED}
+                rows.append({**unknowns, scale: form.get(PRESCRIBED, Fraction(0)), PRESCRIBED: Fraction(-1)})
+            moves = feasible(rows)
         return ClutchPattern(holding, case, setting, slips, moves)
 
     def _clutch(self, name: str) -> tuple[Clutch, str, str, int]:
-        """Return a clutch, its first link (the frame for a brake), its second link, and the sense in which it overruns
-        (1 or -1).
+        """Return a one-way clutch, its first and second link (the first link of a brake is the frame), and the sense in
+        which it overruns, 1 or -1.
         """
         clutch = self.train.declaration.clutches[name]
         first, second = clutch.locks or (self.train.declaration.frame, clutch.fixes or "")
@@ -152,7 +134,7 @@ class _Decision:
         return clutch, first, second, sense
 
     def _slip_form(self, setting: LoadCase, name: str, speeds: Mapping[str, LinearForm]) -> LinearForm:
-        """Return the slip of a clutch as a linear form, given the speeds as linear forms."""
+        """Return the slip speed of a clutch as a linear form in the undetermined speeds."""
         _, first, second, sense = self._clutch(name)
         form: LinearForm = {}
         add_into(form, speeds[second], sense)
@@ -161,13 +143,11 @@ class _Decision:
 
     @cached_property
     def _moving(self) -> Sequence[ClutchPattern]:
-        """Patterns whose speeds satisfy the conditions of all clutches."""
+        """Sets of holding clutches at whose speeds no clutch slips in the sense in which it must hold."""
         return [each for each in self._patterns.values() if each.moves]
 
     def _contradictory(self) -> ClutchPattern:
-        """Return a pattern with contradictory speeds. If possible, the contradiction results from locking the clutches
-        that would slip in the wrong sense.
-        """
+        """Return a set of holding clutches with contradictory speeds, if possible those that would slip wrongly."""
         pattern = self._patterns[()]
         while pattern.setting is not None and pattern.stopped:
             held = {*pattern.holding, *pattern.stopped}
@@ -179,8 +159,8 @@ class _Decision:
 
     @cached_property
     def _loads(self) -> Mapping[str, tuple[str, str] | None]:
-        """Loads that are applied one at a time: an output, given by its two links, or None for all declared loads
-        together.
+        """Loads that are considered separately, by name: the link and reference link of an output, or None for all
+        declared loads together.
         """
         declared, case = self.train.declaration, self._patterns[()].case
         if case.loads:
@@ -211,12 +191,12 @@ class _Decision:
 
     @cached_property
     def _fitting(self) -> Mapping[str, Sequence[ClutchPattern]]:
-        """Patterns that satisfy the conditions of all clutches under each load, by load."""
+        """Sets of holding clutches that satisfy the conditions of all clutches under one load, by load."""
         return {load: [each for each in self._moving if self._fits(each, load)] for load in self._loads}
 
     def _released(self) -> tuple[ClutchPattern, tuple[str, ...]]:
-        """Return the pattern with the fewest violations after removing the clutches that cannot hold from it, and the
-        names of these clutches.
+        """Return the set of holding clutches with the fewest violations after clutches that cannot hold are removed
+        from it, and the names of the removed clutches.
         """
         found = []
         for pattern in self._moving:
@@ -230,16 +210,12 @@ class _Decision:
         return self._patterns[tuple(name for name in holding if name not in released)], released
 
     def _members(self, pattern: ClutchPattern, named: set[str]) -> tuple[str, ...]:
-        """Return the holding clutches of a pattern that occur in `named`, which may contain joined names such as `A and
-        B`.
-        """
+        """Return the holding clutches whose names occur in `named`, in which names may be joined: "A and B"."""
         joined = {pattern.case.clutches[links] for links in pattern.case.senses} & named
         return tuple(name for name in pattern.holding if pattern.case.clutches[self._clutch(name)[0].links] in joined)
 
     def _reversed(self, pattern: ClutchPattern, deciding: Mapping[str, Torques | None]) -> Iterator[str]:
-        """Yield a note for each load that would release a clutch if this load drove the train instead of being
-        driven.
-        """
+        """Yield a note for each load that would release a clutch if power entered at the load."""
         for load, forward in deciding.items():
             if forward is None or not pattern.holding:
                 continue
@@ -257,15 +233,14 @@ class _Decision:
     def _answer(
         self, pattern: ClutchPattern, deciding: Mapping[str, Torques | None], notes: tuple[str, ...]
     ) -> StateCase:
-        state = self.state
-        required = () if state is None else self.train.declaration.states[state].engaged
+        required = () if self.state is None else self.train.declaration.states[self.state].engaged
         actions = []
         # if the speeds contradict each other, only the clutches that hold have a meaning
         for name in self.names if pattern.setting is not None else pattern.holding:
-            holds, slip = name in pattern.holding, pattern.slips.get(name)
+            holds = name in pattern.holding
             torque, unit = self._torque(pattern, name, deciding) if holds else (Fraction(0), "")
+            slip = Fraction(0) if holds else pattern.slips.get(name)
             teeth = self._clutch(name)[0].teeth
-            slip = Fraction(0) if holds else slip
             actions.append(OneWayAction(name, holds, slip, torque, unit, name in required, teeth))
         relieved = {each.name for each in actions if each.holds and each.torque == 0}
         return replace(pattern.case, one_way=tuple(actions), notes=(*notes, *self._shared(pattern, relieved)))
@@ -273,16 +248,16 @@ class _Decision:
     def _torque(
         self, pattern: ClutchPattern, name: str, deciding: Mapping[str, Torques | None]
     ) -> tuple[Fraction | None, str]:
-        """Return the torque of a holding clutch on its second link, and the unit of the torque. The torque is None if
-        it depends on which load is applied.
-        """
-        links, found, unit = self._clutch(name)[0].links, set[Fraction | None](), ""
+        """Return the torque of a clutch on its second link, None if it depends on the load, and its unit."""
+        clutch, _, _, sense = self._clutch(name)
+        links, found, unit = clutch.links, set[Fraction | None](), ""
         source = power_inputs(pattern.setting)[:1] if pattern.setting is not None else ()
         for load, torques in deciding.items():
             held = next((each for each in torques.held if each.links == links), None) if torques else None
             if torques is None or held is None or held.torques is None:
                 return None, ""
-            if self._is_relieved(pattern, name, held.torques[-1]):
+            # a brake or lock on the same links transmits what the clutch cannot transmit
+            if links not in pattern.case.senses and sense * held.torques[-1] < 0:
                 return Fraction(0), ""
             if held.clutch != name:
                 return None, ""
@@ -293,15 +268,8 @@ class _Decision:
             unit = f"times the torque of {source[0]}" if source else ""
         return (found.pop(), unit) if len(found) == 1 and None not in found else (None, "")
 
-    def _is_relieved(self, pattern: ClutchPattern, name: str, torque: Fraction) -> bool:
-        """Return True if a brake or lock on the same links transmits a torque that the clutch cannot transmit."""
-        clutch, _, _, sense = self._clutch(name)
-        return clutch.links not in pattern.case.senses and sense * torque < 0
-
     def _shared(self, pattern: ClutchPattern, relieved: Collection[str]) -> Iterator[str]:
-        """Yield notes on clutches that hold the same two links together, and on clutches whose slip varies within a
-        revolution.
-        """
+        """Yield notes on clutches that share an undetermined torque, and on slip speeds that vary in a revolution."""
         case = pattern.case
         for links in dict.fromkeys(self._clutch(name)[0].links for name in pattern.holding):
             clutches = self.train.declaration.clutches
@@ -326,15 +294,12 @@ class _Decision:
     # -------------------------------------------------------------------------------------------------------- refusals
 
     def _refused(self, what: str, why: str, fix: str) -> StateCase:
-        state = self.state
-        place = self.train.declaration.place(*(("clutches",) if state is None else ("states", state)))
+        place = self.train.declaration.place(*(("clutches",) if self.state is None else ("states", self.state)))
         case = self._patterns[()].case
         return replace(case, problems=(*case.problems, Problem(what, why, fix, place)))
 
-    def _undecided(self, chosen: Sequence[tuple[str, ...]]) -> tuple[str, str, str]:
-        """Return the description, the reason and the fix of the problem that several clutch patterns are possible in a
-        state.
-        """
+    def _undecided(self, chosen: Sequence[tuple[str, ...]]) -> StateCase:
+        """Return the case of the state with a problem: which clutches hold depends on the loads."""
         common = set(chosen[0]).intersection(*chosen[1:])
         open_ = [name for name in self.names if any(name in each for each in chosen) and name not in common]
         ways = {
@@ -344,20 +309,12 @@ class _Decision:
         }
         why = "; ".join(f"with a load on {load}: {way}" for load, way in ways.items())
         some = "{" + ", ".join(f"{load}: -1" for load in list(ways)[:1]) + "}"
-        return (
-            f"whether {_joined(open_, 'hold')} depends on the loads",
-            why,
-            f"declare `loads`, such as `loads: {some}`",
-        )
+        what = f"whether {_joined(open_, 'hold')} depends on the loads"
+        return self._refused(what, why, f"declare `loads`, such as `loads: {some}`")
 
     @cached_property
     def _varying(self) -> Mapping[str, Sequence[Circuit]]:
-        """Variable-ratio couplings on which the slip of each clutch depends, by clutch. Clutches that depend on no such
-        coupling are omitted.
-
-        The equation of each coupling is assigned a symbol. A slip depends on the coupling if its expression contains
-        this symbol.
-        """
+        """Couplings with variable ratio on which the slip speed of a clutch depends, by clutch."""
         setting = self._patterns[()].setting
         varying = [each for each in setting.circuits if each.swings] if setting is not None else []
         if setting is None or not varying:
@@ -376,11 +333,13 @@ class _Decision:
 
     @cached_property
     def _swinging(self) -> Sequence[str]:
-        """Names of the clutches that are driven by an oscillating link."""
+        """Names of the clutches that an oscillating link drives."""
         return [name for name, couplings in self._varying.items() if not all(each.ratio for each in couplings)]
 
     def _steps(self, pattern: ClutchPattern) -> StateCase:
-        """Return the state case in which oscillating links drive one link stepwise, or a case with `problems`."""
+        """Return the case of a state in which oscillating links drive one link in steps, or with `problems` if its mean
+        advance cannot be computed.
+        """
         setting, frame, names = pattern.setting, self.train.declaration.frame, _joined(self._swinging)
         assert setting is not None
         driven, drivers, senses = set[str](), dict[str, int](), set[int]()
@@ -429,8 +388,6 @@ class _Decision:
 
 
 def _joined(names: Sequence[str], verb: str = "") -> str:
-    """Return names joined by commas and `and`, followed by the verb in its singular or plural form; empty if there are
-    no names.
-    """
+    """Return names joined by commas and "and", followed by the verb in the required number; "" without names."""
     text = " and ".join(filter(None, (", ".join(names[:-1]), *names[-1:])))
     return f"{text} {verb}{'s' if len(names) == 1 else ''}" if verb and names else text

@@ -116,9 +116,7 @@ def find_circulation(
 
 
 def _widest(streams: Sequence[PowerStream], left: Sequence[Fraction]) -> list[int]:
-    """Return the cycle whose minimum power is the largest (bottleneck cycle), as indices of streams; empty if there is
-    no cycle. It is found by bisection.
-    """
+    """Return the streams of the cycle with the largest minimum of the powers `left`; empty without a cycle."""
     best = _closed(streams, [at for at, power in enumerate(left) if power])
     if not best:
         return []
@@ -133,7 +131,7 @@ def _widest(streams: Sequence[PowerStream], left: Sequence[Fraction]) -> list[in
 
 
 def _closed(streams: Sequence[PowerStream], open_: Iterable[int]) -> list[int]:
-    """Return one cycle that is formed by the streams in `open_`, as indices of streams; empty if there is no cycle."""
+    """Return the streams of one cycle among those with the indices `open_`, as indices; empty without a cycle."""
     stream_of: dict[tuple[PowerNode, PowerNode], int] = {}
     before: dict[PowerNode, list[PowerNode]] = {}
     for at in open_:
@@ -264,7 +262,10 @@ def find_power_flow(found: Torques) -> PowerFlow:
     """
     if not found.verdict or found.open_speeds or any(pair.loose or pair.power is None for pair in found.pairs.values()):
         return PowerFlow()
-    shafts = _shafts(held.links for held in found.held if len(held.links) == 2)
+    locks = [held.links for held in found.held if len(held.links) == 2]
+    groups = joined_groups(chain(*locks), locks)
+    # locked links form one shaft, whose name contains all of them
+    shafts = {link: PowerNode("shaft", " + ".join(group)) for group in groups for link in group}
     streams: list[PowerStream] = []
     losses: dict[PowerNode, Fraction] = {}
     ends = [(shafts.get(link, PowerNode("shaft", link)), link, power) for link, power in found.powers.items()]
@@ -284,17 +285,8 @@ def find_power_flow(found: Torques) -> PowerFlow:
     return PowerFlow(found.power_in, tuple(streams), losses, tuple(loops))
 
 
-def _shafts(locks: Iterable[tuple[str, ...]]) -> dict[str, PowerNode]:
-    """Return the shaft to which each locked link belongs, by link. The name of a shaft consists of the names of all its
-    links.
-    """
-    pairs = list(locks)
-    groups = joined_groups(chain(*pairs), pairs)
-    return {link: PowerNode("shaft", " + ".join(group)) for group in groups for link in group}
-
-
 def _takers(found: Torques) -> Iterator[tuple[PowerNode, Sequence[tuple[str, Fraction]]]]:
-    """Yield each pair and bearing with the power that flows into it from each of its links."""
+    """Yield the node of each pair and bearing, with the power that flows into it from each of its links."""
     for pair in found.pairs.values():
         yield (
             PowerNode("pair", pair.id),

@@ -6,6 +6,7 @@ power in addition to the loads (sections 5, 6, 8 and 11 of docs/torques.md).
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -73,11 +74,6 @@ class LoadedBalance:
         return "the load" if self.loads else "the friction of the bearings"
 
     @property
-    def driving(self) -> Fraction:
-        """Net power that the loads supply to the train [unit of torque times the train's unit of speed]."""
-        return self._power(self.loads)
-
-    @property
     def has_friction(self) -> bool:
         """True if there is a load, and if some bearing friction is not proportional to the load."""
         masses = {} if self.bearing_loads is None else self.bearing_loads.masses
@@ -90,7 +86,7 @@ class LoadedBalance:
         """
         found, complete = find_flow_patterns(balance)
         # the known powers are the same in all flows, so the power of the unknown torques orders the losses
-        return sorted(found, key=lambda flow: (len(flow.solved.open), self.power(flow))), complete
+        return sorted(found, key=lambda flow: (len(flow.solved.open), self.power(flow.solved.external))), complete
 
     def solve(self) -> tuple[LoadedBalance, list[FlowPattern], bool]:
         """Return the balance including the load-dependent friction of bearings, its patterns of power flow as in
@@ -113,22 +109,14 @@ class LoadedBalance:
                 return found, flows, complete
         return self, [], complete
 
-    def power(self, flow: FlowPattern) -> Fraction:
-        """Return the power that the unknown torques supply in one pattern of power flow [unit of torque times the
-        train's unit of speed].
-        """
-        return self._power(flow.solved.external)
-
-    def _power(self, torques: Mapping[str, Fraction]) -> Fraction:
+    def power(self, torques: Mapping[str, Fraction]) -> Fraction:
         """Return the total power of the given torques on links whose speed is determined [unit of torque times the
         train's unit of speed].
         """
         return sum((torque * self.speeds.get(link, 0) for link, torque in torques.items()), Fraction(0))
 
     def heavily_loaded(self) -> tuple[FlowPattern, ...]:
-        """Return the patterns of power flow for a load that is so large that load-independent friction is
-        negligible.
-        """
+        """Return the patterns of power flow for a load so large that load-independent friction is negligible."""
         loads = {link: _GREAT * torque for link, torque in self.loads.items()}
         known = _acting(loads, self.bearing_friction)
         return tuple(replace(self, loads=loads, balance=replace(self.balance, known=known)).solve()[1])
@@ -155,7 +143,7 @@ def find_imbalance(setting: LoadCase, known: Mapping[str, Fraction], requested: 
 
 
 def _some(links: Sequence[str]) -> str:
-    """Return up to three names, separated by commas, followed by the number of further names."""
+    """Return up to three link names separated by commas, followed by the number of the other names."""
     more = f" and {len(links) - 3} more" if links[3:] else ""
     return ", ".join(links[:3]) + more
 
@@ -168,14 +156,23 @@ def find_torque_verdict(
     """
     if not flows:
         return _unbalanced(question, complete)
-    but = _neglected_note(neglected)
+    uncounted: dict[str, list[str]] = {}
+    for each in (each for each in neglected if each.counts):
+        uncounted.setdefault(each.what, []).extend(each.where)
+    named = [f"{what} ({', '.join(where)})" for what, where in uncounted.items()]
+    but = f"; not included: {', '.join(named)}" if named else " (mean over a turn)" if neglected else ""
     # undetermined torques come first, because the number of patterns then has no meaning
     if any(flow.solved.loose or flow.solved.open or None in flow.solved.locks for flow in flows):
         verdict = _indeterminate(flows, question)
         return replace(verdict, text=verdict.text + but)
     if len(flows) > 1:
-        verdict = _ambiguous(question, flows)
-        return replace(verdict, text=verdict.text + but)
+        given, *others = (question.power(flow.solved.external) for flow in flows)
+        rest = " or ".join(_describe_flow(question, power, given < 0) for power in others)
+        text = (
+            f"{len(flows)} patterns of power flow balance {question.load}: in the reported one, with minimum loss, "
+            f"{_describe_flow(question, given, False)}; in {'others' if others[1:] else 'the other'} {rest}{but}"
+        )
+        return TorqueVerdict("ambiguous", text)
     sure = "" if complete else "; other patterns of power flow were not tried"
     source = "the loads" if question.loads else question.load
     free = f"; {_some(question.open)} turn freely, but torques do not depend on their speeds" if question.open else ""
@@ -185,21 +182,8 @@ def find_torque_verdict(
     )
 
 
-def _neglected_note(neglected: Sequence[NeglectedEffect]) -> str:
-    uncounted: dict[str, list[str]] = {}
-    for each in neglected:
-        if each.counts:
-            uncounted.setdefault(each.what, []).extend(each.where)
-    if uncounted:
-        named = [f"{what} ({', '.join(where)})" for what, where in uncounted.items()]
-        return f"; not included: {', '.join(named)}"
-    return " (mean over a turn)" if neglected else ""
-
-
 def _unbalanced(question: LoadedBalance, complete: bool) -> TorqueVerdict:
-    """Return the verdict that no torques balance the load. It names the cause: declared shares, friction of bearings,
-    or friction of teeth.
-    """
+    """Return the verdict that no torques balance the loads, because of shares, bearing friction, or locking teeth."""
     names = question.names
     if not question.enough:
         text = "the loads balance without losses, but not with them: one more unknown torque is needed"
@@ -226,9 +210,7 @@ def _unbalanced(question: LoadedBalance, complete: bool) -> TorqueVerdict:
 
 
 def _locked_bearings(question: LoadedBalance) -> TorqueVerdict:
-    """Return the verdict that no torques balance the load, because bearing friction that is proportional to the load
-    locks the train.
-    """
+    """Return the verdict that load-dependent friction of bearings locks the train."""
     assert question.bearing_loads is not None
     links = ", ".join(question.bearing_loads.links)
     if question.has_friction and question.heavily_loaded():
@@ -244,11 +226,11 @@ def _locked_bearings(question: LoadedBalance) -> TorqueVerdict:
 
 
 def _driving_note(question: LoadedBalance, flow: FlowPattern) -> str:
-    """Return a note if a load supplies power but cannot drive the train by itself; "" for other loads."""
-    if question.driving <= 0 or question.power(flow) <= 0:
+    """Return a note that a load supplies power but too little to drive the train alone; "" if there is no such load."""
+    if question.power(question.loads) <= 0 or question.power(flow.solved.external) <= 0:
         return ""
     heavy = question.heavily_loaded() if question.has_friction else ()
-    if any(question.power(each) <= 0 for each in heavy):
+    if any(question.power(each.solved.external) <= 0 for each in heavy):
         return (
             f"; the load is too small to overcome the friction of the bearings, so {question.names} must drive as well"
         )
@@ -276,22 +258,9 @@ def _indeterminate(flows: Sequence[FlowPattern], question: LoadedBalance) -> Tor
     return TorqueVerdict("indeterminate", text, loose)
 
 
-def _ambiguous(question: LoadedBalance, flows: Sequence[FlowPattern]) -> TorqueVerdict:
-    """Return the verdict for several patterns of power flow, which describes the returned pattern and mentions the
-    other patterns.
-    """
-    given, *others = (question.power(flow) for flow in flows)
-    rest = " or ".join(_describe_flow(question, power, given < 0) for power in others)
-    text = (
-        f"{len(flows)} patterns of power flow balance {question.load}: in the reported one, with minimum loss, "
-        f"{_describe_flow(question, given, False)}; in {'others' if others[1:] else 'the other'} {rest}"
-    )
-    return TorqueVerdict("ambiguous", text)
-
-
 def _describe_flow(question: LoadedBalance, power: Fraction, resisted: bool) -> str:
-    """Return a description of one pattern of power flow. `resisted` is True if power leaves at the unknown torque in
-    the returned pattern.
+    """Return a phrase on the power that the unknown torques supply in one solution. `resisted` is True if they absorb
+    power in the solution with minimum loss.
     """
     if power < 0:
         return f"power {decimal(-power, 6)} leaves at {question.names}, which resists"
@@ -316,12 +285,10 @@ def find_shares(train: Train, circuits: Sequence[Circuit], loaded: Collection[st
         if gear.share is not None:
             for wheel in gear.pair:
                 by_wheel.setdefault(wheel, {})[gear.name] = gear.share.value
-    found = ((train.wheels[wheel][0], parts) for wheel, parts in by_wheel.items() if len(parts) > 1)
-    return tuple((link, parts) for link, parts in found if link in loaded or not _is_idler(link, circuits, train.frame))
-
-
-def _is_idler(link: str, circuits: Iterable[Circuit], frame: str) -> bool:
-    return link != frame and sum(link in (each.i, each.j, each.carrier) for each in circuits) == 2
+    meshing = Counter(link for each in circuits for link in {each.i, each.j, each.carrier})
+    shared = ((train.wheels[wheel][0], parts) for wheel, parts in by_wheel.items() if len(parts) > 1)
+    # an idler has two meshes and no other torque
+    return tuple(each for each in shared if each[0] in loaded or each[0] == train.frame or meshing[each[0]] != 2)
 
 
 def find_ties(
@@ -356,9 +323,7 @@ def find_ties(
 def _planet_meshes(
     circuits: Sequence[Circuit], meshes: Sequence[LoadedPair], apart: Collection[str]
 ) -> dict[str, list[tuple[str, str, _Key]]]:
-    """Return the meshes of each planet, by planet: name of the mesh, link of the mate, and a key that is the same for
-    equal planets.
-    """
+    """Return the meshes of each planet: name, mating link, and a key that is equal for equal planets."""
     found: dict[str, list[tuple[str, str, _Key]]] = {}
     for circuit, mesh in zip(circuits, meshes, strict=True):
         first, second = circuit.wheels if circuit.kind == "gear" else (circuit.i, circuit.j)
@@ -377,9 +342,7 @@ def _planet_meshes(
 def _planet_classes(
     meshing: Mapping[str, Sequence[tuple[str, str, _Key]]], known: Mapping[str, Fraction]
 ) -> dict[str, int]:
-    """Return the index of the class of equal planets to which each planet belongs, by planet. The classes are found by
-    colour refinement.
-    """
+    """Return the number of the class of equal planets to which each planet belongs, by planet."""
     classes: dict[str, int] = {}
     while True:
         keys: dict[str, _Key] = {}
@@ -445,10 +408,12 @@ def find_question(setting: LoadCase, solve_for: str | None) -> TorqueQuestion | 
         text = "no load is declared: give `loads` on links (negative against their motion) or `bearing` friction"
         return TorqueVerdict("unloaded", text)
     question = _requested(setting, loads, solve_for)
-    verdict = _without_axis(setting, (*loads, *question.links))
-    if verdict is None:
-        verdict = _at_rest(setting, question.links)
-    return question if verdict is None else verdict
+    if (verdict := _without_axis(setting, (*loads, *question.links))) is not None:
+        return verdict
+    links, speeds = question.links, setting.speeds
+    if len(links) == 1 and speeds.get(links[0]) == 0 and any(speeds[link] for link in setting.case.inputs):
+        return TorqueVerdict("still", f"'{links[0]}' does not turn, so a torque on it does no work")
+    return question
 
 
 def torques_unknown(state: str | None) -> Torques:
@@ -457,9 +422,7 @@ def torques_unknown(state: str | None) -> Torques:
 
 
 def resist(setting: LoadCase, drag: Mapping[str, Fraction]) -> Torques:
-    """Compute the torques if power enters at the inputs and the torques in `drag` act on links. Bearing friction is
-    neglected.
-    """
+    """Compute the torques for power input at the inputs under the torques `drag`, without friction of bearings."""
     if (verdict := _without_axis(setting, drag)) is not None:
         return Torques(setting.case.state, verdict)
     links = power_inputs(setting)
@@ -514,9 +477,7 @@ def escapement_torques(setting: LoadCase) -> EscapementTorques | None:
 
 
 def drive(setting: LoadCase, load: str, source: str) -> Torques:
-    """Compute the torques if the link `source` drives and a unit of power leaves at the link `load`. Bearing friction
-    is neglected.
-    """
+    """Compute the torques if `source` drives and a unit of power leaves at `load`, without friction of bearings."""
     if (verdict := _without_axis(setting, (load, source))) is not None:
         return Torques(setting.case.state, verdict)
     for link in (load, source):
@@ -531,9 +492,7 @@ def drive(setting: LoadCase, load: str, source: str) -> Torques:
 
 
 def _requested(setting: LoadCase, loads: Mapping[str, Fraction], solve_for: str | None) -> TorqueQuestion:
-    """Return the question with as many links with unknown torque as there are inputs, or fewer if the choice is not
-    unique.
-    """
+    """Return the loads and as many links of unknown torque as inputs, or fewer if their choice is not unique."""
     inputs, enter = setting.case.inputs, power_inputs(setting)
     free = tuple(link for link in enter if link not in loads)
     needed = len(inputs)
@@ -566,24 +525,14 @@ def _requested(setting: LoadCase, loads: Mapping[str, Fraction], solve_for: str 
 
 
 def _without_axis(setting: LoadCase, links: Iterable[str]) -> TorqueVerdict | None:
-    """Return a verdict if the speed of one of the links is a sum of joint speeds about non-parallel axes; None if it is
-    not.
-
-    Such a sum is not a rotation, so the power of a torque on the link is not unique.
+    """Return a verdict if a link does not rotate about one axis, so that a torque on it has no defined power; None if
+    all links do. The speed of such a link is a sum of joint speeds about non-parallel axes.
     """
     sums = setting.axes.joint_sums
     for link in links:
         if link in sums:
             why = "the axes between it and the frame are not parallel, and its sum of joint speeds is not a rotation"
             return TorqueVerdict("undecided", f"a torque on '{link}' has no unique axis: {why}")
-    return None
-
-
-def _at_rest(setting: LoadCase, requested: tuple[str, ...]) -> TorqueVerdict | None:
-    """Return a verdict if the only requested link is at rest while the train moves; None if it is not."""
-    speeds = setting.speeds
-    if len(requested) == 1 and speeds.get(requested[0]) == 0 and any(speeds[link] for link in setting.case.inputs):
-        return TorqueVerdict("still", f"'{requested[0]}' does not turn, so a torque on it does no work")
     return None
 
 
@@ -612,7 +561,7 @@ def _balanced(setting: LoadCase, unknown: TorqueQuestion, bearings: bool = True,
     if not flows and loads is not None and find_flow_patterns(balance)[0]:
         return Torques(state, _locked_bearings(question), unknown.links)
     if not flows and balance.senses and (any_way := find_flow_patterns(replace(balance, senses={}))[0]):
-        names = _overrunning(setting, any_way[0])
+        names = _overrunning(setting, balance, any_way[0])
         text = f"{' and '.join(names)} would have to hold against the sense in which a one-way clutch can hold"
         return Torques(state, TorqueVerdict("overrunning", text, names), unknown.links)
     idle = [name for name, x in flows[0].solved.multipliers.items() if not x] if flows else []
@@ -630,21 +579,18 @@ def _balanced(setting: LoadCase, unknown: TorqueQuestion, bearings: bool = True,
     return _torques(setting, question.balance, flows[0], question.bearings, verdict, neglected)
 
 
-def _overrunning(setting: LoadCase, flow: FlowPattern) -> tuple[str, ...]:
-    """Return the one-way clutches that hold but transmit a torque in the sense in which they overrun. If there are
-    none, return the clutches whose torque is undetermined.
+def _overrunning(setting: LoadCase, balance: TorqueBalance, flow: FlowPattern) -> tuple[str, ...]:
+    """Return the names of the holding one-way clutches whose torque has the wrong sense; if there are none, of those
+    with an undetermined torque.
     """
     senses = setting.case.senses
-    held = [each for each in _held(setting, flow) if each.links in senses]
+    held = [each for each in _held(setting, balance, flow) if each.links in senses]
     wrong = [each for each in held if each.torques and senses[each.links] * each.torques[-1] < 0]
     return tuple(each.clutch or "" for each in wrong or held if wrong or each.torques is None)
 
 
 def _with_reason(question: TorqueQuestion, lacking: TorqueVerdict) -> TorqueVerdict:
-    """Return one verdict that states which torque could be requested, and what prevents a balance without this torque.
-
-    The first statement is omitted if no further torque can be requested.
-    """
+    """Return the verdict `lacking`, preceded by the reason why the unknown torques are not unique if there is one."""
     if question.undecided is None:
         return lacking
     untried = [link for link in question.undecided.candidates if link not in question.links]
@@ -663,7 +609,9 @@ def build_balance(
     """Build the torque balance of a train with known and unknown torques; it has no losses if `means` is None."""
     case, train = setting.case, setting.train
     meshes = tuple(_mesh(setting, circuit, means[circuit.id] if means else None) for circuit in setting.circuits)
-    locks = _locks(setting)
+    locks = [(a, b) for a, b in case.locks if a != b]
+    # reactions that do not act on the frame
+    bases = {link: base for link in requested if (base := setting.reacts_on(link)) != train.frame}
     held = {*requested, *case.fixed, *(link for lock in locks for link in lock)}
     shares = find_shares(train, setting.circuits, {*held, *known})
     shared = {name for _, parts in shares for name in parts}
@@ -676,35 +624,17 @@ def build_balance(
         meshes,
         known,
         requested,
-        _brakes(setting),
+        tuple(link for link in case.fixed if link != train.frame),
         tuple(((a, setting.sense(a)), (b, setting.sense(b))) for a, b in locks),
         find_ties(setting.circuits, meshes, _acting(known, pivots), {train.frame} | held | planets),
         shares,
-        _reactions(setting, requested),
+        {link: (base, -setting.sense(link) * setting.sense(base)) for link, base in bases.items()},
         case.senses,
     )
 
 
-def _reactions(setting: LoadCase, requested: Iterable[str]) -> dict[str, tuple[str, int]]:
-    """Return, for each unknown torque whose reaction does not act on the frame, the link on which the reaction acts,
-    and the sign of the reaction to a unit torque.
-    """
-    bases = ((link, setting.reacts_on(link)) for link in requested)
-    return {
-        link: (base, -setting.sense(link) * setting.sense(base)) for link, base in bases if base != setting.train.frame
-    }
-
-
-def _brakes(setting: LoadCase) -> tuple[str, ...]:
-    return tuple(link for link in setting.case.fixed if link != setting.train.frame)
-
-
-def _locks(setting: LoadCase) -> tuple[tuple[str, str], ...]:
-    return tuple((a, b) for a, b in setting.case.locks if a != b)
-
-
 def _mesh(setting: LoadCase, circuit: Circuit, means: MeanEfficiencies | None) -> LoadedPair:
-    """Return the loaded pair of a circuit with its losses. It has no losses if its relative speed is undetermined."""
+    """Return the coefficients, speed and efficiencies of a gear pair or coupling in the torque balance."""
     # a travel reacts on a link that slides and on a link that turns, other pairs on one link
     links = (circuit.i, circuit.j, *(circuit.subtracted if circuit.travels else circuit.subtracted[:1]))
     senses = tuple(map(setting.sense, links))
@@ -726,9 +656,7 @@ def _acting(loads: Mapping[str, Fraction], bearing_friction: Mapping[str, Fracti
 
 
 def _bearing_friction(setting: LoadCase, bearings: Sequence[BearingTorque]) -> dict[str, Fraction]:
-    """Return the total friction torque of bearings on each link, by link, including reactions on links that carry
-    bearings.
-    """
+    """Return the sum of the friction torques of bearings on each link [N m, or a number without a unit], by link."""
     found: dict[str, Fraction] = {}
     for bearing in bearings:
         for link, torque in ((bearing.link, bearing.torque), (bearing.carrier, bearing.reaction)):
@@ -772,7 +700,7 @@ def _torques(
             for mesh, circuit in zip(balance.meshes, setting.circuits, strict=True)
         },
         bearings,
-        _held(setting, flow),
+        _held(setting, balance, flow),
         neglected,
         reactions,
         {each.name: each.slip for each in setting.case.one_way if not each.holds},
@@ -781,9 +709,7 @@ def _torques(
 
 
 def _load(arms: Mapping[str, Fraction], link: str, torque: Fraction) -> Fraction:
-    """Return the force [N] on a sliding link that a torque represents. For a link that turns, the torque is returned
-    unchanged.
-    """
+    """Return the force [N] on a sliding link that a torque represents, or the torque itself if the link turns."""
     return torque / arms[link] if link in arms else torque
 
 
@@ -808,25 +734,19 @@ def _pair(setting: LoadCase, mesh: LoadedPair, circuit: Circuit, flow: FlowPatte
     )
 
 
-def _held(setting: LoadCase, flow: FlowPattern) -> tuple[HoldingTorque, ...]:
-    """Return the brakes and locks with their torques, each about the axis of its link.
-
-    The torque of a lock on its second link is the reaction to the torque on its first link.
-    """
-    solved = flow.solved
-    found = []
-    for link in _brakes(setting):
-        torque = solved.brakes.get(link)
-        found.append(_holding(setting, (link,), None if torque is None else (_load(setting.arms, link, torque),)))
-    for (a, b), torque in zip(_locks(setting), solved.locks, strict=True):
-        both = None
-        if torque is not None:
-            both = _load(setting.arms, a, setting.sense(a) * torque), _load(setting.arms, b, -setting.sense(b) * torque)
-        found.append(_holding(setting, (a, b), both))
-    return tuple(found)
-
-
-def _holding(setting: LoadCase, links: tuple[str, ...], torques: tuple[Fraction, ...] | None) -> HoldingTorque:
-    case = setting.case
-    cause = case.causes.get(links, links)
-    return HoldingTorque(links, torques, case.clutches.get(cause), cause if cause != links else ())
+def _held(setting: LoadCase, balance: TorqueBalance, flow: FlowPattern) -> tuple[HoldingTorque, ...]:
+    """Return the torques of all brakes and locks, each about the axis of the held link."""
+    case, arms, found = setting.case, setting.arms, dict[tuple[str, ...], list[tuple[Fraction, ...] | None]]()
+    for link in balance.held:
+        torque = flow.solved.brakes.get(link)
+        found.setdefault((link,), []).append(None if torque is None else (_load(arms, link, torque),))
+    for ((a, sense), (b, other)), torque in zip(balance.locks, flow.solved.locks, strict=True):
+        # the torque on the second link is the reaction to the torque on the first
+        both = None if torque is None else (_load(arms, a, sense * torque), _load(arms, b, -other * torque))
+        found.setdefault((a, b), []).append(both)
+    causes = {links: case.causes.get(links, links) for links in found}
+    return tuple(
+        HoldingTorque(links, torques, case.clutches.get(causes[links]), causes[links] if causes[links] != links else ())
+        for links, each in found.items()
+        for torques in each
+    )

@@ -67,24 +67,18 @@ class LoadedPair:
 
     @property
     def turn(self) -> int:
-        """Sign of the rolling speed. Power flows from the first to the second link if the multiplier has the opposite
-        sign.
-        """
+        """Sign of the rolling speed. Power flows to the second link if the multiplier has the opposite sign."""
         return (self.rolling > 0) - (self.rolling < 0)
 
     @property
     def sides(self) -> tuple[int, ...]:
-        """Driving sides that are to be tried. Self-locking sides are omitted; if both sides are self-locking, the
-        result is (1,).
-        """
+        """Driving sides to be tried, without self-locking ones; (1,) if both sides are self-locking."""
         if not self.loses:
             return (0,)
         return tuple(side for side in (1, -1) if self.efficiency(side) > 0) or (1,)
 
     def efficiency(self, side: int) -> Fraction:
-        """Return the efficiency if the first link drives (`side` 1) or if the second link drives (`side` -1); it is 1
-        for side 0.
-        """
+        """Return the efficiency if the first (`side` 1) or the second link (`side` -1) drives; 1 for side 0."""
         return self.forward if side > 0 else self.backward if side < 0 else Fraction(1)
 
     def torques(self, side: int) -> tuple[Fraction, ...]:
@@ -93,16 +87,6 @@ class LoadedPair:
         right = self.b * (self.forward if side > 0 else Fraction(1))
         reactions = (-left - right,) if len(self.links) == 3 else (-left, -right)
         return tuple(sense * torque for sense, torque in zip(self.senses, (left, right, *reactions), strict=True))
-
-    def relative_signs(self, other: LoadedPair, alike: bool) -> tuple[int, int]:
-        """Return the sign of the torque on each of the two links relative to the torque of `other`, an equal pair with
-        the same unknown torque. A reversed axis of a planet changes the sign.
-
-        alike   True if both pairs have their links in the same order
-        """
-        coefficients = (other.a, other.b) if alike else (other.b, other.a)
-        first, second = (-1 if a * b < 0 else 1 for a, b in zip((self.a, self.b), coefficients, strict=True))
-        return first, second
 
     def power(self, multiplier: Fraction) -> Fraction:
         """Return the power that flows from the first link to the second relative to the carrier, before losses if the
@@ -188,7 +172,7 @@ class TorqueBalance:
 
     @property
     def _signs(self) -> tuple[int, ...]:
-        """Required sign of each unknown external torque and of each brake and lock; 0 if any sign is permitted."""
+        """Sign that each unknown external, brake and lock torque must have, 1 or -1; 0 if both are permitted."""
         held = (self.senses.get((link,), 0) for link in self.held)
         # the unknown torque of a lock acts on its first link, and with the opposite sign on the second
         locks = (-t * self.senses.get((a, b), 0) for (a, _), (b, t) in self.locks)
@@ -230,9 +214,7 @@ class TorqueBalance:
 
     @property
     def whole(self) -> Block:
-        """Whole balance as one block, which is used if a block does not determine an unknown that a later block
-        requires.
-        """
+        """Whole balance as one block, for cases in which a block depends on unknowns of a later block."""
         return Block(tuple(self.rows), tuple(range(len(self.columns))))
 
     @cached_property
@@ -241,10 +223,8 @@ class TorqueBalance:
 
     @cached_property
     def _parts(self) -> Mapping[str, Sequence[tuple[int, str, Fraction]]]:
-        """Rows of declared shares that contain the torque of a mesh, by name of the mesh.
-
-        Such a row states that the torque of a mesh on the link divided by its share is equal to the torque of the first
-        mesh divided by its share.
+        """Rows of the balance for declared shares, by mesh: index of the row, link of the shared wheel, and coefficient
+        of the mesh's torque.
         """
         found: dict[str, list[tuple[int, str, Fraction]]] = {}
         row = len(self.links)
@@ -262,32 +242,29 @@ class TorqueBalance:
         sides = lossy[0].sides if lossy else (0,)
         # sides of the other meshes refer to the first lossy one
         blank = TorqueUnknown({}, meshes, sides, turn, bool(lossy) and lossy[0].efficiency(sides[0]) <= 0)
-        pieces = {
-            side: _row(entry for mesh in meshes for entry in self._entries(mesh, blank.side_of(mesh, side)))
-            for side in dict.fromkeys((0, *sides))
-        }
-        return TorqueUnknown(pieces, meshes, sides, turn, blank.barred)
+        pieces = {}
+        for side in dict.fromkeys((0, *sides)):
+            torques = [mesh.torques(blank.side_of(mesh, side)) for mesh in meshes]
+            entries = zip(meshes, torques, strict=True)
+            pieces[side] = _row(
+                (row, own[at] * factor) for mesh, own in entries for row, at, factor in self.places(mesh)
+            )
+        return replace(blank, pieces=pieces)
 
     def places(self, mesh: LoadedPair) -> Iterator[tuple[int, int, Fraction]]:
-        """Yield the entries of a mesh's torques in the balance: index of the row, index of the link in `links`, and
-        factor.
-        """
+        """Yield the entries of a mesh's torques in the balance: row index, index into `links`, and factor."""
         yield from ((self._at[link], at, Fraction(1)) for at, link in enumerate(mesh.links) if link in self._at)
         yield from ((row, mesh.links.index(link), factor) for row, link, factor in self._parts.get(mesh.id, ()))
 
-    def _entries(self, mesh: LoadedPair, side: int) -> Iterator[tuple[int, Fraction]]:
-        torques = mesh.torques(side)
-        yield from ((row, torques[at] * factor) for row, at, factor in self.places(mesh))
-
 
 def _direction(entries: Sequence[tuple[int, int, Fraction]], known: Fraction) -> tuple[object, ...]:
-    """Return a row divided by its first entry. The result is equal for all proportional rows."""
+    """Return the entries of a row and its known torque divided by its first entry, equal for proportional rows."""
     scale = entries[0][2] if entries else known
     return (known / scale, *((at, side, value / scale) for at, side, value in entries))
 
 
 def _row(entries: Iterable[tuple[int, Fraction]]) -> LinearForm:
-    """Return the entries of one row with entries of the same column added; entries that are 0 are omitted."""
+    """Return one row of the balance, by column, in which entries of the same column are added and zeros are omitted."""
     row: LinearForm = {}
     for at, value in entries:
         row[at] = row.get(at, Fraction(0)) + value
@@ -296,9 +273,7 @@ def _row(entries: Iterable[tuple[int, Fraction]]) -> LinearForm:
 
 @dataclass(frozen=True)
 class SolvedTorques:
-    """Torques for one pattern of power flow: multipliers of meshes, external torques, and torques of brakes and
-    locks.
-    """
+    """Torques of one pattern of power flow: multipliers of meshes, external torques, torques of brakes and locks."""
 
     multipliers: Mapping[str, Fraction]
     external: Mapping[str, Fraction]
@@ -324,19 +299,8 @@ def idle_pairs(balance: TorqueBalance) -> set[str]:
     return idle
 
 
-def without_pairs(balance: TorqueBalance, names: set[str]) -> TorqueBalance:
-    """Return the torque balance without the pairs in `names`."""
-    return replace(
-        balance,
-        meshes=tuple(mesh for mesh in balance.meshes if mesh.id not in names),
-        ties=tuple(tied for tied in balance.ties if names.isdisjoint(tied)),
-    )
-
-
 def generic_balance(balance: TorqueBalance) -> TorqueBalance:
-    """Return the balance with generic coefficients, which do not cancel. It is used to determine the order of
-    solution.
-    """
+    """Return the balance with generic coefficients, which do not cancel, to determine the order of solution."""
     group = {name: at for at, names in enumerate(balance.ties, 1) for name in names}
     meshes = tuple(
         replace(

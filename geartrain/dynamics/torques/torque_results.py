@@ -139,9 +139,7 @@ class PairTorque(Result):
 
     @property
     def efficiency(self) -> Fraction | float:
-        """Basic efficiency (carrier at rest) if `driver` drives; a float if it is a mean over positions of the
-        teeth.
-        """
+        """Basic efficiency (carrier at rest) if `driver` drives; a float if it is a mean over tooth positions."""
         return self.share if self.exact else float(self.share)
 
     @property
@@ -359,7 +357,7 @@ class Torques(FrozenFields, Tabular, TrainResult):
 
     @property
     def _units(self) -> Mapping[str, str]:
-        """Declared units of torque, speed and power."""
+        """Units of torque, speed and power in the table of torques, as text, by name of the column."""
         declared = self._declaration
         torque, speed = "N m, or the unit of the loads", "unit of the train"
         if declared is not None:

@@ -39,23 +39,15 @@ def drive_both_ways(train: TrainMechanics, state: str | None) -> list[DrivenWay]
     train = train.unfolded
     declared = train.declaration
     found = input_and_output(declared, declared.case(declared.state_or_first(state)))
-    ways = [] if found is None else [found, found[::-1]]
-    return [
-        DrivenWay(_without_rests(train, solve_driven(train, load, source, state)), source, load)
-        for source, load in ways
-    ]
-
-
-def _without_rests(train: TrainMechanics, torques: Torques) -> Torques:
-    """Return the torques; their verdict is `self-locking` if power would flow back through a coupling that locks its
-    driven link in a dwell.
-    """
-    wheels = train.declaration.wheels
+    # couplings that lock their driven link in a dwell, so that no power can flow back
     locked = {
-        row.id: row.driven for each in train.declaration.couplings if each.LOCKS_BACK for row in each.rows(wheels)
+        row.id: row.driven for each in declared.couplings if each.LOCKS_BACK for row in each.rows(declared.wheels)
     }
-    for pair in torques.pairs.values():
-        if pair.driver == locked.get(pair.id):
-            text = f"'{pair.driver}' is held by the lock of '{pair.id}' while it rests"
-            return replace(torques, verdict=TorqueVerdict("self-locking", text))
-    return torques
+    ways = []
+    for source, load in [] if found is None else [found, found[::-1]]:
+        torques = solve_driven(train, load, source, state)
+        if back := next((pair for pair in torques.pairs.values() if pair.driver == locked.get(pair.id)), None):
+            text = f"'{back.driver}' is held by the lock of '{back.id}' while it rests"
+            torques = replace(torques, verdict=TorqueVerdict("self-locking", text))
+        ways.append(DrivenWay(torques, source, load))
+    return ways

@@ -8,3 +8,20 @@ train_contacts       transmission function, friction and driving side of every p
 turn_balance         torque balance, powers and losses at any position
 torque_cycle         results: torques, energies, extremes
 """
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from geartrain.numerics.lazy_names import public_names
+
+if TYPE_CHECKING:
+    from geartrain.dynamics.turn.train_turn import find_torque_period as find_torque_period
+    from geartrain.dynamics.turn.train_turn import find_turn_balance as find_turn_balance
+
+__getattr__, __all__ = public_names(
+    __name__,
+    {
+        "train_turn": "find_torque_period find_turn_balance",
+    },
+)

@@ -64,9 +64,7 @@ class PositionMotion:
 
     @property
     def period(self) -> Fraction | None:
-        """Revolutions of the input after which the evaluated pairs repeat their positions; None if no pairs are
-        evaluated.
-        """
+        """Revolutions of the input after which the evaluated pairs repeat; None if no pairs are evaluated."""
         return common_period(self.composition.used)
 
     @property
@@ -116,9 +114,7 @@ class PositionMotion:
         return KinkSearch(self.coasting_all_along(coasting)).over(0.0, span).turns
 
     def coasting_all_along(self, pairs: Collection[str]) -> ErrorComposition:
-        """Return the error composition for which the coast flanks of the given pairs are in contact at all
-        positions.
-        """
+        """Return the error composition with the coast flanks of the given pairs in contact at all positions."""
         if not pairs:
             return self.composition
         sources = tuple(

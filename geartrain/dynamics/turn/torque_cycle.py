@@ -303,9 +303,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
 
     @property
     def starting_torque(self) -> float | None:
-        """Maximum breakaway torque [N m, or a number without a unit]; None if no torque starts the train at some
-        position.
-        """
+        """Maximum breakaway torque [N m, or a number without a unit]; None if no torque starts the train somewhere."""
         return None if self.starting is None else self.starting.torque
 
     @property
@@ -315,9 +313,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
 
     @property
     def efficiency(self) -> float | None:
-        """Energy output divided by energy input over the run; None if the train locks at some position or has no net
-        input.
-        """
+        """Energy output divided by energy input; None if the train locks at a position or has no net input."""
         return None if self.energy is None else self.energy.efficiency
 
     @property
@@ -333,9 +329,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
 
     @property
     def recirculating(self) -> Mapping[str, float]:
-        """Energy transmitted by a pair divided by the energy input of the train, for each pair in which this quotient
-        exceeds 1.
-        """
+        """Energy through each pair divided by the energy input of the train, for pairs in which this exceeds 1."""
         if self.energy is None or not (put_in := self.energy.put_in + self.energy.loads_put_in) > 0:
             return {}
         shares = {name: part.passed / put_in for name, part in self.parts.items() if part.kind != "bearing"}

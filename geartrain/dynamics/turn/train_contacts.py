@@ -1,18 +1,15 @@
-"""Contacts of all pairs of a train in one load case: transmission function, friction and driving side.
+"""Contacts of all pairs of a train in one load case: transmission function, friction and driving side (docs/torques.md,
+section 17).
 
-The theory is in section 17 of docs/torques.md.
-
-The multiplier x of a pair is the torque on its driven side, in the mean sense of its rotation. The drive flanks are in
-contact for x >= 0, and the coast flanks for x <= 0. Let tau be the speed ratio of the flank in contact at this
-position. The torque on the driven side is x n, and the torque from the driver is x tau d, where n and d are 1 without
-friction. Friction reverses with the sliding velocity. If a flank has the efficiency eta(f) at a coefficient of friction
-f, its efficiency when the driven side drives is therefore eta'(f) = 1/eta(-f), equation (23).
+The multiplier x of a pair is the torque on its driven side in the mean sense of its rotation: drive flanks touch for
+x >= 0, coast flanks for x <= 0. A flank with the efficiency eta(f) at the coefficient of friction f has the efficiency
+1/eta(-f) if the driven side drives, equation (23).
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 import numpy as np
@@ -36,9 +33,7 @@ if TYPE_CHECKING:
 
 
 class ContactTorques(NamedTuple):
-    """Torques on the driven link and from the driver for a multiplier of 1, in the mean senses of rotation, each of
-    shape (n,).
-    """
+    """Torques on driven link and from driver for a multiplier of 1, in the mean senses of rotation, shape (n,)."""
 
     driven: Floats
     driver: Floats
@@ -49,9 +44,7 @@ class ContactTorques(NamedTuple):
 
 
 class PairForce(NamedTuple):
-    """Torques on the two links of a circuit for a multiplier of 1, about the reference direction of parallel axes, each
-    of shape (n,).
-    """
+    """Torques on both links for a multiplier of 1, about the reference direction of parallel axes, shape (n,)."""
 
     first: Floats
     second: Floats
@@ -96,8 +89,8 @@ class ContactLosses:
         return ContactTorques(np.ones_like(tau), tau)
 
     def kinks(self, at: DriverState) -> Floats | None:
-        """Return values that change sign where the torques, but not the speed ratio, have kinks; None if there are no
-        such values.
+        """Return values whose sign changes mark kinks of the torques but not of the speed ratio; None if there are
+        none.
         """
         del at
         return None
@@ -105,9 +98,7 @@ class ContactLosses:
 
 @dataclass(frozen=True)
 class BasicEfficiency(ContactLosses):
-    """Declared efficiencies of a pair, one for each driving side. If a value is 0 or less, the pair locks when that
-    side drives.
-    """
+    """Declared efficiency of a pair for each driving side; 0 or less if the pair locks when that side drives."""
 
     has_friction: ClassVar[bool] = True
     driver: float
@@ -202,9 +193,7 @@ class ToothFriction(SlidingFriction):
 
 @dataclass(frozen=True)
 class PinFriction(SlidingFriction):
-    """Friction of a pin in its slot. The torque on the pin follows from the torque on the slot by equation (25) of
-    docs/torques.md.
-    """
+    """Friction of a pin in its slot, which gives the torque on the pin by equation (25) of docs/torques.md."""
 
     sliding: float
     transmission: PinToSlotTransmission
@@ -212,9 +201,7 @@ class PinFriction(SlidingFriction):
     def torques(
         self, tau: Floats, transmission: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
     ) -> ContactTorques:
-        """Return the torques on the driven link and from the driver, computed from lever arms that are finite even at
-        dead points.
-        """
+        """Return the torques on driven link and from driver, from lever arms that are finite even at dead points."""
         del transmission
         # by the law of sines sin d = e sin S / rho, so the arm is r e |sin S| / rho^2
         arm = self.transmission.r * self.transmission.e * np.abs(np.sin(at.S)) / self.transmission._reach(at.S)[1]
@@ -318,20 +305,27 @@ def find_contacts(
     """
     found = {}
     for circuit in setting.circuits:
-        source = positions.sources.get(circuit.id)
-        contact = _contact(setting, circuit, source, teeth.get(circuit.id))
-        if source is not None:
-            contact = replace(contact, way=positions.way * source.forward, sense=positions.way * source.sense)
-        found[circuit.id] = contact
+        source, mesh = positions.sources.get(circuit.id), teeth.get(circuit.id)
+        first = circuit.kind == "gear" and (mesh is None or mesh.driver == circuit.wheels[0])
+        if circuit.kind == "gear":
+            losses = _gear_losses(setting, circuit, first, source, mesh)
+        else:
+            losses = _coupling_losses(setting, circuit)
+        if source is None:
+            own, other = (circuit.a, circuit.b) if first else (circuit.b, circuit.a)
+            sense = -1 if circuit.a * circuit.b > 0 else 1
+            found[circuit.id] = PairContact(circuit, first, 1, sense, abs(own / other), losses)
+        else:
+            way, sense = positions.way * source.forward, positions.way * source.sense
+            ratio = float(source.transmission.ratio)
+            found[circuit.id] = PairContact(circuit, first, way, sense, ratio, losses, source)
     return found
 
 
 def mean_friction_pairs(
     setting: LoadCase, sources: Mapping[str, PairErrorSource], teeth: Mapping[str, GearMesh]
 ) -> Iterator[str]:
-    """Yield the names of redundant pairs with tooth friction. Their mean friction is used because the motion does not
-    determine their position.
-    """
+    """Yield the redundant pairs with tooth friction, whose mean friction is used because their position is unknown."""
     names = {circuit.id for circuit in setting.circuits} - sources.keys()
     return (name for name in teeth if name in names and _by_friction(setting, teeth[name]))
 
@@ -339,19 +333,6 @@ def mean_friction_pairs(
 def _by_friction(setting: LoadCase, mesh: GearMesh) -> bool:
     gear = setting.gears[mesh.name]
     return gear.efficiency is None and setting.has_friction(gear)
-
-
-def _contact(setting: LoadCase, circuit: Circuit, source: PairErrorSource | None, mesh: GearMesh | None) -> PairContact:
-    first = circuit.kind == "gear" and (mesh is None or mesh.driver == circuit.wheels[0])
-    losses = (
-        _coupling_losses(setting, circuit) if circuit.kind != "gear" else _losses(setting, circuit, first, source, mesh)
-    )
-    if source is not None:
-        return PairContact(
-            circuit, first, source.forward, source.sense, float(source.transmission.ratio), losses, source
-        )
-    own, other = (circuit.a, circuit.b) if first else (circuit.b, circuit.a)
-    return PairContact(circuit, first, 1, -1 if circuit.a * circuit.b > 0 else 1, abs(own / other), losses)
 
 
 def _coupling_losses(setting: LoadCase, circuit: Circuit) -> ContactLosses:
@@ -365,22 +346,14 @@ def _coupling_losses(setting: LoadCase, circuit: Circuit) -> ContactLosses:
     return PinFriction(joint.transmission.friction, friction.static, joint.transmission)
 
 
-def _losses(
+def _gear_losses(
     setting: LoadCase, circuit: Circuit, first: bool, source: PairErrorSource | None, mesh: GearMesh | None
 ) -> ContactLosses:
-    """Return the losses of a gear pair: tooth friction that depends on position, or a constant efficiency."""
-    if source is not None and mesh is not None and _by_friction(setting, mesh):
-        return _tooth_friction(setting, circuit, source, mesh)
-    return _constant_efficiency(setting, circuit, first)
-
-
-def _constant_efficiency(setting: LoadCase, circuit: Circuit, first: bool) -> ContactLosses:
-    means = find_mean_efficiencies(setting, circuit).load
-    driver, driven = (float(each) for each in (means if first else means[::-1]))
-    return ContactLosses() if driver == driven == 1 else BasicEfficiency(driver, driven)
-
-
-def _tooth_friction(setting: LoadCase, circuit: Circuit, source: PairErrorSource, mesh: GearMesh) -> ToothFriction:
+    """Return the losses of a gear pair: friction of its teeth at each position, or a constant mean efficiency."""
+    if source is None or mesh is None or not _by_friction(setting, mesh):
+        means = find_mean_efficiencies(setting, circuit).load
+        driver, driven = (float(each) for each in (means if first else means[::-1]))
+        return ContactLosses() if driver == driven == 1 else BasicEfficiency(driver, driven)
     transmission, coefficient = mesh.wheels.friction_law, mesh.friction or 0.0
     turned = -1 if any(mesh.wheels.internal) else 1
     declared = setting.train.friction_of(setting.gears[circuit.id]) if mesh.has_shape else None

@@ -16,8 +16,8 @@ import numpy as np
 from geartrain.dynamics.motion.motion_model import Motion
 from geartrain.dynamics.motion.motion_problem import find_motion_problem
 from geartrain.dynamics.torques.neglected_effects import neglected_over_turn, unknown_forces
-from geartrain.dynamics.torques.torque_analysis import TorqueQuestion, build_balance, find_question
-from geartrain.dynamics.torques.torque_balance import generic_balance, idle_pairs, without_pairs
+from geartrain.dynamics.torques.torque_analysis import build_balance, find_question
+from geartrain.dynamics.torques.torque_balance import generic_balance, idle_pairs
 from geartrain.dynamics.torques.torque_results import NeglectedEffect, TorqueVerdict
 from geartrain.dynamics.turn.position_motion import PositionMotion
 from geartrain.dynamics.turn.torque_cycle import CycleEnergy, PairCycle, PlaceInRun, TorqueCycle, TorqueExtreme
@@ -103,13 +103,8 @@ def solve(
         what, why = f"turns = {turns:g} is out of range", f"a run has more than 0 and at most {MOST_TURNS:g} turns"
         raise QuestionError(Problem(what, why, f"pass turns above 0, up to {MOST_TURNS:g}"))
     if samples < 2:
-        raise QuestionError(
-            Problem(
-                f"samples = {samples} is too small",
-                "a run has at least two positions of the input",
-                "pass samples >= 2",
-            )
-        )
+        why = "a run has at least two positions of the input"
+        raise QuestionError(Problem(f"samples = {samples} is too small", why, "pass samples >= 2"))
     if of is not None and of in setting.case.loads:
         why = f"'{of}' carries a load of {setting.case.loads[of]}"
         fix = "request the torque at a link without a load"
@@ -142,11 +137,6 @@ def find_turn_balance(setting: LoadCase, problem: MotionProblem, of: str | None)
     if not question.enough:
         text = "fewer torques are unknown than the train has degrees of freedom: loads cannot balance everywhere"
         return question.undecided or TorqueVerdict("undecided", text)
-    return build_turn_balance(setting, problem, question)
-
-
-def build_turn_balance(setting: LoadCase, problem: MotionProblem, question: TorqueQuestion) -> TurnBalance:
-    """Return the torque balance of a train for any position; only the pairs that transmit torque are evaluated."""
     bearings, frame = find_bearings(setting), setting.train.frame
     known = dict(question.loads)
     for link, friction in bearings.items():
@@ -155,15 +145,23 @@ def build_turn_balance(setting: LoadCase, problem: MotionProblem, question: Torq
             known[end] = known.get(end, Fraction(0)) + Fraction(sum(friction[1:])) * _ODD
     known.pop(frame, None)
     whole = generic_balance(build_balance(setting, known, question.links))
-    balance = without_pairs(whole, idle_pairs(whole))
-    busy = replace(
-        setting, circuits=[each for each in setting.circuits if each.id in {mesh.id for mesh in balance.meshes}]
+    # only the pairs that transmit torque are evaluated
+    idle = idle_pairs(whole)
+    balance = replace(
+        whole,
+        meshes=tuple(mesh for mesh in whole.meshes if mesh.id not in idle),
+        ties=tuple(tied for tied in whole.ties if idle.isdisjoint(tied)),
     )
+    busy = replace(setting, circuits=[each for each in setting.circuits if each.id not in idle])
     links = {link for circuit in busy.circuits for link in (circuit.i, circuit.j, *circuit.subtracted)}
     links.update(*((link, setting.tree.borne_by(link)) for link in bearings), known, question.links)
     links.update(map(setting.reacts_on, question.links))
     teeth = {mesh.name: mesh for mesh in problem.teeth}
-    _refuse_jumps(busy)
+    for name in (circuit.id for circuit in busy.circuits if circuit.id in setting.joints):
+        if setting.joints[name].transmission.at_once:
+            what = f"the torque of '{name}' over a turn is not defined"
+            why = "an instantaneous step has no defined force; only the mean torque is known"
+            raise QuestionError(Problem(what, why, "give `over`, the angle of the driver during a step"))
     motion = Motion(problem, {link: (link, frame) for link in problem.system.links if link in {*links, frame}})
     positions = PositionMotion(motion, followed_pairs(busy, teeth))
     contacts = find_contacts(busy, positions, teeth)
@@ -176,26 +174,16 @@ def build_turn_balance(setting: LoadCase, problem: MotionProblem, question: Torq
     return TurnBalance(busy, positions, balance, contacts, loads, bearings, pressed)
 
 
-def _refuse_jumps(setting: LoadCase) -> None:
-    """Raise `QuestionError` if a coupling that transmits torque moves instantaneously."""
-    for circuit in setting.circuits:
-        joint = setting.joints.get(circuit.id)
-        if joint is not None and joint.transmission.at_once:
-            what = f"the torque of '{circuit.id}' over a turn is not defined"
-            why = "an instantaneous step has no defined force; only the mean torque is known"
-            raise QuestionError(Problem(what, why, "give `over`, the angle of the driver during a step"))
-
-
 @dataclass
 class _RunResults:
-    """Results of a run, which are computed from its positions."""
+    """Results that are computed from the torques at all positions over several revolutions of the input."""
 
     run: TurnRun
     of: str | None
 
     @cached_property
     def _row(self) -> int:
-        """Row index of the reported link among the links with unknown torque."""
+        """Row index of the reported link in arrays with one row for each link of unknown torque."""
         requested = self.run.train.requested
         return requested.index(self.of) if self.of in requested else 0
 
@@ -206,15 +194,11 @@ class _RunResults:
         return -1 if setting.sense(link) * (setting.relative(link, setting.reacts_on(link)) or 0) < 0 else 1
 
     def _torque(self, found: PositionTorques) -> Floats:
-        """Return the torque at the reported link in the solution with minimum loss, positive in the link's mean sense
-        of rotation.
-        """
+        """Return the torque at the reported link with minimum loss, positive in the sense of its mean speed."""
         return np.asarray(self._way * found.torque[self._row] / self._arm)
 
     def _highest(self, found: PositionTorques) -> Floats:
-        """Return the torque at the reported link in the solution with maximum loss, positive in the link's mean sense
-        of rotation.
-        """
+        """Return the torque at the reported link with maximum loss, positive in the sense of its mean speed."""
         return np.asarray(self._way * found.highest[self._row] / self._arm)
 
     @property
@@ -231,6 +215,8 @@ class _RunResults:
         link = self._link
         locked, ambiguous = self.run.share(~found.valid), self.run.share(found.layers > 1)
         maximum = None if locked else self._extreme(1, False)
+        # without static friction the maximum torque is sufficient to start the train
+        starting = self._extreme(1, True) if train.starts_harder else maximum
         torque, neglected, period = self._torque(found), self._neglected(), train.motion.period
         names = (*train.pairs, *(f"bearing {link}" for link in train.bearings))
         parts = self._parts(names)
@@ -253,7 +239,7 @@ class _RunResults:
             None if locked else float(self.run.cells.weights @ torque) / self.run.span,
             maximum,
             self._extreme(-1, False),
-            self._starting(maximum),
+            starting if self.run.standing.valid.all() else None,
             None if locked else self._energy(parts),
             parts,
             locked,
@@ -315,19 +301,13 @@ class _RunResults:
         return PlaceInRun(turns, turns / speed * float(train.unit_days) if speed else None)
 
     def _extreme(self, way: int, static: bool) -> TorqueExtreme | None:
-        """Return the maximum torque (`way` 1) or the minimum torque (`way` -1), refined between positions; None if no
-        value is finite.
+        """Return the maximum torque (`way` 1) or minimum torque (`way` -1) at the reported link, searched between
+        positions too; None if all values are infinite. `static` selects static friction.
         """
         torque = self._highest if way > 0 else self._torque
         values = torque(self.run.standing if static else self.run.found)
         extreme = find_extreme(lambda turns: torque(self.run.train.at(turns, static)), self.run.cells, way, values)
         return None if extreme is None else TorqueExtreme(extreme[1], *self._place(extreme[0]))
-
-    def _starting(self, maximum: TorqueExtreme | None) -> TorqueExtreme | None:
-        """Return the maximum breakaway torque; None if no torque starts the train at some position."""
-        if not self.run.standing.valid.all():
-            return None
-        return self._extreme(1, True) if self.run.train.starts_harder else maximum
 
     def _energy(self, parts: Mapping[str, PairCycle]) -> CycleEnergy:
         """Return the energies over the run [J, or rad if torques are numbers without a unit]."""
@@ -377,7 +357,7 @@ class _RunResults:
         return self.run.share((driving > minimum) & (loading > minimum))
 
     def _stretches(self) -> tuple[tuple[PlaceInRun, PlaceInRun], ...]:
-        """Return the beginning and end of each part of the run in which no torque balances the loads."""
+        """Return the beginning and end of each range of input positions in which no torque balances the loads."""
         turns, locked = self.run.cells.turns, np.concatenate([[False], ~self.run.found.valid, [False]])
         starts, ends = np.flatnonzero(locked[1:] & ~locked[:-1]), np.flatnonzero(locked[:-1] & ~locked[1:]) - 1
         return tuple(
@@ -386,8 +366,8 @@ class _RunResults:
 
 
 def _changes(signs: Floats, closes: bool) -> int:
-    """Return the number of sign changes in a sequence after its zeros are removed. If `closes` is True, a change from
-    its end to its beginning is included.
+    """Return the number of sign changes in a sequence, in which zeros are ignored; if `closes` is True, also from its
+    end to its beginning.
     """
     own = signs[signs != 0]
     if not len(own):

@@ -74,9 +74,7 @@ class BalanceLayer:
 
 @dataclass(frozen=True)
 class _Trial:
-    """Torques of one block for one pattern, shape (columns, n), and a boolean mask of the positions at which they are
-    consistent with the pattern and with earlier blocks.
-    """
+    """Torques of one block for assumed signs, shape (columns, n), and a mask of the positions with these signs."""
 
     layer: BalanceLayer
     sides: Sequence[int]
@@ -107,7 +105,7 @@ def solve_positions(
 
 
 def _block_trials(columns: Sequence[ColumnPieces], block: Block, layer: BalanceLayer) -> tuple[list[_Trial], bool]:
-    """Return the distinct consistent solutions of one block, and True if all patterns were tried."""
+    """Return the different solutions of one block for all assumed signs, and True if all signs were tried."""
     own = [columns[at] for at in block.columns]
     found: list[_Trial] = []
     two_sided = sum(len(each.sides) > 1 for each in own)
@@ -128,8 +126,8 @@ def _block_trials(columns: Sequence[ColumnPieces], block: Block, layer: BalanceL
 def _solve(
     own: Sequence[ColumnPieces], block: Block, layer: BalanceLayer, sides: Sequence[int]
 ) -> tuple[Floats, Bools]:
-    """Return the torques of a block for one pattern, shape (columns, n), and a boolean mask of the positions at which
-    they are consistent with the pattern.
+    """Return the torques of one block for assumed signs `sides`, shape (columns, n), and a mask of the positions at
+    which they have these signs.
     """
     known = layer.rows[list(block.rows)]
     if len(block.rows) == len(block.columns) == 1:
@@ -147,9 +145,7 @@ def _solve(
 
 
 def _divided(coefficient: Floats | None, known: Floats) -> tuple[Floats, Bools]:
-    """Return the solution of an equation with one unknown, and a boolean mask of the positions at which the coefficient
-    is not 0.
-    """
+    """Return the unknown of a linear equation, and a mask of the positions at which its coefficient is not 0."""
     if coefficient is None:
         return np.zeros_like(known), known[0] == 0
     # a coefficient may be 0 at dead points; without a load the torque is 0 there too
@@ -162,8 +158,8 @@ def _divided(coefficient: Floats | None, known: Floats) -> tuple[Floats, Bools]:
 def _eliminated(
     own: Sequence[ColumnPieces], block: Block, layer: BalanceLayer, sides: Sequence[int]
 ) -> tuple[Floats, Bools]:
-    """Return the torques that solve several rows, computed by LAPACK. If they are not unique, the torques of minimum
-    norm are returned.
+    """Return the torques of one block with several rows, of minimum norm if they are not unique, and a mask of the
+    positions at which they satisfy all rows.
     """
     known = layer.rows[list(block.rows)]
     scale = np.max(np.abs(layer.values), axis=0, initial=0.0)
@@ -191,9 +187,7 @@ def _eliminated(
 
 
 def _iterated(own: Sequence[ColumnPieces], block: Block, layer: BalanceLayer) -> list[_Trial]:
-    """Return consistent solutions that are found by fixed-point iteration. In each iteration, the assumed direction of
-    every torque that contradicts the pattern is reversed.
-    """
+    """Return solutions of one block, found by replacing assumed signs of its torques by the computed signs."""
     patterns = {tuple(each.sides[0] for each in own): None}
     found: list[_Trial] = []
     left = layer.valid.copy()
@@ -217,9 +211,7 @@ def _iterated(own: Sequence[ColumnPieces], block: Block, layer: BalanceLayer) ->
 def _joined(
     columns: Sequence[ColumnPieces], block: Block, layers: Sequence[BalanceLayer], trials: Sequence[_Trial]
 ) -> list[BalanceLayer]:
-    """Return the layers extended by the solutions of one block. The number of layers is the maximum number of solutions
-    over all positions.
-    """
+    """Return the solutions of the balance extended by one block, as many as the maximum over all positions."""
     # fast path: at most one solution at every position needs no further layers
     if len(layers) == 1 and not np.any(sum((trial.valid.astype(int) for trial in trials), np.zeros(1)) > 1):
         (layer,) = layers
@@ -245,7 +237,7 @@ def _joined(
 
 
 def _write(columns: Sequence[ColumnPieces], block: Block, trial: _Trial, layer: BalanceLayer, where: Bools) -> None:
-    """Write the torques of a trial into a layer, at the selected positions, in place."""
+    """Copy the torques of a block into a solution at the positions `where`, and add them to its rows."""
     layer.valid |= where
     for column, side, value in zip(block.columns, trial.sides, trial.values, strict=True):
         layer.values[column, where] = value[where]
@@ -257,9 +249,7 @@ _CHUNK = 8192  # positions evaluated at once, to bound the memory
 
 
 class PositionTorques(NamedTuple):
-    """Torques at n positions, which are the last axis of all arrays. Powers and losses are divided by the speed of the
-    input.
-    """
+    """Torques at n positions, the last axis of all arrays; powers are divided by the speed of the input."""
 
     turns: Floats
     """Positions of the input [revolutions], shape (n,)."""
@@ -298,9 +288,8 @@ class PositionTorques(NamedTuple):
 
 
 class _State(NamedTuple):
-    """State of a train at some positions: link speeds, driver angles of pairs, and torques of pairs by side.
-
-    If there are several equal planets, torques are stored only for the first of them.
+    """Speeds of links, angles of drivers and unit torques of pairs at n positions. Of several equal planets, only the
+    first one is included.
     """
 
     motion: LinkMotion
@@ -395,12 +384,9 @@ class TurnBalance:
         return tuple(name for name, contact in self.contacts.items() if contact.has_flanks)
 
     def _chunk(self, turns: Floats, static: bool) -> PositionTorques:
-        """Return the torques at some positions. The flanks in contact are determined iteratively, starting with the
-        drive flanks.
-
-        If a link would turn backwards on its drive flanks and forwards on its coast flanks, it is at rest in the
-        backlash between them, and its bearing has no torque. If no choice of flanks is consistent, the result for the
-        drive flanks is returned.
+        """Return the torques at a few thousand positions. The flanks in contact are found iteratively; if no choice is
+        consistent, the drive flanks are used. A link that would turn backwards on drive flanks and forwards on coast
+        flanks rests within its backlash.
         """
         left: Indices = np.arange(len(turns))
         coasting, resting = (np.zeros((len(names), len(turns)), bool) for names in (self.flanked, self.bearings))
@@ -410,8 +396,10 @@ class TurnBalance:
             touching = {name: row for name, row in zip(self.flanked, coasting, strict=True) if row.any()}
             state = self._state(self.motion.at(turns[left], touching), resting, static)
             state, layers, best = self._balanced(state)
-            result, found = self._position_torques(state, layers, best), self._coasting(best)
-            result = result._replace(unresolved=np.asarray(resting.any(axis=0)))
+            result = self._position_torques(state, layers, best)._replace(unresolved=np.asarray(resting.any(axis=0)))
+            # coast flanks that are loaded, shape (pairs, n)
+            pressed = best.values[[self.of_pair[name] for name in self.flanked]]
+            found = best.valid & (pressed < -FAINT * np.max(np.abs(best.values), axis=0, initial=0.0))
             if round_ == 0:
                 first = result
             changed = (found != coasting).any(axis=0)
@@ -426,17 +414,11 @@ class TurnBalance:
         order = np.argsort(np.concatenate([at for at, _ in converged]))
         return some(joined([part for _, part in converged]), order)
 
-    def _coasting(self, best: BalanceLayer) -> Bools:
-        """Return a boolean mask of the positions at which the coast flanks of each pair are loaded, shape
-        (pairs, n).
-        """
-        pressed = best.values[[self.of_pair[name] for name in self.flanked]]
-        faint = FAINT * np.max(np.abs(best.values), axis=0, initial=0.0)
-        found: Bools = best.valid & (pressed < -faint)
-        return found
-
     def _state(self, motion: LinkMotion, resting: Bools, static: bool) -> _State:
-        contacts = {name: self._contact_state(each, motion) for name, each in self.contacts.items()}
+        contacts = {}
+        for name, each in self.contacts.items():
+            turning = each.way * self._speed(motion, each.ends[0], each.bases[0])
+            contacts[name] = DriverState(motion.angles.get(name, np.zeros(0)), turning)
         forces: dict[str, dict[int, PairForce]] = {}
         for column in self.columns:
             if column.meshes:
@@ -445,13 +427,9 @@ class TurnBalance:
                 forces[contact.name] = {side: contact.torques(side, contacts[contact.name], static) for side in sides}
         return _State(motion, contacts, forces, dict(zip(self.bearings, resting, strict=True)), static)
 
-    def _contact_state(self, contact: PairContact, motion: LinkMotion) -> DriverState:
-        turning = contact.way * self._speed(motion, contact.ends[0], contact.bases[0])
-        return DriverState(motion.angles.get(contact.name, np.zeros(0)), turning)
-
     def _speed(self, motion: LinkMotion, link: str, carrier: str) -> Floats:
-        """Return the speed of a link relative to `carrier`, about the reference direction of parallel axes; it is
-        exactly 0 at rest.
+        """Return the speed of a link relative to `carrier` at each position, about the reference direction of parallel
+        axes; 0 at rest in spite of rounding.
         """
         rows = self.motion.links
         found = motion.speeds[rows[link]] - motion.speeds[rows[carrier]]
@@ -473,11 +451,8 @@ class TurnBalance:
     # -------------------------------------------------------------------------------------------------- the balance
 
     def _balanced(self, state: _State) -> tuple[_State, list[BalanceLayer], BalanceLayer]:
-        """Return the state including the load-dependent friction of bearings, all solutions, and the solution with
-        minimum loss.
-
-        The friction is found by fixed-point iteration, which is damped if it converges slowly, because friction may
-        relieve a bearing. If the iteration diverges at a position, no torques balance there.
+        """Return the state completed by the load-dependent friction of bearings, all solutions of the balance, and the
+        solution with minimum loss. If the friction does not converge at a position, no solution is valid there.
         """
         pieces = [self._pieces(column, state) for column in self.columns]
         for round_ in range(_MOST_LOADED):
@@ -522,9 +497,7 @@ class TurnBalance:
         return bearings.friction(bearings.loads(reactions, angles, leans), self.balance)
 
     def _member_torques(self, name: str, best: BalanceLayer, state: _State) -> tuple[Floats, Floats]:
-        """Return the torques of a pair on its first link and on its second link, about the reference direction of
-        parallel axes.
-        """
+        """Return the torques of a pair on its two links, about the reference direction of parallel axes."""
         column = self.columns[self.of_pair[name]]
         pressed, forces = best.values[self.of_pair[name]], state.forces[column.meshes[0].id]
         ahead, back = (self._for_planet(name, forces.get(side, forces[1])) for side in (1, -1))
@@ -555,18 +528,14 @@ class TurnBalance:
         return found
 
     def _rubbing(self, state: _State, link: str, speed: Floats) -> Floats:
-        """Return the magnitude of a bearing's friction torque. The viscous drag is 0 for static friction and at
-        rest.
-        """
+        """Return the magnitude of a bearing's friction torque at each position, with viscous drag in motion."""
         own, loaded = self.bearings[link], state.loaded.get(link, np.zeros(len(speed)))
         if state.static:
             return own.static + loaded
         return np.where(state.resting[link], 0.0, own.sliding + loaded + own.drag * np.abs(speed))
 
     def _pieces(self, column: TorqueUnknown, state: _State) -> ColumnPieces:
-        """Return the coefficients of one unknown torque in each row. For equal planets, the coefficients of the first
-        planet are returned.
-        """
+        """Return the coefficients of one unknown torque in each row of the balance, for each sign of the torque."""
         if not column.meshes:
             size = len(state.motion.turns)
             rows = {row: np.full(size, float(value)) for row, value in column.pieces[0].items()}
@@ -597,13 +566,13 @@ class TurnBalance:
         found = {}
         for first, mesh in ((column.meshes[0], mesh) for column in self.columns for mesh in column.meshes):
             alike = self.contacts[mesh.id].first == self.contacts[first.id].first
-            found[mesh.id] = alike, mesh.relative_signs(first, alike)
+            a, b = (first.a, first.b) if alike else (first.b, first.a)
+            # a reversed axis of a planet changes the sign
+            found[mesh.id] = alike, (-1 if mesh.a * a < 0 else 1, -1 if mesh.b * b < 0 else 1)
         return found
 
     def _for_planet(self, name: str, force: PairForce) -> tuple[Floats, Floats]:
-        """Return the torques on both links of a pair of an equal planet, computed from the torques of the first planet.
-        The axis of the planet may be reversed.
-        """
+        """Return the unit torques on both links of a planet's pair from those of the first of equal planets."""
         alike, signs = self.relation_to_first[name]
         first, second = (force.first, force.second) if alike else (force.second, force.first)
         return signs[0] * first, signs[1] * second

@@ -1,10 +1,7 @@
-"""Run over several revolutions: positions at which torques are computed. They are chosen so that integrals are
-accurate.
+"""Run over several revolutions: positions at which torques are computed, chosen so that integrals are accurate.
 
-The run is divided into cells at equally spaced positions and at every kink. Each cell has three further positions
-inside. Torques are smooth within a cell and are integrated by Boole's rule. Where a transmission function has a kink, a
-motion reverses or the flank in contact changes, a cell ends and both one-sided limits are computed. A cell is bisected
-until bisection no longer changes the result of Simpson's rule.
+Cells end at equally spaced positions and at every kink, where both one-sided limits are computed. They are bisected
+until Simpson's rule no longer changes, and integrated by Boole's rule.
 """
 
 from __future__ import annotations
@@ -73,19 +70,6 @@ class RunCells:
         """Weights of the positions in an integral over the revolutions of the input, shape (cells times `NODES`,)."""
         found: Floats = ((self.high - self.low)[:, None] * _BOOLE).ravel()
         return found
-
-    def roughness(self, values: Floats) -> Floats:
-        """Return the estimated error of Simpson's rule on the halves of each cell, shape (cells,).
-
-        values   integrand at the positions of the cells
-        """
-        found: Floats = np.abs(values.reshape(-1, NODES) @ _HALVED) * (self.high - self.low)
-        return found
-
-    @property
-    def middles(self) -> Floats:
-        """Middle position of each cell [revolutions]."""
-        return np.asarray((self.low + self.high) / 2)
 
     def divided(self, cell: Indices, at: Floats) -> RunCells:
         """Return the parts that result from dividing cells at the positions `at` [revolutions].
@@ -162,9 +146,7 @@ class TurnRun:
 
     @cached_property
     def kinks(self) -> Floats:
-        """Positions of kinks of transmission functions [revolutions], for the most frequent combinations of coast
-        flanks in contact.
-        """
+        """Positions of kinks [revolutions] for the most frequent combinations of coast flanks in contact."""
         train = self.train
         # flanks in contact at a few positions: their functions' kinks are searched exactly
         even = train.at(np.linspace(0.0, self.span, min(self.samples, _PROBES)))
@@ -212,7 +194,7 @@ class TurnRun:
     def _cuts(
         self, cells: RunCells, found: PositionTorques, scales: RunScales, total: float, depth: int
     ) -> tuple[Indices, Floats]:
-        """Return the cell indices and the positions at which cells are to be divided. The positions are kinks, and
+        """Return the indices of the cells to be divided, and the positions at which they are divided: kinks, and
         middles of cells that are too wide.
         """
         if depth == _DEPTH:
@@ -221,18 +203,16 @@ class TurnRun:
         if depth < _ROUNDS:
             signs = self.signs(found, scales)
             kinks, places = find_kinks(lambda turns: self.signs(self.train.at(turns), scales), cells, signs)
-        coarse = self._coarse(cells, found, total)
+        # estimated error of Simpson's rule on the halves of each cell, for input power and losses
+        width = cells.high - cells.low
+        integrands = np.stack([found.powers[: len(self.train.requested)].sum(axis=0), found.losses.sum(axis=0)])
+        rough = np.abs(np.nan_to_num(integrands).reshape(2, -1, NODES) @ _HALVED).max(axis=0) * width
+        coarse = rough > total * (_ACCURACY * width / self.span + _ROUNDING)
         # a cell with a kink is divided there first
         coarse[kinks] = False
         wide = np.flatnonzero(coarse)
-        return np.concatenate([kinks, wide]), np.concatenate([places, cells.middles[wide]])
-
-    def _coarse(self, cells: RunCells, found: PositionTorques, total: float) -> Bools:
-        """Return a boolean mask of the cells that are too wide for accurate integrals of input power or losses."""
-        integrands = found.powers[: len(self.train.requested)].sum(axis=0), found.losses.sum(axis=0)
-        rough = np.max([cells.roughness(np.nan_to_num(each)) for each in integrands], axis=0)
-        found_coarse: Bools = rough > total * (_ACCURACY * (cells.high - cells.low) / self.span + _ROUNDING)
-        return found_coarse
+        middles = (cells.low[wide] + cells.high[wide]) / 2
+        return np.concatenate([kinks, wide]), np.concatenate([places, middles])
 
     @property
     def cells(self) -> RunCells:

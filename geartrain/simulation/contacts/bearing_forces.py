@@ -64,9 +64,7 @@ class BearingForces:
 
     @cached_property
     def thrust(self) -> Mapping[str, float]:
-        """Friction torque of shoulders due to weights along their axes [N m], keyed by link. The torques of equal
-        planets are added.
-        """
+        """Friction torque of shoulders due to weights along their axes [N m], by link, added for equal planets."""
         found: Counter[str] = Counter()
         for link, torque in zip(self.loads.links, self.loads.thrust[:, 0].tolist(), strict=True):
             found[self._declared(link)] += torque

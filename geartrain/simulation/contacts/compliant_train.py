@@ -1,14 +1,8 @@
-"""Train with compliant teeth: the contacts of `TrainModel` with stiffness and damping of each contact, and the
-vibration modes.
+"""Train with compliant teeth: the contacts of `TrainModel` with stiffness and damping, and the vibration modes.
 
-Small vibrations about closed contacts satisfy M x'' + C x' + K x = 0, equation (19) of docs/dynamics.md, with the mass
-matrix M, the damping matrix C, and the stiffness matrix K = sum k r^T r over all pairs and the springs of drives. The
-row vector r gives the opening speed of a pair of stiffness k, at its mean speed ratio, from the speeds of the
-coordinates.
-
-Stiffness and damping are declared or estimated. A stiffness k along the line of action is k r^2 about the driven
-wheel's axis, where r is the lever arm of that line: the base radius of involute teeth, the pitch radius of others.
-Damping is converted in the same way, or follows from restitution: docs/dynamics.md (16) and (17).
+Small vibrations satisfy M x'' + C x' + K x = 0, equation (19) of docs/dynamics.md. A stiffness k along the line of
+action is k r^2 about the driven wheel's axis, with its lever arm r: the base radius of involute teeth, the pitch radius
+of others. Damping is declared, or follows from restitution: equations (16) and (17).
 """
 
 from __future__ import annotations
@@ -30,7 +24,6 @@ if TYPE_CHECKING:
     from geartrain.kinematics.circuits import Circuit
     from geartrain.numerics.arrays import Floats
     from geartrain.numerics.quantity import Quantity
-    from geartrain.simulation.contacts.contact_model import ContactPair
     from geartrain.teeth.coupling import Coupling
     from geartrain.train import GearPair
 
@@ -89,45 +82,39 @@ class CompliantTrain(TrainModel):
             )
             fix = "declare the stiffness of pairs or the train, such as `stiffness: 20 N m/rad` (pins: only N m/rad)"
             raise QuestionError(Problem(what, why, fix))
-        stiffness, damping = np.zeros(len(self.model.pairs)), np.zeros(len(self.model.pairs))
-        for at, pair in enumerate(self.model.pairs):
-            own = self.compliances[pair.name]
-            stiffness[at] = own.stiffness
-            # damping that is not declared follows from the damping ratio: c = 2 zeta sqrt(k m)
-            damping[at] = (
-                2 * own.ratio * sqrt(own.stiffness * self._inertia(self._row(pair)))
-                if own.damping is None
-                else own.damping
-            )
-        return ToothCompliance(stiffness, damping)
+        own = [self.compliances[pair.name] for pair in self.model.pairs]
+        # damping that is not declared follows from the damping ratio: c = 2 zeta sqrt(k m)
+        damping = [
+            2 * each.ratio * sqrt(each.stiffness * inertia) if each.damping is None else each.damping
+            for each, inertia in zip(own, self._inertias, strict=True)
+        ]
+        return ToothCompliance(np.array([each.stiffness for each in own]), np.array(damping))
 
     @cached_property
     def free(self) -> list[int]:
         """Indices of the coordinates whose speed is not prescribed."""
         return [at for at in range(len(self.coordinates)) if at not in self.model.given]
 
-    def _row(self, pair: ContactPair) -> Floats:
-        """Return the coefficients by which the opening speed of a pair depends on the coordinate speeds, at its mean
-        speed ratio.
+    @cached_property
+    def _rows(self) -> list[Floats]:
+        """Coefficients of the coordinate speeds in the speed at which the flanks of each pair separate, at its mean
+        speed ratio; one array of shape (coordinates,) for each pair.
         """
-        return pair.opening_row(len(self.coordinates), pair.front.slope)
+        return [pair.opening_row(len(self.coordinates), pair.front.slope) for pair in self.model.pairs]
 
-    def _inertia(self, row: Floats) -> float:
-        """Return the effective inertia of a pair [kg m2], 1/(r M^-1 r^T), where r is the row returned by `_row` and M
-        is the mass matrix.
-
-        The result is 0 if all speeds in the row are prescribed.
+    @cached_property
+    def _inertias(self) -> list[float]:
+        """Effective inertia of each pair about the axis of its driven side [kg m2], 1/(r M^-1 r^T) with its row r of
+        `_rows` and the mass matrix M; 0 if all speeds in the row are prescribed.
         """
-        free = row[self.free]
-        ease = float(free @ np.linalg.solve(self.mass[np.ix_(self.free, self.free)], free)) if free.any() else 0.0
-        return 1 / ease if ease else 0.0
+        rows, mass = (row[self.free] for row in self._rows), self.mass[np.ix_(self.free, self.free)]
+        return [1 / float(row @ np.linalg.solve(mass, row)) if row.any() else 0.0 for row in rows]
 
     @cached_property
     def matrices(self) -> tuple[Floats, Floats, Floats]:
         """Mass matrix [kg m2], damping matrix [N m s/rad] and stiffness matrix [N m/rad] of the free coordinates."""
         stiffness, damping = np.zeros_like(self.mass), np.array(self.model.viscous)
-        for pair, k, c in zip(self.model.pairs, *self.yields, strict=True):
-            row = self._row(pair)
+        for row, k, c in zip(self._rows, *self.yields, strict=True):
             stiffness += k * np.outer(row, row)
             damping += c * np.outer(row, row)
         for spring in self.model.springs:
@@ -163,20 +150,15 @@ class CompliantTrain(TrainModel):
 
         It is the larger of the frequency of the fastest mode and half the decay rate of the most damped pair.
         """
-        rates = [0.0]
-        for pair, c in zip(self.model.pairs, self.yields.damping, strict=True):
-            inertia = self._inertia(self._row(pair))
-            # a strongly damped pair decays at the rate c/m
-            rates.append(float(c) / inertia / 2 if inertia else 0.0)
-        return max(float(np.sqrt(self.vibration[0][-1])), *rates)
+        # a strongly damped pair decays at the rate c/m
+        rates = [float(c) / m / 2 for c, m in zip(self.yields.damping, self._inertias, strict=True) if m]
+        return max([float(np.sqrt(self.vibration[0][-1])), *rates])
 
     # ----------------------------------------------------------------------------------- stiffness and damping of pairs
 
     @cached_property
     def compliances(self) -> Mapping[str, PairCompliance]:
-        """Stiffness and damping of each pair or coupling whose stiffness is declared or can be estimated, keyed by
-        name.
-        """
+        """Stiffness and damping of each pair whose stiffness is declared or can be estimated, by name."""
         found = {}
         for gear in self.train.gears:
             stiffness, damping = self.train.stiffness_of(gear), self.train.damping_of(gear)
@@ -203,7 +185,7 @@ class CompliantTrain(TrainModel):
         return PairCompliance(stiffness, damping, ratio, damping is None and restitution is None, note)
 
     def _about_driven(self, gear: GearPair, quantity: Quantity, key: str) -> float:
-        """Return a declared stiffness or damping, converted to the axis of the driven wheel [N m/rad or N m s/rad]."""
+        """Return a declared stiffness [N m/rad] or damping [N m s/rad] about the axis of the driven wheel."""
         if quantity.dimension in ("torsional stiffness", "torsional damping"):
             return quantity.si
         arm = self._arm(gear)
@@ -216,15 +198,13 @@ class CompliantTrain(TrainModel):
         return quantity.si * arm**2
 
     def _arm(self, gear: GearPair) -> float | None:
-        """Return the lever arm of the line of action about the driven wheel's axis [m], or None if it is not known."""
+        """Return the lever arm of the line of action about the driven wheel's axis [m]; None if it is unknown."""
         first, second = gear.pair
         driver = self.problem.drivers.get(gear.name)
         wheel = first if driver is not None and driver.wheel == second else second
         mesh = self._meshes.get(gear.name)
         own = self.train.wheels[wheel][1]
-        module = mesh.wheels.module if mesh is not None else None
-        if module is None:
-            module = own.transverse_module
+        module = (None if mesh is None else mesh.wheels.module) or own.transverse_module
         if module is None or own.count is None:
             return None
         radius = module * own.count / 2
@@ -233,15 +213,19 @@ class CompliantTrain(TrainModel):
         return radius
 
     def _estimate(self, gear: GearPair) -> tuple[float, str] | None:
-        """Return the estimated stiffness of involute teeth of known width and metal [N m/rad], and a note on the
-        method, or None for other teeth.
+        """Return the stiffness of a pair of involute teeth [N m/rad], estimated from width and metal, and a note on the
+        estimate; None if it cannot be estimated.
         """
         mesh, arm = self._meshes.get(gear.name), self._arm(gear)
         if mesh is None or arm is None or not isinstance(mesh.tooth_form, Involute):
             return None
         wheels = [self.train.wheels[name][1] for name in gear.pair]
         widths = [each.thickness or self.train.thickness for each in wheels]
-        moduli = [_youngs_modulus(each.density or self.train.density) for each in wheels]
+        densities = [each.density or self.train.density for each in wheels]
+        moduli = [
+            None if rho is None else next((E for low, high, E in _DENSITIES if low <= rho.si <= high), None)
+            for rho in densities
+        ]
         if None in widths or None in moduli:
             return None
         # the narrower wheel limits the width of contact
@@ -258,9 +242,7 @@ class CompliantTrain(TrainModel):
 
 @dataclass(frozen=True)
 class PairCompliance:
-    """Torsional stiffness [N m/rad] and damping of one pair about the axis of its driven wheel, with the
-    driver fixed.
-    """
+    """Torsional stiffness [N m/rad] and damping of a pair about its driven wheel's axis, with its driver fixed."""
 
     stiffness: float
     damping: float | None
@@ -304,12 +286,3 @@ def damping_ratio(restitution: float) -> float:
     wanted = max(restitution, _MINIMUM)
     # the root is bracketed: at a ratio of 10 the coefficient is 0.002, below the minimum
     return float(brentq(lambda ratio: restitution_at(ratio) - wanted, 0.0, 10.0, xtol=1e-14)) if wanted < 1 else 0.0
-
-
-def _youngs_modulus(density: Quantity | None) -> float | None:
-    """Return Young's modulus of the metal with the given density [N/m2], or None if the density is outside the known
-    ranges.
-    """
-    if density is None:
-        return None
-    return next((modulus for low, high, modulus in _DENSITIES if low <= density.si <= high), None)

@@ -60,9 +60,7 @@ class ContactPair:
         return self.front is self.back
 
     def opening_row(self, n: int, ratio: float) -> Floats:
-        """Return the coefficients by which the opening speed of the pair depends on the n coordinate speeds, at a given
-        speed ratio.
-        """
+        """Return the coefficients of the n coordinate speeds in the pair's opening speed, at a speed ratio."""
         return _dense(self.driven, n) - ratio * _dense(self.driver, n)
 
 
@@ -152,7 +150,7 @@ class ContactModel:
     springs: Sequence[Spring] = ()
     loaded: LoadedBearings | None = None
     """Forces on the bearings whose friction depends on these forces; None if there are no such bearings."""
-    start: Floats | None = field(default=None)
+    start: Floats | None = None
 
     @property
     def fall_times(self) -> list[float]:
@@ -181,8 +179,8 @@ class ContactModel:
 
     @cached_property
     def _functions(self) -> tuple[list[TabledFunction], list[list[int]], list[list[int]]]:
-        """Distinct tabulated functions, and for each pair the indices of its transmission functions and of its friction
-        functions.
+        """Distinct tabulated functions of all pairs, and the indices of each pair's two transmission functions and four
+        friction functions among them.
         """
         # functions shared by several pairs are tabulated once, by identity
         known: dict[int, int] = {}
@@ -254,10 +252,8 @@ class ContactModel:
         )
 
     def _compliance(self, row: Floats) -> float:
-        """Return the compliance of a contact with rigid flanks [1/(kg m2)].
-
-        The compliance is 0 if a free coordinate moves the contact. If not, it is a small value that keeps the equations
-        from being singular.
+        """Return the compliance of a contact between rigid flanks [1/(kg m2)]. It is 0, or a small value if all
+        coordinates that move the contact are prescribed, so that the equations are regular.
         """
         if any(value and at not in self.given for at, value in enumerate(row)):
             return 0.0
@@ -272,7 +268,7 @@ def _dense(form: Form, n: int) -> Floats:
 
 
 def _sparse(rows: Sequence[Mapping[int, float]]) -> tuple[Ints, Ints, Floats]:
-    """Return rows in compressed sparse row format: row starts, column indices and coefficients."""
+    """Return sparse rows in compressed row format: first entry of each row, column and value of each entry."""
     at = np.cumsum([0, *(len(row) for row in rows)]).astype(np.int64)
     of = np.array([each for row in rows for each in row], dtype=np.int64)
     return at, of, np.array([value for row in rows for value in row.values()], dtype=np.float64)

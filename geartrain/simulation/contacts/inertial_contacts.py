@@ -1,17 +1,9 @@
 """Torques that each pair must transmit to keep its flanks in contact during motion: docs/dynamics.md, equations (1) to
 (6).
 
-While all drive flanks are in contact, the links follow `motion`. Let pair m, with driver angle S_m and speed ratio tau
-of mean value `mean`, be displaced virtually: its driven side moves ahead by p_m, the input is fixed, and every other
-pair keeps touching. Its error is then delta_m = sense (tau - mean) dS_m + p_m, so that links move by e = R J^-1 p. R is
-the response of the links to pair errors, and J = I - diag(sense (tau - mean)) G the matrix of (5) in docs/motion.md. By
-d'Alembert's principle the total virtual work is zero. The torque that the flanks must carry, lambda = -sum (T - J_l
-theta'') e over all links with torque T, inertia J_l and acceleration theta'', is
-
-    lambda_m(x, w) = D_m(x) + V_m(x) w + A_m(x) w^2
-
-at position x and input speed w, with loads and dry friction of bearings in D, viscous drag in V, and inertia in A. The
-separation speed is the minimum w > 0, over all positions, at which lambda_m vanishes.
+By the principle of virtual work, the flanks of a pair carry the torque D(x) + V(x) w + A(x) w^2 at the position x and
+the input speed w, with loads and dry friction of bearings in D, viscous drag in V, and inertia in A. The separation
+speed is the minimum w > 0, over all positions, at which it vanishes.
 """
 
 from __future__ import annotations
@@ -63,8 +55,8 @@ class CarriedTorques(NamedTuple):
 
 
 class _State(NamedTuple):
-    """Speeds and accelerations of all links at n positions for an input speed of 1 rad/s, and the coupling between the
-    pairs.
+    """Speeds and accelerations of all links at n positions for an input speed of 1 rad/s, and the matrices that couple
+    the errors of the pairs.
     """
 
     speed: Floats
@@ -102,16 +94,12 @@ class InertialContacts:
 
     @cached_property
     def _response(self) -> Floats:
-        """Response matrix R: angle of each link per unit transmission error of each pair [rad/rad], shape (links,
-        pairs).
-        """
+        """Response matrix R of link angles to transmission errors of pairs [rad/rad], shape (links, pairs)."""
         return self.motion._propagation.response
 
     def _inverse(self, slope: Floats) -> Floats:
-        """Return the inverse of the matrix J = I - diag(slope) G, which couples the transmission errors of the pairs,
-        shape (n, pairs, pairs).
-
-        The gains G are the angles of the drivers per unit transmission error of each pair.
+        """Return the inverse of the matrix J = I - diag(slope) G at n positions, shape (n, pairs, pairs). G contains
+        the change of each driver's angle per unit transmission error of each pair.
         """
         found = np.tile(np.eye(len(self.pairs)), (slope.shape[1], 1, 1))
         found[:, [source.pair for source in self.sources]] -= slope.T[:, :, None] * self.motion._forward.gains
@@ -134,7 +122,9 @@ class InertialContacts:
 
     @cached_property
     def _joints(self) -> tuple[Ints, Floats]:
-        """Index of the link that bears each link, and relative direction of the axes of the two links (1 or -1)."""
+        """Index of the link that carries the axis of each link, and 1 or -1 if the axes of these two links have the
+        same or opposite directions.
+        """
         at = {link: number for number, link in enumerate(self.moving.system.links)}
         bearers = [self.acting.bearer.get(link, self.moving.frame) for link in at]
         signs = self.moving.signs
@@ -197,18 +187,15 @@ class InertialContacts:
         return CarriedTorques(*self._carried(state, forces))
 
     def _carried(self, state: _State, forces: Sequence[Floats]) -> Iterator[Floats]:
-        """Yield the torques that the pairs transmit under the torques `forces` (f) on the links: sense J^-T R^T f.
-
-        J is the matrix that couples the transmission errors of the pairs, and R is the response matrix of the links.
+        """Yield the torques that the pairs transmit under each array of torques f on the links: sense J^-T R^T f, with
+        the matrices J (`_inverse`) and R (`_response`) and the sense of each driven side.
         """
         for requested in forces:
             force = self._without_crank_power(requested, state.virtual)
             yield self._senses[:, None] * np.einsum("nji,jn->in", state.inverse, self._response.T @ force)
 
     def _without_crank_power(self, requested: Floats, speed: Floats) -> Floats:
-        """Return the torques on the links minus the driving torque of the crank, such that the total virtual power is
-        0.
-        """
+        """Return the torques on the links plus the crank's torque, which makes their power at `speed` 0."""
         # a prescribed input absorbs any torque, so no correction is needed
         if self.acting.crank is None:
             return requested
@@ -327,9 +314,7 @@ def find_inertial_loads(
 
 
 def _is_cranked(train: Train, case: StateCase) -> bool:
-    """Return True if a crank that is not the only input drives the train, and no constant driving torque is
-    declared.
-    """
+    """Return True if a crank other than the only input drives the train without a declared constant torque."""
     steady = case.drive is not None and case.drive.steady_torque is not None
     return train.crank is not None and train.crank not in case.inputs and len(case.inputs) == 1 and not steady
 
@@ -340,9 +325,8 @@ def torques_have_units(train: Train, case: StateCase) -> bool:
 
 
 def _torques(train: Train, case: StateCase) -> tuple[dict[str, Quantity], dict[str, Quantity]]:
-    """Return the declared load torques and the bearing friction torques, each keyed by link.
-
-    Loads on inputs do no virtual work unless a crank drives the train, so they are omitted.
+    """Return the declared load torques and the friction torques of bearings, each by link. Loads on inputs are omitted
+    unless a crank drives the train, because they do no virtual work.
     """
     # torques on a prescribed input do no virtual work
     still = {train.frame} if _is_cranked(train, case) else {train.frame, *case.inputs}

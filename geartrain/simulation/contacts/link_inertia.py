@@ -1,9 +1,7 @@
 """Moments of inertia of links, which are declared or computed from the plates from which their wheels are cut.
 
-A wheel of density rho and thickness t has the moment of inertia rho t (integral of r^2 dA) over its outline, computed
-exactly by Green's theorem. The outline includes the teeth that are drawn and cut. The wheel is a plate without spokes.
-A planet of mass m at a distance r from its carrier's axis adds m r^2 to the inertia of the carrier; the planet's own
-moment of inertia refers to its own axis.
+A wheel of density rho and thickness t has the moment of inertia rho t (integral of r^2 dA) over its outline, without
+spokes, by Green's theorem. A planet of mass m at a distance r from its carrier's axis adds m r^2 to the carrier.
 """
 
 from __future__ import annotations
@@ -110,7 +108,7 @@ def find_link_inertias(
 
 
 class _Bodies:
-    """Links of a train as rigid bodies with masses and moments of inertia."""
+    """Links of a train as rigid bodies, with their masses and moments of inertia."""
 
     def __init__(self, train: TrainMechanics) -> None:
         self.train, self.declared = train, train.declaration
@@ -134,8 +132,8 @@ class _Bodies:
         return replace(own, value=own.value + carried, carried=carried, missing=tuple(missing))
 
     def _sliding(self, link: str) -> LinkInertia:
-        """Return the moment of inertia that is equivalent to the mass of a sliding link and of the links that it
-        carries.
+        """Return the moment of inertia that represents the mass of a sliding link and of the links that it carries, if
+        1 mm of travel is treated as one turn.
         """
         tree, line = self.train.tree, self.train.tree.lines[link]
         masses = {each: self._mass(each) for each in self.declared.links if tree.moving(each, line) == link}
@@ -164,7 +162,7 @@ class _Bodies:
         return None if missing or not plates else sum(plate.mass for plate in plates)
 
     def _plates(self, link: str) -> tuple[Sequence[PlateMoments], tuple[str, ...]]:
-        """Return the masses and moments of inertia of all wheels of a link, and descriptions of missing data."""
+        """Return the mass and moment of inertia of each wheel of a link, and texts that name missing data."""
         plates, missing = [], []
         for name, wheel in self.declared.links[link].wheels.items():
             thickness = wheel.thickness or self.declared.thickness
@@ -192,10 +190,7 @@ class _Bodies:
         return find_cut_teeth(self.train).wheels
 
     def _orbit(self, carrier: str, planet: str) -> float | None:
-        """Return the distance of a planet's axis from the carrier's axis [m], or None if it is not known.
-
-        It is the centre distance of a pair that consists of a wheel of the planet and a wheel about the carrier's axis.
-        """
+        """Return the distance of a planet's axis from its carrier's axis [m], a centre distance; None if unknown."""
         from geartrain.dynamics.gear_meshes import find_sizes
 
         tree = self.train.tree

@@ -1,11 +1,7 @@
 """Tables of transmission functions for the kernels: piecewise polynomials whose cells end at the kinks of the function.
 
-An impact is a jump of the speed ratio. A table interpolated across a jump would replace it by many small impacts that
-lose less energy. Therefore cells end at `transmission.kinks()`, and the polynomial on each side of a kink is fitted to
-that side only. The angle is computed from a polynomial, and the speed ratio from its derivative, so the constraint that
-keeps two flanks in contact is the exact gradient of their gap.
-
-The kernels evaluate many functions one after another, each at one angle.
+An impact is a jump of the speed ratio, which interpolation across a kink would replace by many small impacts that lose
+less energy. The speed ratio is the derivative of the tabulated angle, so that it is the exact gradient of the gap.
 """
 
 from __future__ import annotations
@@ -54,9 +50,7 @@ class PairTables(NamedTuple):
 
 
 class TabledFunction(NamedTuple):
-    """Function slope S + p(S) of a driver angle S [rad], with a table of its periodic part p and the minimum jump of
-    its slope.
-    """
+    """Function slope S + p(S) of a driver angle S [rad], with a table of p, which is periodic, and its minimum jump."""
 
     slope: float
     table: CellTable

@@ -1,11 +1,8 @@
 """Friction terms a_f of the driver's lever arm of a pair: T_1 = (tau + a_f) T_2, equation (10) of docs/dynamics.md.
 
-T_1 and T_2 are the torques of the driver and of the driven wheel, and tau is the speed ratio. There are four cases:
-each of the two flanks with two senses of rotation. On one flank the sliding velocity changes its sign with the sense of
-rotation. With the friction coefficient f, and the coefficients `out` and `into` of the contact geometry, a contact
-transmits the fraction eta(f) = (1 + f out)/(1 + f into) of its power forwards. The driver's torque is then tau/eta(f)
-times the driven torque in forward rotation, and tau/eta(-f) times the driven torque in backward rotation, whichever
-wheel is the power input.
+T_1 and T_2 are the torques of the driver and of the driven wheel, and tau is the speed ratio. A contact transmits the
+fraction eta(f) = (1 + f out)/(1 + f into) of its power forwards, with the friction coefficient f and the coefficients
+`out` and `into` of its geometry; sliding reverses with the sense of rotation, which gives eta(-f).
 """
 
 from __future__ import annotations
@@ -44,8 +41,8 @@ def tooth_arms(mesh: GearMesh) -> Arms | None:
 
 
 def _flank_arms(mesh: GearMesh, transmission: TransmissionFunction) -> tuple[TabledFunction, TabledFunction] | None:
-    """Return the friction terms of one flank for its driving sense and for the opposite sense, or None if there is no
-    friction.
+    """Return the friction terms of one flank for two senses of rotation: the sense in which this flank drives, and the
+    opposite sense. None if there is no friction.
     """
     if not mesh.computes_losses or not mesh.has_friction:
         return None
@@ -71,10 +68,8 @@ def _flank_arms(mesh: GearMesh, transmission: TransmissionFunction) -> tuple[Tab
 def _friction_term(
     tau: Floats, rubbing: ContactRubbing, coefficient: Callable[[Floats], Floats | float], way: int, label: str
 ) -> Floats:
-    """Return the friction term tau (1/eta - 1) from the speed ratio tau and efficiency eta at each driver angle.
-
-    The term is 0 during a dwell, in which nothing slides. A `way` of -1 reverses the sliding. Raises `GearTrainError`
-    if friction locks the teeth.
+    """Return the friction term tau (1/eta - 1) at each driver angle, from the speed ratio tau and the efficiency eta; 0
+    during a dwell. Sliding is reversed for `way` -1. Raise `GearTrainError` if friction locks the teeth.
     """
     sliding, into, out = rubbing
     # NaN marks tooth pairs that do not touch at this angle

@@ -247,10 +247,24 @@ def separation_section(found: SeparationRates) -> Section:
 
 
 def separation_text(found: SeparationRates) -> Iterator[str]:
-    """Yield sentences about the first pair that separates, the searched range of the input, and links of unknown
-    inertia.
-    """
-    yield _first_separation(found)
+    """Yield sentences on the first pair that separates, the searched range, and links of unknown inertia."""
+    if found.first is None:
+        yield f"No teeth separate at any speed of '{found.input}'."
+    else:
+        pair, rate = found.first.pair, found.first.rate
+        where = f"after {separation_words(found.first)[1]} turns of '{found.input}'"
+        if found.first.leap:
+            yield f"Teeth of {pair} separate at any speed: {where} a speed drops abruptly, and flanks cannot pull."
+        elif not rate:
+            yield (
+                f"Teeth of {pair} separate at any speed, first {where}: neither load nor bearing friction keeps them "
+                "in contact."
+            )
+        else:
+            yield (
+                f"The motion is valid up to {rate:.5g} turn/s of '{found.input}': above this rate the teeth of "
+                f"{pair} separate, first {where}, because the driven side runs ahead."
+            )
     if found.uncounted:
         yield f"Parts whose friction is not included: {', '.join(found.uncounted)}."
     if not found.complete:
@@ -266,32 +280,12 @@ def separation_words(pair: PairSeparation) -> tuple[str, str]:
     return f"{pair.rate:.5g}" if pair.rate else "any rate", f"{round(pair.at, _PLACES):.6g}"
 
 
-def _first_separation(found: SeparationRates) -> str:
-    first = found.first
-    if first is None:
-        return f"No teeth separate at any speed of '{found.input}'."
-    where = f"after {separation_words(first)[1]} turns of '{found.input}'"
-    if first.leap:
-        return f"Teeth of {first.pair} separate at any speed: {where} a speed drops abruptly, and flanks cannot pull."
-    if not first.rate:
-        return (
-            f"Teeth of {first.pair} separate at any speed, first {where}: neither load nor bearing friction keeps them "
-            "in contact."
-        )
-    return (
-        f"The motion is valid up to {first.rate:.5g} turn/s of '{found.input}': above this rate the teeth of "
-        f"{first.pair} separate, first {where}, because the driven side runs ahead."
-    )
-
-
 # --------------------------------------------------------------------------------------------------------------- search
 
 
 def _minimum_rates(contacts: InertialContacts, kinks: Floats, turns: float) -> tuple[Floats, Floats, float]:
-    """Return the minimum input speed at which each pair separates between kinks [rad/s], the position of each minimum
-    [revolutions of the input], and the width of the narrowest interval between kinks [revolutions of the input].
-
-    For each pair, the intervals with the lowest speeds are refined with increasingly fine samples.
+    """Return the minimum input speed at which each pair separates between kinks [rad/s], the input position of each
+    minimum [revolutions], and the width of the narrowest interval between kinks [revolutions].
     """
     ends = np.unique(np.concatenate([[0.0], kinks, [turns]]))
     low, high = ends[:-1], ends[1:]
@@ -322,11 +316,8 @@ def _minimum_rates(contacts: InertialContacts, kinks: Floats, turns: float) -> t
 
 
 def _jump_positions(contacts: InertialContacts, kinks: Floats, narrowest: float) -> dict[int, float]:
-    """Return the first position of the input at which each pair separates at any speed [revolutions], keyed by pair
-    index.
-
-    At this position, a jump of the speed ratio would require a tensile impulse. Pairs without such a position are
-    omitted.
+    """Return the first input position [revolutions] at which a jump of speed would require the flanks of a pair to
+    pull, by index of the pair.
     """
     if not len(kinks):
         return {}

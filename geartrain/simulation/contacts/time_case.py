@@ -120,9 +120,8 @@ def find_time_case(
 
 
 def _refuse_rate_beyond_beats(train: Train, problem: MotionProblem, drive: PowerInput, passed: Fraction) -> None:
-    """Raise `QuestionError` if a prescribed speed would make an escape wheel pass more than one tooth per beat.
-
-    passed   speed of the escape wheel relative to its bearing link, divided by the speed of the driving link
+    """Raise `QuestionError` if a prescribed speed would turn an escape wheel by more than one tooth in two beats.
+    `passed` is the speed of the escape wheel relative to its pallets divided by the speed of the driving link.
     """
     beats = train.escapement
     if beats is None or not problem.ratio(drive.link):
@@ -147,8 +146,8 @@ def _refuse_rate_beyond_beats(train: Train, problem: MotionProblem, drive: Power
 def _declared_rate(
     train: Train, case: StateCase, problem: MotionProblem, passed: Fraction | None, scale: float | None
 ) -> float:
-    """Return the speed of the driving link [rad/s]. It follows from the declared rate or, if there is none, from the
-    escapement, the hand, or `scale`.
+    """Return the speed of the driving link [rad/s] from the first of these that is declared: a rate, an escapement, the
+    speed of a hand; otherwise `scale`.
     """
     unit = radians_per_second(train, case)
     if unit is not None:
@@ -166,7 +165,7 @@ def _declared_rate(
 
 
 def _power_input(train: Train, case: StateCase, drive: Drive | None, problem: MotionProblem, rate: float) -> PowerInput:
-    """Return the drive at the power input, which acts in the sense in which its link turns."""
+    """Return the drive of the train: its link, kind and values, with the sign of the link's mean speed."""
     driving_link = problem.driving_link
     link = train.crank or driving_link
     speed = rate * float(problem.ratio(link))

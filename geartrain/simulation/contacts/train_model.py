@@ -170,9 +170,7 @@ class TrainModel:
 
     @cached_property
     def _efficiencies(self) -> Mapping[str, Any]:
-        """Declared efficiencies of gear pairs and of rows of couplings, keyed by name; None if no efficiency is
-        declared.
-        """
+        """Declared efficiency of each gear pair and each row of a coupling, by name; None if undeclared."""
         gears = {gear.name: gear.efficiency for gear in self.train.gears}
         return gears | {name: each.efficiency for each in self.train.couplings for name in each.row_names}
 
@@ -194,9 +192,7 @@ class TrainModel:
 
     @cached_property
     def forms(self) -> tuple[tuple[str, ...], Floats]:
-        """Names of the coordinate links, and speeds of all links per unit speed of each coordinate, shape (links,
-        coordinates).
-        """
+        """Names of the coordinate links, and speeds of links per unit coordinate speed, shape (links, coordinates)."""
         free = {circuit.id for circuit in self.contacts}
         symbols = {self.index[link]: -1 - at for at, link in enumerate(self.prescribed)}
         rows = []
@@ -269,7 +265,9 @@ class TrainModel:
             driver, driven = self._sides(circuit)
             # a pair with constant ratio has neither a phase nor a second flank
             if circuit.id not in self.sources:
-                transmission = self._even(circuit)
+                coefficient = self.motion._path(circuit.id).coefficient
+                own = circuit.b if coefficient == circuit.a else circuit.a
+                transmission = ExactRatio(abs(Fraction(own, coefficient)), 2 * pi)
                 front = tabled_angle(transmission)
                 arms = self._constant_ratio_arms(circuit, transmission)
                 yield ContactPair(circuit.id, driver, driven, (0.0, 0.0), front, front, arms, restitution, True)
@@ -282,13 +280,24 @@ class TrainModel:
             yield ContactPair(circuit.id, driver, driven, start, front, back, arms, restitution, free)
 
     def _flanks(self, circuit: Circuit) -> tuple[TabledFunction, TabledFunction, Arms | None, TransmissionFunction]:
-        """Return tables of the transmission functions of the drive and coast flanks of a pair, its friction terms, and
-        the transmission function of the drive flank.
+        """Return the tabulated driven angle in contact on the drive flank and on the coast flank of a pair, its
+        friction terms, and the transmission function of the drive flank.
         """
         if circuit.id in self._couplings:
-            joint = self._couplings[circuit.id]
+            joint, transmission = self._couplings[circuit.id], self.sources[circuit.id].transmission
             if not isinstance(joint, PinMesh):
-                return self._coupling_flanks(joint, self.sources[circuit.id].transmission)
+                # a coupling has no backlash, and its losses follow from its declared efficiency
+                label, ways = f"coupling '{joint.coupling.name}'", joint.coupling.efficiency
+                if transmission.at_once:
+                    what, why = (
+                        f"the dynamics of {label} cannot be simulated",
+                        "an instantaneous step has no defined force",
+                    )
+                    fix = "give `over`, the angle of the driver during a step, or a law `between: straight`"
+                    raise QuestionError(Problem(what, why, fix))
+                declared = (1.0, 1.0) if ways is None else (float(ways.forward.base), float(ways.backward.base))
+                front = tabled_angle(transmission)
+                return front, front, efficiency_arms(transmission, *declared, label), transmission
             transmission = joint.transmission
             clearance = self.case.clearance.get(circuit.id, 0.0)
             if not clearance:
@@ -302,22 +311,9 @@ class TrainModel:
         back = front if mesh.verdict.backlash <= 0 else tabled_angle(mesh.coast)
         return front, back, tooth_arms(mesh), mesh.transmission
 
-    @staticmethod
-    def _coupling_flanks(
-        joint: CouplingMesh, transmission: TransmissionFunction
-    ) -> tuple[TabledFunction, TabledFunction, Arms | None, TransmissionFunction]:
-        """Return the data that `_flanks` returns, for a coupling without backlash and with losses given by its declared
-        efficiency.
-        """
-        label = f"coupling '{joint.coupling.name}'"
-        _refuse_jump(label, transmission)
-        front, ways = tabled_angle(transmission), joint.coupling.efficiency
-        declared = (1.0, 1.0) if ways is None else (float(ways.forward.base), float(ways.backward.base))
-        return front, front, efficiency_arms(transmission, *declared, label), transmission
-
     def _senses(self, circuit: Circuit) -> tuple[int, int]:
-        """Return the senses (1 or -1) of the forward rotation of driver and driven side of a pair about the reference
-        direction.
+        """Return 1 or -1 for the driver and for the driven side of a pair: the sense of forward rotation about the
+        reference direction of parallel axes.
         """
         source = self.sources.get(circuit.id)
         # forwards is the sense in which the input turns; front flanks are those that drive in this sense
@@ -326,8 +322,8 @@ class TrainModel:
         return forward, way * (source.sense if source else (1 if circuit.a * circuit.b < 0 else -1))
 
     def _sides(self, circuit: Circuit) -> tuple[Form, Form]:
-        """Return the forward speeds of driver and driven side of a pair, relative to its carrier, as linear forms of
-        the coordinate speeds.
+        """Return the speed of the driver and the speed of the driven side of a pair relative to its carrier, positive
+        forwards, as linear forms of the coordinate speeds.
         """
         forward, sense = self._senses(circuit)
         path = self.motion._path(circuit.id)
@@ -337,11 +333,6 @@ class TrainModel:
             for at in (path.driver, path.driven, path.carrier, path.driven_carrier)
         )
         return _sparse(forward * (own - base)), _sparse(sense * (mate - driven_base))
-
-    def _even(self, circuit: Circuit) -> ExactRatio:
-        path = self.motion._path(circuit.id)
-        own = circuit.b if path.coefficient == circuit.a else circuit.a
-        return ExactRatio(abs(Fraction(own, path.coefficient)), 2 * pi)
 
     def _constant_ratio_arms(self, circuit: Circuit, transmission: ExactRatio) -> Arms | None:
         ways = self._efficiencies[circuit.id]
@@ -356,7 +347,7 @@ class TrainModel:
     # ----------------------------------------------------------------------------------------- other parts of the model
 
     def _bearings(self) -> Iterator[Bearing]:
-        """Yield the dry friction of bearings. Bearings of links with proportional speeds are combined."""
+        """Yield the bearings with dry friction. Bearings whose speeds are proportional are combined into one."""
         joined: dict[tuple[tuple[int, float], ...], list[tuple[str, float, float, float]]] = {}
         for link, (sliding, sticking) in self.case.bearing.items():
             radius = 0.0 if self.bearing_forces is None else self.train.links[link].friction_radius
@@ -375,13 +366,6 @@ class TrainModel:
             links, radii = ", ".join(part[0] for part in parts), {part[0]: part[3] for part in parts if part[3]}
             yield Bearing(links, dict(key), sum(each[1] for each in parts), sum(each[2] for each in parts), radii)
 
-    def _viscous(self) -> Floats:
-        found = np.zeros((len(self.coordinates),) * 2)
-        for link, drag in self.case.drag.items():
-            form = self._form(link, self.tree.borne_by(link))
-            found += drag * np.outer(form, form)
-        return found
-
     def _stops(self) -> Iterator[Stop]:
         escapement = self.train.escapement
         for link, (pitch, beat) in self.case.escapements.items():
@@ -391,16 +375,8 @@ class TrainModel:
             restitution = self.case.restitution.get(link, 0.0)
             yield Stop(link, _sparse(way * self._form(link, base)), pitch, beat, restitution)
 
-    def _springs(self) -> Iterator[Spring]:
-        drive = self.case.drive
-        if drive.kind in ("spring", "hand"):
-            rate = drive.rate if drive.kind == "hand" else 0.0
-            yield Spring(drive.link, _sparse(self._form(drive.link)), drive.stiffness, drive.wound, rate)
-
     def torque_of(self, loads: Mapping[str, float], drive: float) -> Floats:
-        """Return the generalised torques on the coordinates [N m] that result from torques on links and from the torque
-        of the drive.
-        """
+        """Return the generalised torques on the coordinates [N m] due to torques on links and to the drive."""
         torque = drive * self._form(self.case.drive.link)
         for link, load in loads.items():
             torque += load * self._form(link)
@@ -409,36 +385,36 @@ class TrainModel:
     @cached_property
     def model(self) -> ContactModel:
         """Contact model of the train for the time-stepping kernels."""
-        torque = self.torque_of(self.case.load, self.case.drive.torque)
+        drive = self.case.drive
+        torque = self.torque_of(self.case.load, drive.torque)
+        viscous = np.zeros((len(self.coordinates),) * 2)
+        for link, drag in self.case.drag.items():
+            form = self._form(link, self.tree.borne_by(link))
+            viscous += drag * np.outer(form, form)
+        springs: tuple[Spring, ...] = ()
+        if drive.kind in ("spring", "hand"):
+            rate = drive.rate if drive.kind == "hand" else 0.0
+            springs = (Spring(drive.link, _sparse(self._form(drive.link)), drive.stiffness, drive.wound, rate),)
         typical = np.array([self.typical(link) for link in self.coordinates])
         given = dict(enumerate(self.prescribed.values()))
         bearings, forces = tuple(self._bearings()), self.bearing_forces
         senses = {circuit.id: self._senses(circuit) for circuit in self.contacts} if forces else {}
         return ContactModel(
             self.mass,
-            self._viscous(),
+            viscous,
             torque,
             given,
             typical,
             tuple(self._pairs()),
             bearings,
             tuple(self._stops()),
-            tuple(self._springs()),
+            springs,
             None if forces is None else forces.arrays(bearings, senses, self.speeds),
         )
 
 
-def _refuse_jump(label: str, transmission: TransmissionFunction) -> None:
-    """Raise `QuestionError` if a coupling moves its driven link instantaneously."""
-    if transmission.at_once:
-        fix = "give `over`, the angle of the driver during a step, or a law `between: straight`"
-        raise QuestionError(
-            Problem(f"the dynamics of {label} cannot be simulated", "an instantaneous step has no defined force", fix)
-        )
-
-
 def _sparse(form: Floats) -> dict[int, float]:
-    """Return the nonzero coefficients of a linear form, keyed by coordinate index."""
+    """Return the coefficients of a linear form that are not 0, by index of the coordinate."""
     scale = float(np.max(np.abs(form), initial=0.0))
     # smaller coefficients are rounding errors
     return {at: float(value) for at, value in enumerate(form) if abs(value) > 1e-13 * scale}

@@ -126,9 +126,7 @@ class TrainSlave(Fmi2Slave):  # type: ignore[misc]
         self._add(_OUTPUT, name, unit, what, lambda: of(self.simulation))
 
     def _item(self, values: dict[str, float], name: str) -> tuple[Callable[[], float], Callable[[float], None]]:
-        """Return functions that read and set the value with the given name in a mapping of loads or of coefficients of
-        restitution.
-        """
+        """Return a function that reads and a function that sets the value with one name in `values`."""
 
         def put(value: float) -> None:
             values[name] = value

@@ -2,12 +2,8 @@
 
     M (v+ - v) = h T + sum f_c P_c,   r_c v+ + P_c/s_c = k_c  for every c that touches        docs/dynamics.md (11)
 
-Here M is the mass matrix, v and v+ are the speeds before and after the step of length h, and T the torques. The impulse
-P_c of contact c acts on the coordinates with the coefficients f_c. The row r_c gives the opening speed of the contact
-from the speeds, k_c is the bound of that speed, and 1/s_c is the compliance. The speeds v+ and the impulses P_c are the
-solution of one system of linear equations (13). The compliance is 0 for rigid teeth and stops. Contacts between
-prescribed coordinates, whose speeds are known, have a compliance that is small compared with any inverse mass, so that
-the system is regular.
+The speeds v+ and the impulses P_c of the contacts are the solution of one system of linear equations (13), with the row
+r_c of the opening speed, its bound k_c and the compliance 1/s_c, which is 0 for rigid teeth.
 """
 
 from __future__ import annotations
@@ -44,9 +40,7 @@ IMPACT_COLUMNS = 5
 
 
 class ContactState(NamedTuple):
-    """State of a simulated train, which the kernels modify in place. The contacts are the pairs, followed by
-    the stops.
-    """
+    """State of a simulated train, modified in place by the kernels. Contacts are the pairs, then the stops."""
 
     clock: Floats
     """Simulated time [s] and number of the time step."""
@@ -271,7 +265,7 @@ def add_load_friction(
 
 @kernel
 def carrier_torque(system: ContactSystem, state: ContactState, here: StepEquations, f: int) -> float:
-    """Return the torque on the carrier of the force number `f` on bearings, per unit impulse of a touching pair."""
+    """Return the torque on the carrier per unit impulse of the pair of force number `f` on bearings."""
     m = system.loaded.pair[f]
     side = state.touching[m] - 1
     sides = system.loaded.forces[f]
@@ -280,9 +274,7 @@ def carrier_torque(system: ContactSystem, state: ContactState, here: StepEquatio
 
 @kernel
 def turn_forces(system: ContactSystem, state: ContactState, here: StepEquations, step: float) -> None:
-    """Rotate the forces on bearings together with their carriers to the end of a step of length `step`, by Rodrigues'
-    formula.
-    """
+    """Rotate the forces on bearings with their carriers to the end of a step of length `step` (Rodrigues' formula)."""
     for f in range(len(system.loaded.pair)):
         angle = 0.0
         for d in range(len(here.v)):

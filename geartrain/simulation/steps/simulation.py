@@ -44,9 +44,7 @@ _ROUNDS = 60  # maximum number of guesses in a step, plus six for each contact a
 
 
 class StepPlan(NamedTuple):
-    """Time steps of a run: step length [s], number of skipped steps, number of counted steps, and number of steps
-    between samples.
-    """
+    """Time steps of a run: length [s], skipped steps, counted steps, and number of steps between samples."""
 
     step: float
     skip: int
@@ -123,17 +121,18 @@ def simulate(
         return done
 
     skipped = go(skip, False)
-    start, before = _kinetic(system, state), state.angle.copy()
-    pressed = _stored(system, model.transmissions, state, yields)
+    before = state.angle.copy()
+    start, pressed = _energies(system, model.transmissions, state, yields)
     ends = [*range(0, plan.steps, plan.block or plan.steps or 1), plan.steps]
     marks, counted = [_mark(record, state)], 0
-    for begin, end in pairwise(ends if skipped == skip else ()):
-        counted += (done := go(end - begin, True))
+    for first, last in pairwise(ends if skipped == skip else ()):
+        counted += (done := go(last - first, True))
         marks.append(_mark(record, state))
-        if done < end - begin:
+        if done < last - first:
             break
+    end, elastic = _energies(system, model.transmissions, state, yields)
     # energy still stored in teeth is not dissipated
-    pressed = _stored(system, model.transmissions, state, yields) - pressed
+    pressed = elastic - pressed
     record.energy[STEP] -= pressed
     kept = min(int(record.numbers[IMPACTS]), _ROOM)
     done = int(record.numbers[SAMPLES])
@@ -148,7 +147,7 @@ def simulate(
         record.impacts[:kept],
         tuple(int(each) for each in record.numbers),
         start,
-        _kinetic(system, state),
+        end,
         state.angle - before,
         pressed,
         None if yields is None else teeth.peak,
@@ -161,12 +160,12 @@ def simulate(
 
 
 def _mark(record: RunRecord, state: ContactState) -> _Mark:
-    """Return copies of the counts, energies and angles of the coordinates at the present step."""
+    """Return copies of the statistics, the energies and the coordinate angles at the present time step."""
     return record.counts.copy(), record.energy.copy(), state.angle.copy()
 
 
 def _part(run: SimulatedRun, at: int, before: _Mark, after: _Mark) -> SimulatedRun:
-    """Return the results of one block of a run, which lies between two marks."""
+    """Return the results of block number `at` of a run, from the recorded values before and after the block."""
     counts, energy, turned = (late - early for early, late in zip(before, after, strict=True))
     plan = run.plan._replace(skip=run.plan.skip + at * run.plan.block, steps=run.plan.block, block=0)
     return replace(run, plan=plan, counts=counts, energy=energy, turned=turned, blocks=())
@@ -234,9 +233,7 @@ def start_state(model: ContactModel, system: ContactSystem) -> ContactState:
 
 
 def empty_record(n: int, rows: int, samples: int, impacts: int) -> RunRecord:
-    """Return an empty record for `n` coordinates, `rows` pairs and stops, and the given maximum numbers of samples and
-    impacts.
-    """
+    """Return an empty record for `n` coordinates, `rows` pairs and stops, and at most `samples` and `impacts`."""
     sampled = [(samples, n), (samples, n), (samples, rows), (samples, n)]
     shapes = [(ENERGIES,), (rows, COUNTS), *sampled, (impacts, IMPACT_COLUMNS)]
     return RunRecord._make([*map(np.zeros, shapes), np.zeros(DIVERGED + 1, dtype=np.int64)])
@@ -260,14 +257,12 @@ def compliant_teeth(pairs: int, yields: ToothCompliance | None) -> CompliantTeet
     return CompliantTeeth(stiffness, damping, np.zeros(pairs), np.full(pairs, -1, dtype=np.int64))
 
 
-def _stored(
+def _energies(
     system: ContactSystem, transmissions: PairTables, state: ContactState, yields: ToothCompliance | None
-) -> float:
-    """Return the elastic energy stored in compliant teeth [J]."""
-    if yields is None:
-        return 0.0
-    found = 0.0
-    for m, stiffness in enumerate(yields.stiffness):
+) -> tuple[float, float]:
+    """Return the kinetic energy of a train, and the elastic energy stored in its compliant teeth [J]."""
+    elastic = 0.0
+    for m, stiffness in enumerate(() if yields is None else yields.stiffness):
         row = slice(system.pair_at[m], system.pair_at[m + 1])
         angle = state.angle[system.pair_of[row]]
         S = float(system.start_driver[m] + system.pair_driver[row] @ angle)
@@ -281,9 +276,5 @@ def _stored(
         pressed = (
             gaps[:1] if system.two_sided[m] else [min(gap, 0.0) * on for gap, on in zip(gaps, touches, strict=True)]
         )
-        found += float(stiffness) / 2 * sum(gap**2 for gap in pressed)
-    return found
-
-
-def _kinetic(system: ContactSystem, state: ContactState) -> float:
-    return float(state.speed @ system.mass @ state.speed / 2)
+        elastic += float(stiffness) / 2 * sum(gap**2 for gap in pressed)
+    return float(state.speed @ system.mass @ state.speed / 2), elastic

@@ -225,9 +225,7 @@ def find_flight(touching: Ints, here: StepEquations, m: int) -> float:
 
 @kernel
 def count_impact(record: RunRecord, m: int, taken: float, impulse: float, steady: float) -> None:
-    """Divide the energy that a contact dissipates in a step into the energy of an impact and the energy of the steady
-    force.
-    """
+    """Divide the energy that a contact dissipates in a step between an impact and the steady force."""
     share = (impulse - steady) / impulse if impulse > steady else 0.0
     record.energy[IMPACT_LOSS] += taken * share
     record.energy[STEP] += taken * (1.0 - share)

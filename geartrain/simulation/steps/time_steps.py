@@ -1,29 +1,12 @@
-"""Time steps of constant length: nonsmooth time stepping for rigid teeth, the midpoint rule for compliant teeth.
+"""Time steps of constant length h: nonsmooth time stepping (Moreau and Jean) for rigid teeth, the midpoint rule for
+compliant teeth.
 
-Rigid teeth use the nonsmooth time stepping of Moreau and Jean. Contacts without rebound are enforced at the position
-level, equation (12) of docs/dynamics.md. For a pair with driver angle S, driven angle q, gap g and coefficient of
-restitution e, and a step of length h, the transmission function F* and the speed ratio tau* are evaluated at S* = S + h
-dS/dt. Then
+Rigid contacts are enforced at the position level, equation (12) of docs/dynamics.md, so that gaps do not drift. The
+complementarity problem of touching contacts and sticking bearings is solved by block pivoting, and by Murty's method if
+that does not converge. Identical steps of a train at rest are computed together, up to the next beat of an escapement.
 
-    dq/dt+ - tau* dS/dt+ >= k,   k = (F* - tau* h dS/dt - q)/h,   for a closing contact k = max(k, -e dg/dt-),
-
-so that gaps do not drift (- and + mark speeds before and after the step). The complementarity problem of touching
-contacts and sticking bearings is solved iteratively, starting from the solution of the previous step. All wrong contact
-states are changed at once (block pivoting). If this does not converge, only the state with the lowest index is changed
-in each iteration (Murty's method).
-
-Identical steps of a train at rest are computed together, up to the next beat of an escapement. Between two beats a
-clock rests most of the time: its stop is active, bearings stick, and torques do not change. A step that starts and ends
-without speed, and in which no contact state changes, is followed by an identical step.
-
-Compliant teeth have a stiffness k and a damping c, equations (15) and (18) of docs/dynamics.md. Their impulse is
-
-    P = h max(0, -k g - c dg/dt)   where g < 0,
-
-with gap and closing speed in the middle of the step. Both are linear in the speeds at the end of the step, because the
-transmission function is evaluated at the extrapolated position. A touching pair is therefore a row with the compliance
-1/s, s = h^2 k/4 + h c/2, in the equations of rigid contacts. The rule is of second order and conserves the energy of
-vibrations.
+Compliant teeth of stiffness k and damping c have the impulse P = h max(0, -k g - c dg/dt) at the gap g < 0, equations
+(15) and (18), with gap and speed in the middle of the step: a row with the compliance 1/s, s = h^2 k/4 + h c/2.
 """
 
 from __future__ import annotations
@@ -192,9 +175,7 @@ def solve_step(
     rules: StepRules,
     teeth: CompliantTeeth,
 ) -> int:
-    """Solve for the speeds at the end of a step, and return the number of combinations of contact states that were
-    tried.
-    """
+    """Solve for the speeds at the end of a step, and return the number of contact states that were tried."""
     find_loads(system, state, here, rules.step, rules.share)
     for d in range(len(here.v)):
         here.ahead[d] = state.speed[d]
@@ -248,9 +229,7 @@ def add_to_sample(forces: Floats, P: Floats, touching: Ints, pairs: int, times: 
 
 @kernel
 def end_sample(state: ContactState, record: RunRecord, time: float) -> None:
-    """Record the angles and speeds of a sample, and convert its impulses to mean torques over its duration
-    `time` [s].
-    """
+    """Record angles and speeds of a sample, and convert its impulses to mean torques over its `time` [s]."""
     sample = record.numbers[SAMPLES]
     record.angles[sample, :] = state.angle
     record.speeds[sample, :] = state.speed
@@ -288,9 +267,7 @@ def find_bounds(
     rules: StepRules,
     teeth: CompliantTeeth,
 ) -> None:
-    """Compute speed ratios, lever arms, gaps, and bounds on the opening speeds of both flanks of each pair at
-    extrapolated positions.
-    """
+    """Compute speed ratios, lever arms, gaps and bounds on opening speeds at extrapolated positions."""
     step, rigid = rules.step, rules.share == 1.0
     for m in range(len(system.tables)):
         S, q, dS, dq, on = system.start_driver[m], system.start_driven[m], 0.0, 0.0, 0.0
@@ -344,9 +321,7 @@ def find_bounds(
 
 @kernel
 def is_struck(touching: Ints, before: Ints, jump: Floats, tables: Ints, ratio: Floats, last: Floats) -> bool:
-    """Return True if a flank has come into contact in this step, or if the speed ratio at a touching flank
-    has jumped.
-    """
+    """Return True if a flank came into contact in this step, or the speed ratio at a touching flank jumped."""
     for m in range(len(last)):
         now = touching[m]
         if now != OPEN and (now != before[m] or leaps(jump, tables, ratio, last, m, now - 1)):
@@ -375,9 +350,7 @@ def find_shift(system: ContactSystem, here: StepEquations, minimum: float) -> fl
 
 @kernel
 def find_stop_bounds(system: ContactSystem, state: ContactState, here: StepEquations, step: float) -> None:
-    """Compute the maximum speed [rad/s] with which each stopped link can reach its stop, or with which it rebounds from
-    the stop.
-    """
+    """Compute the maximum speed [rad/s] at which each stopped link can reach its stop or rebounds from it."""
     for stop in range(len(system.stop_pitch)):
         m = len(system.tables) + stop
         beats = floor((state.clock[0] + step / 2) / system.stop_beat[stop])

@@ -142,14 +142,6 @@ class ContactLoad:
         """Tangential force at the pitch line [N]."""
         return self.torque / (self.path.pitch.R1 * self.module)
 
-    def tooth_pairs(self, X: float) -> list[float]:
-        """Return the positions of all tooth pairs in contact while one of them is at X [module]."""
-        p, (approach, recess) = self.path.pitch.p, self.path.arcs
-        # rounding must not lose a pair at the ends of the path
-        slack = 1e-9 * p
-        first, last = ceil((-approach - X - slack) / p), floor((recess - X + slack) / p)
-        return [X + k * p for k in range(first, last + 1)] or [X]
-
     def forces(self, X: Floats) -> tuple[Floats, Floats]:
         """Return the force of one tooth pair at each position X [N], and the number of tooth pairs that share the
         torque.
@@ -158,13 +150,17 @@ class ContactLoad:
         """
         if self.base_helix:
             return self.tangential / self.path.at(X).cos_psi / self.lines, np.full(X.shape, self.lines)
-        cosines, counts = [], []
-        for each in X.tolist():
-            found = self.path.at(np.clip(self.tooth_pairs(each), -self.path.arcs[0], self.path.arcs[1])).cos_psi
-            # equal forces: the torque divides by the sum of the cosines of all pairs in contact
-            cosines.append(float(found.sum()))
-            counts.append(len(found))
-        return self.tangential / np.array(cosines), np.array(counts)
+        p, (approach, recess) = self.path.pitch.p, self.path.arcs
+        most = ceil((approach + recess) / p)
+        # one row for each tooth pair that may be in contact while another one is at X
+        pairs = X + p * np.arange(-most, most + 1)[:, None]
+        # rounding must not lose a pair at the ends of the path
+        touching = (pairs >= -approach - 1e-9 * p) & (pairs <= recess + 1e-9 * p)
+        touching[most] = True
+        cosines = np.zeros(pairs.shape)
+        cosines[touching] = self.path.at(np.clip(pairs[touching], -approach, recess)).cos_psi
+        # equal forces: the torque divides by the sum of the cosines of all pairs in contact
+        return self.tangential / cosines.sum(axis=0), touching.sum(axis=0)
 
     def pressures(self, X: Floats) -> tuple[Floats, Floats, Floats]:
         """Return pressure [MPa], force [N] and number of tooth pairs in contact at positions X along the path [module].
@@ -219,22 +215,23 @@ class ContactLoad:
         pressure, force, counts = self.pressures(X)
         # infinite pressure at a cusp is reported by name, not as the worst position
         worst = int(np.argmax(np.where(np.isfinite(pressure), pressure, -1.0)))
-        found = [self._place(name, each) for name, each in sorted(named.items(), key=lambda each: each[1])]
+        nudge = 1e-7 * p  # into the interval where fewer tooth pairs carry the load
+        nudges = {"inner single contact of gear 1": nudge, "inner single contact of gear 2": -nudge}
+        names = sorted(named, key=named.__getitem__)
+        own = self.pressures(np.array([named[name] + nudges.get(name, 0.0) for name in names]))
+        found = [
+            ContactPlace(name, named[name] / p, tooth_pairs, each_force, each_pressure)
+            for name, each_pressure, each_force, tooth_pairs in zip(
+                names, *(each.tolist() for each in own), strict=True
+            )
+        ]
         far = "worst" if not self.has_cusp else f"worst, excluding {_CUSP:g} pitch about the pitch point"
         last = ContactPlace(far, float(X[worst] / p), counts[worst].item(), float(force[worst]), float(pressure[worst]))
         return (*found, last)
 
-    def _place(self, name: str, X: float) -> ContactPlace:
-        nudge = 1e-7 * self.path.pitch.p  # into the interval where fewer tooth pairs carry the load
-        towards = {"inner single contact of gear 1": nudge, "inner single contact of gear 2": -nudge}.get(name, 0.0)
-        pressure, force, counts = self.pressures(np.array([X + towards]))
-        return ContactPlace(name, X / self.path.pitch.p, counts[0].item(), float(force[0]), float(pressure[0]))
-
 
 def base_helix_angle(helix: float, pressure_angle: float) -> float:
-    """Return the base helix angle [rad] from the helix angle at the pitch circle [rad] and the normal pressure angle
-    [rad].
-    """
+    """Return the base helix angle [rad] from that at the pitch circle and the normal pressure angle [rad]."""
     return asin(sin(helix) * cos(pressure_angle))
 
 
@@ -351,8 +348,8 @@ class CrossedWheels:
         return asin(min(size(cross(first, second)), 1.0))
 
     def _bounds(self, at: int) -> dict[str, float]:
-        """Return the possible limits of the path of contact from the pitch point towards the tip of one wheel [mm],
-        keyed by their cause.
+        """Return the distances from the pitch point at which the path of contact may end towards the tip of one wheel
+        [mm], by cause: tip, base circle, or width.
         """
         alpha, lean = self.pressure_angle, self.helix[at]
         tip = self.radii[at] + self.addenda[at] * self.module
@@ -383,9 +380,7 @@ class CrossedWheels:
         return sum(self.ends) / self.pitch
 
     def tooth_pairs(self, place: float) -> int:
-        """Return the number of tooth pairs in contact while one of them touches at the distance `place` past the pitch
-        point [mm].
-        """
+        """Return the tooth pairs in contact while one of them touches `place` past the pitch point [mm]."""
         back, front = self.ends
         # contacts exactly at an end of the path count, in spite of rounding
         slack = 1e-9 * self.pitch
@@ -399,15 +394,13 @@ class CrossedWheels:
         return contact_ellipse(force / self.tooth_pairs(place), factor, (1 / rho[0], 1 / rho[1]), self.crossing)
 
     def worst(self, force: float, factor: float) -> ContactEllipse:
-        """Return the contact ellipse of maximum pressure over all positions with the minimum number of tooth pairs in
-        contact.
-        """
+        """Return the contact ellipse of maximum pressure while the fewest tooth pairs are in contact."""
         back, front = self.ends
         places = np.linspace(-back, front, _POINTS)[1:-1].tolist()
         # the ends of the path are excluded: a pair carries no load there
-        fewest = min(self.tooth_pairs(place) for place in places)
-        found = [self.ellipse(place, force, factor) for place in places if self.tooth_pairs(place) == fewest]
-        return max(found)
+        counts = [self.tooth_pairs(place) for place in places]
+        fewest = [place for place, count in zip(places, counts, strict=True) if count == min(counts)]
+        return max(self.ellipse(place, force, factor) for place in fewest)
 
 
 # ----------------------------------------------------------------------------------------------------------------- wear

@@ -10,6 +10,7 @@ every section of the true outline of a tooth, whatever its form.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import acos, atan2, cos, degrees, hypot, pi, sin, sqrt, tan
 from typing import TYPE_CHECKING
 
@@ -66,9 +67,7 @@ class HelixData:
 
     @property
     def Ybeta(self) -> float:
-        """Helix angle factor Ybeta for the root stress, with the overlap ratio limited to 1 and the helix angle limited
-        to 30 degrees.
-        """
+        """Helix angle factor Ybeta for the root stress; overlap ratio and angle count up to 1 and 30 degrees."""
         return 1 - min(self.overlap, 1.0) * min(degrees(self.helix), 30.0) / 120
 
     def Zeps(self, contact_ratio: float) -> float:
@@ -173,9 +172,7 @@ def contact_stress(pair: RackPair, elasticity: float, tangential: float, width: 
 
 
 def outer_single_contact(wheel: RackWheel, angle: float, contact_ratio: float) -> float:
-    """Return the radius of the outer limit of single contact, up to which one tooth pair carries the whole load
-    [module].
-    """
+    """Return the outer radius of single contact, up to which one tooth pair carries the whole load [module]."""
     base = wheel.z / 2 * cos(angle)
     # (contact ratio - 1) base pitches before the tip, measured along the line of action
     return sqrt((sqrt(wheel.tip**2 - base**2) - pi * cos(angle) * (contact_ratio - 1)) ** 2 + base**2)
@@ -240,7 +237,7 @@ def _inv(angle: float) -> float:
 
 
 def _tangent(slope: float, H: float) -> float:
-    """Return the solution th [rad] of th = slope tan(th) - H, found by Newton's method starting at pi/6."""
+    """Return the solution th [rad] of the equation th = slope tan(th) - H, found by Newton's method."""
     th = pi / 6
     # Newton's method converges quadratically, so few of these steps are needed
     for _ in range(50):
@@ -284,9 +281,7 @@ class RootSection:
     """Bending stress of the section divided by torque/(width module^2) [1]."""
 
     def stress(self, torque: float, width: float, module: float) -> float:
-        """Return the bending stress of the section [MPa] under a torque on this tooth [N mm]. `width` and `module` are
-        in mm.
-        """
+        """Return the bending stress [MPa] under a torque on the tooth [N mm], for width and module in mm."""
         return self.factor * torque / (width * module**2)
 
     def lewis_factor(self, pitch_radius: float) -> float:
@@ -297,7 +292,7 @@ class RootSection:
         return 1 / (self.factor * pitch_radius)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class ToothSide:
     """Half of a tooth outline, from the tip to the middle of the space. The x-axis is the centre line of the tooth, and
     y >= 0 [module].
@@ -319,14 +314,18 @@ class ToothSide:
         order = np.lexsort((azimuth, -np.round(radius, 9) * outward))
         return cls(upper[order], outward)
 
-    def half(self, radius: float) -> float:
-        """Return half the angular thickness of the tooth at a given radius [rad]."""
+    @cached_property
+    def _flank(self) -> tuple[Floats, Floats]:
+        """Radii of flank points times `outward`, in increasing order [module], and their azimuths [rad]."""
         r = np.hypot(*self.points.T) * self.outward
         azimuth = np.arctan2(self.points[:, 1], self.points[:, 0])
         # all points of the tip circle; only the last of them is needed for the interpolation
         tip = r >= r.max() - 1e-9
-        r, azimuth = np.append(r[~tip][::-1], r.max()), np.append(azimuth[~tip][::-1], azimuth[tip].max())
-        return float(np.interp(radius * self.outward, r, azimuth))
+        return np.append(r[~tip][::-1], r.max()), np.append(azimuth[~tip][::-1], azimuth[tip].max())
+
+    def half(self, radius: float) -> float:
+        """Return half the angular thickness of the tooth at a given radius [rad]."""
+        return float(np.interp(radius * self.outward, *self._flank))
 
     @property
     def tip(self) -> float:
@@ -346,10 +345,24 @@ class ToothSide:
 
         The load is defined by equation (4) of docs/strength.md.
         """
+        (apex,), (angle,) = self._lines_of_action(np.array([radius]), np.array([arm]))
+        return ToothLoad(radius, float(apex), float(angle))
+
+    def _lines_of_action(self, radii: Floats, arms: Floats) -> tuple[Floats, Floats]:
+        """Return the apex [module] and the angle [rad] of the line of each force, as defined in `ToothLoad`, from the
+        radius of its point of application and its distance from the axis [module].
+        """
         # rounding may put the point of load inside the base circle
-        pressure = acos(min(arm / radius, 1.0))
-        angle = pressure - self.outward * self.half(radius)
-        return ToothLoad(radius, arm / cos(angle), angle)
+        pressure = np.arccos(np.minimum(arms / radii, 1.0))
+        angles = pressure - self.outward * np.interp(radii * self.outward, *self._flank)
+        return arms / np.cos(angles), angles
+
+    def bending_factors(self, radii: Floats, arms: Floats) -> Floats:
+        """Return the maximum bending stress of the tooth divided by torque/(width module^2) [1], for each of several
+        forces that act at the radii `radii`, along lines at the distances `arms` from the axis [module].
+        """
+        apexes, _ = self._lines_of_action(radii, arms)
+        return np.asarray(self._section_factors(apexes).max(axis=1))
 
     def load_at_tip(self) -> ToothLoad:
         """Return the load on a tooth due to a force at the end of the flank, normal to its last chord. It is used for
@@ -371,20 +384,23 @@ class ToothSide:
         Sections near the point of a pointed tooth are excluded, because their thickness tends to 0 and they fail by
         compression instead of bending.
         """
-        x, y = self._sections()
-        lever = (load.apex - x) * self.outward
-        below = (lever > 0) & ((x - (self.tip + self.root) / 2) * self.outward <= 0)
-        if not below.any():  # the force passes below the root, as it may in a ring, and causes no bending
-            deepest = int(np.argmin(x * self.outward))
-            return RootSection(float(x[deepest]), float(2 * y[deepest]), 0.0)
-        x, y, lever = x[below], y[below], lever[below]
-        # bending stress 6 F l/(b s^2), with the force F = torque/apex across the centre line
-        factors = 6 * lever / (load.apex * (2 * y) ** 2)
-        at = int(np.argmax(factors))
+        (x, y), (factors,) = self._sections, self._section_factors(np.array([load.apex]))
+        # a force that passes below the root, as it may in a ring, causes no bending in any section
+        at = int(np.argmax(factors) if factors.any() else np.argmin(x * self.outward))
         return RootSection(float(x[at]), float(2 * y[at]), float(factors[at]))
 
+    def _section_factors(self, apexes: Floats) -> Floats:
+        """Return the bending stress of each section divided by torque/(width module^2) [1], shape (forces, sections),
+        for forces with the given apexes [module].
+        """
+        x, y = self._sections
+        lever = np.maximum((apexes[:, None] - x) * self.outward, 0.0)
+        # bending stress 6 F l/(b s^2), with the force F = torque/apex across the centre line
+        return 6 * lever / (apexes[:, None] * (2 * y) ** 2)
+
+    @cached_property
     def _sections(self) -> tuple[Floats, Floats]:
-        """Return the heights and the half thicknesses of sections at and between the points of the outline [module]."""
+        """Distance from the wheel's axis and half thickness of the sections in the lower half of the tooth [module]."""
         x, y = self.points.T
         steps = np.hypot(np.diff(x), np.diff(y))
         s = np.concatenate(([0.0], np.cumsum(steps)))
@@ -392,7 +408,7 @@ class ToothSide:
         fine = np.union1d(s, np.linspace(0, s[-1], max(int(s[-1] / _STEP), 2)))
         x, y = np.interp(fine, s, x), np.interp(fine, s, y)
         # a section at the point of a tooth has no thickness
-        keep = y > 1e-9
+        keep = (y > 1e-9) & ((x - (self.tip + self.root) / 2) * self.outward <= 0)
         return x[keep], y[keep]
 
 

@@ -26,7 +26,6 @@ from geartrain.simulation.strength.iso_6336 import (
     RackPair,
     RackWheel,
     RootSection,
-    ToothLoad,
     ToothSide,
     contact_stress,
     helical_root_stress,
@@ -121,7 +120,7 @@ class PairUnderLoad:
         return elasticity_factor(*(Elasticity.of(each.material) for each in self.wheels))
 
     def _radius(self, at: int) -> float:
-        """Return the operating pitch radius of a wheel [mm]."""
+        """Return the operating pitch radius of wheel number `at` of the pair, 0 or 1 [mm]."""
         path = self.path
         if path is not None:
             return abs(path.pitch.axle_of(self.wheels[at].gear)) * self.module
@@ -129,9 +128,7 @@ class PairUnderLoad:
         return self.wheels[at].z / 2 * self.module * (1.0 if size is None else size.stretch)
 
     def _cone_factor(self, at: int) -> float:
-        """Return the ratio of radii about the axis of a bevel gear to radii of its virtual spur wheel; 1 for spur
-        wheels.
-        """
+        """Return the pitch radius of a bevel gear divided by that of its virtual spur wheel [1]; 1 for spur wheels."""
         return 1.0 if self.spurs is None else cos(self.spurs.middle.cone(self.wheels[at].gear))
 
     @property
@@ -198,7 +195,7 @@ class PairUnderLoad:
         bounded = self.load is not None and not self.load.has_cusp
         pressure = self.load.single_pressure() if bounded and self.load is not None else None
         strength = own.material.strength
-        tip, shared = self._bending(at, torque)
+        tip, tip_stress, shared = self._bending(at, torque)
         return WheelStrength(
             wheel=own.name,
             material=own.material_name,
@@ -206,9 +203,7 @@ class PairUnderLoad:
             section=0.0 if tip is None else tip.x * self.module * self._cone_factor(at),
             thickness=0.0 if tip is None else tip.thickness * self.module,
             lewis=0.0 if tip is None else tip.lewis_factor(self._radius(at) / self.module),
-            tip_stress=self._pin_stress(own)
-            if tip is None
-            else tip.stress(torque, self.width, self.module) * self._helical_bending_factor,
+            tip_stress=tip_stress,
             shared_stress=shared,
             pressure=pressure,
             strength=None if strength is None else strength.si / _MPA,
@@ -217,63 +212,42 @@ class PairUnderLoad:
             wear=self._wear(at),
         )
 
-    @property
-    def _helical_bending_factor(self) -> float:
-        """Ratio of the bending stress of a helical tooth to the bending stress of a spur tooth with the same transverse
-        section.
-
-        The spur tooth carries the whole load at its tip. Each width element of the helical tooth carries the load on
-        its part of the lines of contact. In the normal section, the tooth is thinner and the load is larger.
-        """
-        if self.load is None or not self.lean.helix:
-            return 1.0
-        return 1 / (self.load.lines * cos(self.lean.helix) ** 2)
-
-    def _pin_stress(self, own: WheelUnderLoad) -> float:
-        pins = own.teeth.pins
-        return 0.0 if pins is None else pin_stress(self.tangential, self.width, 2 * pins.radius * self.module)
-
-    def _tip_load(self, own: WheelUnderLoad) -> ToothLoad:
-        path = self.path
-        if path is None:
-            return own.side.load_at_tip()
-        (_, tip), X = path.radii(own.gear), path.ends(own.gear)[1]
-        arm = abs(path.pitch.axle_of(own.gear)) * float(path.at(np.array([X])).cos_psi[0])
-        return own.side.load_at(tip, arm)
-
-    def _bending(self, at: int, torque: float) -> tuple[RootSection | None, float | None]:
-        """Return the weakest section if the whole load is at the tip, and the maximum bending stress if tooth pairs
-        share the load [MPa].
+    def _bending(self, at: int, torque: float) -> tuple[RootSection | None, float, float | None]:
+        """Return the weakest section of a tooth with the whole load at its tip, the bending stress in this section
+        [MPa], and the maximum bending stress if tooth pairs share the load [MPa]. The section is None for a pin, and
+        the last stress is None if it is not computed.
         """
         own, load = self.wheels[at], self.load
-        if own.teeth.pins is not None:
-            return None, None
-        tip = own.side.weakest_section(self._tip_load(own))
-        if load is None or self.lean.helix:
-            return tip, None
+        if (pins := own.teeth.pins) is not None:
+            return None, pin_stress(self.tangential, self.width, 2 * pins.radius * self.module), None
+        if load is None:
+            tip = own.side.weakest_section(own.side.load_at_tip())
+            return tip, tip.stress(torque, self.width, self.module), None
         path = load.path
+        (_, radius), X = path.radii(own.gear), path.ends(own.gear)[1]
+        arm = abs(path.pitch.axle_of(own.gear)) * float(path.at(np.array([X])).cos_psi[0])
+        tip = own.side.weakest_section(own.side.load_at(radius, arm))
+        tip_stress = tip.stress(torque, self.width, self.module)
+        if self.lean.helix:
+            # each width element carries the load on its part of the lines of contact; in the normal section the tooth
+            # is thinner and the load larger
+            return tip, tip_stress / (load.lines * cos(self.lean.helix) ** 2), None
         low, high = load.single()
         outer = high if own.gear == 1 else low
-        worst = 0.0
-        for X in sorted({*np.linspace(-path.arcs[0], path.arcs[1], _POSITIONS).tolist(), outer}):
-            # the boundary of single contact is evaluated on the side where one tooth pair carries the whole load
-            inside = min(max(X, low + 1e-7), high - 1e-7) if abs(X - outer) < 1e-9 else X
-            worst = max(worst, self._stress_at(own, load, inside))
-        return tip, worst
-
-    def _stress_at(self, own: WheelUnderLoad, load: ContactLoad, X: float) -> float:
-        place = np.array([X])
-        # one position of contact at a time
-        force = float(load.forces(place)[0][0])
-        (radius,), _ = load.path.pitch.polar(own.gear, load.path.flank(own.gear, place))
-        arm = abs(load.path.pitch.axle_of(own.gear)) * float(load.path.at(place).cos_psi[0])
-        section = own.side.weakest_section(own.side.load_at(float(radius), arm))
-        return section.stress(force * arm * self.module, self.width, self.module)
+        places = np.append(np.linspace(-path.arcs[0], path.arcs[1], _POSITIONS), outer)
+        # the boundary of single contact is evaluated on the side where one tooth pair carries the whole load
+        places = np.where(np.abs(places - outer) < 1e-9, np.clip(places, low + 1e-7, high - 1e-7), places)
+        force, _ = load.forces(places)
+        radii, _ = path.pitch.polar(own.gear, path.flank(own.gear, places))
+        arms = abs(path.pitch.axle_of(own.gear)) * path.at(places).cos_psi
+        torques = force * arms * self.module
+        stresses = own.side.bending_factors(radii, arms) * torques / (self.width * self.module**2)
+        return tip, tip_stress, float(stresses.max())
 
     # ------------------------------------------------------------------------------------------------- ISO and wear
 
     def _rack_pair(self) -> RackPair | None:
-        """Return both wheels in the transverse section as rack-cut wheels, or None if ISO 6336 is not applicable."""
+        """Return both wheels in the transverse section as cut by a rack; None if ISO 6336 does not apply."""
         form, load = self.mesh.tooth_form, self.load
         if not isinstance(form, Involute) or load is None or load.path.pitch.R2 < 0 or self.spurs is not None:
             return None
@@ -301,26 +275,23 @@ class PairUnderLoad:
             return None, None
         # the standard uses the force at the reference circle
         force = self.tangential * cos(pair.angle) / cos(pair.working)
-        roots = [self._iso_root(pair, at, force) for at in (0, 1)]
+        form, roots = self.mesh.tooth_form, list[IsoRoot | None]()
+        for at, wheel in enumerate((pair.first, pair.second)):
+            if self.lean.helix and isinstance(form, Involute):
+                shift, addendum = float(form.shift[at].value), float(form.addendum[at].value)
+                across = RackWheel(wheel.z, shift, shift + addendum, float(form.dedendum[at].value))
+                normal = self.module * cos(self.lean.helix)
+                roots.append(helical_root_stress(across, form.rack_angle, pair, force, self.width, normal))
+            else:
+                radius = outer_single_contact(wheel, pair.angle, pair.contact_ratio)
+                roots.append(root_stress(wheel, pair.angle, force, self.width, self.module, radius))
         return contact_stress(pair, self.factor, force, self.width, self.module), (roots[0], roots[1])
-
-    def _iso_root(self, pair: RackPair, at: int, force: float) -> IsoRoot | None:
-        wheel, form = (pair.first, pair.second)[at], self.mesh.tooth_form
-        if not self.lean.helix or not isinstance(form, Involute):
-            radius = outer_single_contact(wheel, pair.angle, pair.contact_ratio)
-            return root_stress(wheel, pair.angle, force, self.width, self.module, radius)
-        shift, addendum = float(form.shift[at].value), float(form.addendum[at].value)
-        across = RackWheel(wheel.z, shift, shift + addendum, float(form.dedendum[at].value))
-        normal = self.module * cos(self.lean.helix)
-        return helical_root_stress(across, form.rack_angle, pair, force, self.width, normal)
 
     def _wear(self, at: int) -> FlankWear | None:
         own = self.wheels[at]
         hardness = own.material.hardness_pressure
-        if own.turns is None or hardness is None:
-            return None
-        loss = loss_over_friction(self.mesh)
-        if loss is None:
+        loss = None if own.turns is None or hardness is None else loss_over_friction(self.mesh)
+        if own.turns is None or hardness is None or loss is None:
             return None
         # wear follows from the mean torque
         slid = abs(own.torque) / self.swing * 2 * pi * own.turns * loss * _MM  # N mm

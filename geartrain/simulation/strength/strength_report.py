@@ -102,9 +102,7 @@ def describe_strength(found: StrengthReport) -> Document:
 
 
 def strength_document(found: TrainStrength) -> Document | None:
-    """Return the document on the strength in one state that `geartrain strength` prints, or None if `found` has no
-    train.
-    """
+    """Return the document that `geartrain strength` prints for one state, or None if `found` has no train."""
     declared = found._declaration
     return None if declared is None else describe_strength(StrengthReport(declared.name, declared.title, (found,)))
 
@@ -134,7 +132,9 @@ def strength_sections(found: TrainStrength) -> Iterator[Section]:
     if any(pair.iso is not None for pair in pairs):
         yield Section(_title(head, "ISO 6336"), (_ISO,), tuple(_iso(pairs)))
     if found.turns is not None:
-        yield Section(_title(head, "Wear"), tuple(_wear_words(found)), (_wear(pairs),))
+        K = found.wear_coefficients
+        over = f"Over {figure(found.turns, 6)} turns of the input; K from {K.minimum:g} to {K.maximum:g}."
+        yield Section(_title(head, "Wear"), (over, _WEAR), (_wear(pairs),))
     if found.arbors:
         yield Section(_title(head, "Arbors"), (_ARBOR,), (_arbors(found.arbors),))
 
@@ -233,12 +233,6 @@ def _iso(pairs: Sequence[PairStrength]) -> Iterator[Table]:
         if wheel.iso is not None
     ]
     yield Table(("wheel", "s/m", "rF/m", "h/m", "YF", "YS", "Ybeta", "sF0"), roots)
-
-
-def _wear_words(found: TrainStrength) -> Iterator[str]:
-    K = found.wear_coefficients
-    yield f"Over {figure(found.turns, 6)} turns of the input; K from {K.minimum:g} to {K.maximum:g}."
-    yield _WEAR
 
 
 def _wear(pairs: Sequence[PairStrength]) -> Table:

@@ -101,9 +101,7 @@ class TrainStrength(FrozenFields, Tabular, TrainResult):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Columns of a table with one row for each wheel of a loaded pair: torque [N m], stresses [MPa] and safety
-        factors.
-        """
+        """Columns of a table with a row for each loaded wheel: torque [N m], stresses [MPa], safety factors."""
         rows = [(name, wheel) for name, pair in self.pairs.items() for wheel in pair.wheels]
         names = ["wheel", "material", "torque", "tip_stress", "shared_stress", "pressure"]
         names += ["root_safety", "contact_safety"]
@@ -268,9 +266,7 @@ class WheelStrength(Result):
 
     @property
     def contact_safety(self) -> float | None:
-        """Safety factor of the flank: pressure at first yield divided by `pressure`; None if either value is
-        unknown.
-        """
+        """Safety factor of the flank: pressure at first yield divided by `pressure`; None if one is unknown."""
         return None if self.strength is None or not self.pressure else YIELD_AT * self.strength / self.pressure
 
 
@@ -376,9 +372,7 @@ class PointContact(Result):
 
 @dataclass(frozen=True)
 class PinContact(Result):
-    """Strength of the contact between pins and the lobes or holes of a disc, equations (28) to (30) of
-    docs/strength.md.
-    """
+    """Strength of pins against the lobes or holes of a disc, equations (28) to (30) of docs/strength.md."""
 
     KEYS = (
         *("name", "disc", "material", "pins", "width", "force", "radius", "pressure", "strength", "contact_safety"),
@@ -410,9 +404,7 @@ class PinContact(Result):
 
     @property
     def contact_safety(self) -> float | None:
-        """Safety factor of the contact: pressure at first yield divided by `pressure`; None if either value
-        is unknown.
-        """
+        """Safety factor of the contact: pressure at first yield divided by `pressure`; None if one is unknown."""
         return None if self.strength is None else YIELD_AT * self.strength / self.pressure
 
     @property

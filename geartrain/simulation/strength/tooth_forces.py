@@ -47,9 +47,7 @@ class ToothForces:
     """Ratio of the design torque to the mean torque of each pair, keyed by pair."""
 
     def find(self) -> Iterator[WheelForce]:
-        """Yield the forces on both wheels of every pair that transmits torque, in the order of the wheels in
-        the pair.
-        """
+        """Yield the forces on both wheels of every pair that transmits torque, first wheel first."""
         for circuit in self.setting.circuits:
             if circuit.kind != "gear":
                 continue
@@ -86,10 +84,9 @@ class ToothForces:
 
     @staticmethod
     def _both(loads: Sequence[float], radii: Sequence[float], cosines: Sequence[float]) -> list[tuple[float, float]]:
-        """Return the radius and the tangential force of each of the two wheels. The forces are opposite, equation (32)
-        of docs/strength.md.
-
-        cosines   cosine of the angle of each pitch cone: 1 for parallel axes, -1 for a ring gear
+        """Return the pitch radius and the tangential force of both wheels of a pair, by equation (32) of
+        docs/strength.md, from their torques, radii and cosines of the pitch cone angles (1 for parallel axes, -1 for a
+        ring gear).
         """
         others = cosines[::-1]
         lever = sum(radius * other for radius, other in zip(radii, others, strict=True))
@@ -107,25 +104,20 @@ class ToothForces:
         wheels = [self._wheel(circuit, at) for at in (0, 1)]
         widths = [face_width(self.setting.train, wheel) for wheel in wheels]
         first, second = (float("inf") if width is None else _MM * width.si for width in widths)
+        addenda = self.involute_of(circuit).addendum
         return CrossedWheels(
             (self._radius(circuit, 0), self._radius(circuit, 1)),
             self.setting.helix_angles(circuit) or (0.0, 0.0),
             _MM * self.modules[circuit.wheels[0]] / wheels[0].slant,
             self._angle(circuit),
-            self._addenda(circuit),
+            (float(addenda[0].value), float(addenda[1].value)),
             (first, second),
         )
 
     def involute_of(self, circuit: Circuit) -> Involute:
-        """Return the tooth form of wheels on crossed axes: the declared form, or standard involutes if no form is
-        declared.
-        """
+        """Return the declared tooth form of wheels on crossed axes, or standard involutes if none is declared."""
         form = self.setting.train.form_of(self.setting.gears[circuit.id])
         return form if isinstance(form, Involute) else Involute(form="involute")
-
-    def _addenda(self, circuit: Circuit) -> tuple[float, float]:
-        first, second = self.involute_of(circuit).addendum
-        return float(first.value), float(second.value)
 
     def _is_parallel(self, circuit: Circuit) -> bool:
         return self.setting.axes.are_parallel(self.setting.axis_labels(circuit))
@@ -134,9 +126,7 @@ class ToothForces:
         return self.setting.train.wheels[circuit.wheels[at]][1]
 
     def _radius(self, circuit: Circuit, at: int) -> float:
-        """Return the pitch radius of a wheel [mm]: half the normal module times the tooth number, divided by the cosine
-        of the helix angle.
-        """
+        """Return the pitch radius of wheel `at` of a pair, 0 or 1 [mm], from module, tooth count and helix."""
         wheel = self._wheel(circuit, at)
         normal = self.modules[circuit.wheels[at]] / wheel.slant
         return _MM * normal * (wheel.count or 0) / 2 / cos(wheel.helix)
@@ -147,9 +137,7 @@ class ToothForces:
         return NORMAL_ANGLE if form is None or form.rack_angle is None else form.rack_angle
 
     def _rolling_radius(self, circuit: Circuit, at: int) -> float:
-        """Return the operating pitch radius of a wheel [mm], which differs from the pitch radius for involutes with
-        profile shift.
-        """
+        """Return the operating pitch radius of a wheel [mm], which a profile shift of involutes changes."""
         radius, mesh = self._radius(circuit, at), self.meshes.get(circuit.id)
         if mesh is None:
             return radius
@@ -169,8 +157,8 @@ class ToothForces:
         return push, 0.0 - push * lean, None if apart is None else outwards * abs(push) * apart
 
     def _skew(self, circuit: Circuit, at: int, load: float, drives: bool) -> tuple[float, WheelParts]:
-        """Return the radius of a wheel on crossed axes [mm] and the forces on it, including friction along the teeth
-        [N].
+        """Return the pitch radius of a wheel on crossed axes [mm], and the tangential, axial and radial force on the
+        wheel, including friction along its teeth [N].
         """
         helix = self.setting.helix_angles(circuit) or (0.0, 0.0)
         friction = self.setting.train.friction_of(self.setting.gears[circuit.id])
@@ -181,8 +169,8 @@ class ToothForces:
         return radius, helical_force(load / radius, helix[at], angle, sense * friction_angle(sliding, angle))
 
     def _middle(self, circuit: Circuit, at: int, crossing: float) -> ConeMiddle:
-        """Return the pitch cones of a bevel pair at the middle of its teeth, or at the outer pitch circle if the width
-        is not known.
+        """Return the pitch cones of a bevel pair at the middle of the face width, or at the large ends if the face
+        width is not known.
         """
         own, mate = self._wheel(circuit, at), self._wheel(circuit, 1 - at)
         widths = [_MM * width.si for each in (own, mate) if (width := face_width(self.setting.train, each)) is not None]
@@ -248,7 +236,5 @@ def bevel_force(tangential: float, cone: float, pressure_angle: float, facing: i
 
 
 def friction_angle(friction: float, pressure_angle: float) -> float:
-    """Return the friction angle along the teeth [rad], atan(mu / cos(pressure angle)), where mu is the friction
-    coefficient.
-    """
+    """Return the friction angle along the teeth [rad], atan(mu / cos(pressure angle)) for the coefficient mu."""
     return atan(friction / cos(pressure_angle))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import hypot, inf, pi, sqrt
@@ -50,9 +50,7 @@ _PINS = "steel"  # material of the pins of couplings if the train declares none
 def solve_strength(
     train: TrainMechanics, state: str | None, service: Service, over: float | None = None
 ) -> TrainStrength:
-    """Return pressures, root stresses, safety factors and wear of a train in one state, as described in
-    `GearTrain.strength`.
-    """
+    """Return pressures, stresses, safety factors and wear in one state, as described in `GearTrain.strength`."""
     check_numbers(over=over)
     own, train = service.checked(), train.unfolded
     found, loads = solve(train, state), train.load_case(state)
@@ -102,9 +100,7 @@ class Service:
         return own
 
     def time(self, train: TrainMechanics, state: str | None) -> float | None:
-        """Return the total revolutions of a link per unit of its relative speed, or None if no service life
-        is given.
-        """
+        """Return the revolutions of a link per unit of its relative speed, or None without a service life."""
         turns, years = self.turns, self.years
         if turns is None and years is None:
             return None
@@ -134,7 +130,7 @@ class Service:
 
 
 def _input_speed(train: TrainMechanics, state: str | None) -> float:
-    """Return the speed of the reference input, which is the crank or, if there is none, the first input that turns."""
+    """Return the magnitude of the speed of the crank or, if there is none, of the first input that turns."""
     case, crank = train.kinematics.case(state), train.declaration.crank
     speeds = train.kinematics.solution(case).speeds
     if crank is not None and speeds.get(crank):
@@ -192,9 +188,7 @@ class StrengthQuestion:
 
     @cached_property
     def swings(self) -> Mapping[str, float]:
-        """Ratio of the maximum torque during the requested revolutions to the mean torque of each pair, keyed
-        by pair.
-        """
+        """Maximum torque during the requested revolutions divided by the mean torque of each pair, by pair."""
         found = {}
         for circuit in self.setting.circuits:
             pair, maximum = self.torques.pairs.get(circuit.id), self.maximum.get(circuit.id)
@@ -237,8 +231,8 @@ class StrengthQuestion:
         )
 
     def _all_neglected(self) -> tuple[NeglectedEffect, ...]:
-        """Return the neglected effects: omitted pairs in the order of the declaration, then arbors, then torque
-        variations.
+        """Return all neglected effects: first those of gear pairs in the order of the declaration, then those of
+        arbors, then varying torques.
         """
         swinging = [each for each in self.torques.neglected if each.what == "variation within a turn"]
         if self.over is None:
@@ -251,7 +245,7 @@ class StrengthQuestion:
         )
 
     def _skew_pairs(self, forces: ToothForces, wheel_forces: Sequence[WheelForce]) -> Iterator[SkewPair]:
-        """Yield the pairs on crossed axes for which all data are known."""
+        """Yield the gear pairs on crossed axes whose data are complete."""
         for circuit in self.setting.circuits:
             if circuit.kind != "gear" or not forces.is_crossed(circuit):
                 continue
@@ -272,7 +266,7 @@ class StrengthQuestion:
     # -------------------------------------------------------------------------------------------------------- pins
 
     def _pins(self, meshes: Mapping[str, GearMesh]) -> Iterator[tuple[str, PinContact]]:
-        """Yield the contacts of lobes on pins and of pins in holes, for wheels with a declared width and material."""
+        """Yield name and strength of each contact of lobes or holes with pins whose data are complete."""
         for gear in self.declared.gears:
             mesh, torque = meshes.get(gear.name), self.torques.pairs[gear.name]
             if not isinstance(mesh, DiscMesh):
@@ -354,8 +348,8 @@ class StrengthQuestion:
         return PairUnderLoad(mesh, (found[0], found[1]), middle, width, self.wear, spurs, swing, notes)
 
     def _teeth_in(self, mesh: GearMesh, name: str) -> CutTooth | WheelTeeth | None:
-        """Return the teeth of a wheel cut for all its mates, or only for the mate in this pair if another pair of the
-        wheel has faults.
+        """Return the teeth of a wheel, cut for all its pairs, or only for the pair `mesh` if the teeth of another pair
+        cannot turn; None if they cannot be cut.
         """
         if (cut := self.teeth.get(name)) is not None or not self._pair_with_faults(mesh, name):
             return cut
@@ -365,9 +359,7 @@ class StrengthQuestion:
             return None
 
     def _pair_with_faults(self, mesh: GearMesh, name: str) -> str | None:
-        """Return the name of another pair of a wheel whose faults prevent the wheel from being cut for all mates, or
-        None if there is none.
-        """
+        """Return the other pair whose teeth cannot turn, so that a wheel is not cut; None if there is none."""
         # only a wheel that could not be cut has an unusable outline
         others = (each for each in self.meshes if each is not mesh and name in each.gears and name not in self.teeth)
         return next((other.name for other in others if other.faults), None)
@@ -376,7 +368,9 @@ class StrengthQuestion:
         self.neglected[pair] = NeglectedEffect("strength", (pair,), why)
 
     def _missing_data(self, mesh: GearMesh | None, wheels: Mapping[str, Wheel], torque: PairTorque) -> Iterator[str]:
-        """Yield descriptions of the data that are missing for a pair, and of its features that are not supported."""
+        """Yield a phrase for each datum that the strength of a pair with parallel or intersecting axes requires and
+        that is missing, and for each unsupported feature.
+        """
         if mesh is None:
             yield "it has no tooth form: declare `tooth_form`"
         elif not mesh.has_shape:
@@ -398,7 +392,7 @@ class StrengthQuestion:
                 yield f"'{name}' has no planar outline" + (f": {why}" if why else "")
 
     def _missing_for_any(self, wheels: Mapping[str, Wheel], torque: PairTorque) -> Iterator[str]:
-        """Yield descriptions of the missing data that are required for every kind of pair."""
+        """Yield a phrase for each missing datum that the strength of any gear pair requires."""
         if not torque.multiplier and not torque.loose:
             yield "it carries no torque"
             return
@@ -419,8 +413,8 @@ class StrengthQuestion:
         return wheel.material or self.declared.material or ""
 
     def _turns(self, torque: PairTorque, at: int) -> float | None:
-        """Return the number of revolutions of one wheel relative to the carrier during the service life, or None if it
-        is unknown.
+        """Return the number of revolutions of wheel `at`, 0 or 1, relative to the carrier during the service life; None
+        if it is not known.
         """
         if self.scale is None:
             return None
@@ -438,29 +432,22 @@ class StrengthQuestion:
             for name, pair in pairs.items()
             if name in straight
         }
+        known = {each.pair for each in forces}
+        torques = {name: each for name, each in self.torques.pairs.items() if each.multiplier or each.loose}
+        # pairs that transmit torque but whose tooth forces are unknown
+        unknown = [gear for gear in self.declared.gears if gear.name in torques and gear.name not in known]
         for link, part in self.declared.links.items():
             if part.arbor is None:
                 continue
-            if unknown := self._without_force(part.wheels, forces):
+            missing = next((gear.name for gear in unknown if not set(part.wheels).isdisjoint(gear.pair)), None)
+            if missing is not None:
                 why = (
-                    f"the force of pair '{unknown[0]}' is not known: it has no `module`, or one wheel is a contrate "
-                    "wheel"
+                    f"the force of pair '{missing}' is not known: it has no `module`, or one wheel is a contrate wheel"
                 )
                 self.neglected[f"arbor {link}"] = NeglectedEffect("strength", (f"arbor {link}",), why)
                 continue
             own = [each for each in forces if each.wheel in part.wheels]
             yield arbor_strength(link, part.arbor, material_named(self.declared, part.arbor.material), own, steepest)
-
-    def _without_force(self, wheels: Collection[str], forces: Sequence[WheelForce]) -> list[str]:
-        """Return the names of the pairs of given wheels that transmit torque but whose tooth forces are unknown."""
-        known = {each.pair for each in forces}
-        loaded = (gear for gear in self.declared.gears if not set(wheels).isdisjoint(gear.pair))
-        torques = self.torques.pairs
-        return [
-            gear.name
-            for gear in loaded
-            if gear.name not in known and (torques[gear.name].multiplier or torques[gear.name].loose)
-        ]
 
 
 # ------------------------------------------------------------------------------------------ arbors between two bearings

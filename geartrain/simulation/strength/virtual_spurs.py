@@ -86,9 +86,7 @@ class VirtualSpurs:
 
     @classmethod
     def of(cls, mesh: GearMesh, module: float, width: float) -> VirtualSpurs | None:
-        """Return the virtual spur pair for the module at the large ends and the face width, or None if the axes do not
-        intersect.
-        """
+        """Return the virtual spurs for a module at the large ends and a face width, or None without a common apex."""
         form = mesh.tooth_form
         if mesh.path is None or not mesh.path.pitch.bevel or not isinstance(form, ConjugateToothForm):
             return None
@@ -176,7 +174,7 @@ class SkewPair:
 
     @cached_property
     def _pair(self) -> ConjugatePair | None:
-        """Virtual spur pair in the normal sections, equation (27) of docs/strength.md; None if it does not exist."""
+        """Pair of virtual spur wheels in the normal sections, equation (27) of docs/strength.md; None without one."""
         counts = self.wheels.normal_count(0), self.wheels.normal_count(1)
         try:
             return self.form.pair(WheelPair(*counts, module=self.wheels.module / _MM))
@@ -184,10 +182,9 @@ class SkewPair:
             return None
 
     def _root_stress(self, at: int, force: float) -> float | None:
-        """Return the root stress of a tooth under a normal force at its tip [MPa], or None if the virtual wheels cannot
-        be cut.
-
-        The force [N] is distributed over a length of twice its lever arm, at most the length of the tooth.
+        """Return the root stress of wheel `at`, 0 or 1, under a normal force at its tip [MPa]; None if the virtual
+        wheel cannot be cut. The force acts on a length of twice its lever arm, or on the whole tooth if that is
+        shorter.
         """
         if self._pair is None:
             return None

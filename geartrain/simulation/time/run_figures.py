@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import repeat
@@ -114,6 +114,9 @@ class RunFigures:
     def contacts(self) -> tuple[ContactInTime, ...]:
         """Results of each pair, pin and escapement in the evaluated part of the run."""
         steps, time = self.plan.steps, self.duration
+        peaks: Iterable[tuple[float | None, float | None]] = repeat((None, None), len(self.names))
+        if self.run.peaks is not None:
+            peaks = zip(self.run.peaks.tolist(), self.static_peaks, strict=True)
         return tuple(
             ContactInTime(
                 name,
@@ -129,14 +132,8 @@ class RunFigures:
                 peak,
                 peak / static if peak is not None and static else None,
             )
-            for name, counts, (peak, static) in zip(self.names, self.run.counts, self._peaks_of_contacts(), strict=True)
+            for name, counts, (peak, static) in zip(self.names, self.run.counts, peaks, strict=True)
         )
-
-    def _peaks_of_contacts(self) -> Iterator[tuple[float | None, float | None]]:
-        """Yield the maximum torque and the maximum quasi-static torque of each contact [N m]; None for rigid teeth."""
-        if self.run.peaks is None:
-            return repeat((None, None), len(self.names))
-        return zip(self.run.peaks.tolist(), self.static_peaks, strict=True)
 
     @cached_property
     def energy(self) -> EnergyAccount:
@@ -176,27 +173,17 @@ class RunFigures:
         if source.kind == "torque":
             return float(abs(source.torque))
         angle = abs(float(self.of.speeds[self.of.index[source.link]] @ self.run.turned))
-        # other prescribed links do work, too
-        work = energy.drive - self._other_work if source.kind == "rate" else energy.springs
-        return float(work / angle) if angle else 0.0
-
-    @property
-    def _other_work(self) -> float:
-        """Work of the links with prescribed speeds other than the power input [J], from the mean torques between
-        samples and the angles.
-        """
-        others = {
-            link: speed for link, speed in self.of.prescribed.items() if link != self.of.case.drive.link and speed
-        }
+        work = energy.drive if source.kind == "rate" else energy.springs
+        others = {link: speed for link, speed in self.of.prescribed.items() if link != source.link and speed}
         # samples inside the counted part
         begin, end = (self.plan.step * each for each in (self.plan.skip, self.plan.skip + self.plan.steps))
         counted = self.run.drive[(self.time > begin) & (self.time < end + self.plan.step / 2)]
-        if not others or not len(counted):
-            return 0.0
-        torques = counted.mean(axis=0)
-        return float(
-            sum(torques[self.of.coordinates.index(link)] * speed * self.duration for link, speed in others.items())
-        )
+        if source.kind == "rate" and len(counted):
+            # other prescribed links do work, too: their mean torques times their angles
+            torques = counted.mean(axis=0)
+            for link, speed in others.items():
+                work -= float(torques[self.of.coordinates.index(link)]) * speed * self.duration
+        return work / angle if angle else 0.0
 
     @cached_property
     def differences(self) -> dict[str, Floats]:
@@ -242,9 +229,7 @@ class RunFigures:
             yield f"{each.name} on the coast flank", "", each.coast, "mean"
 
     def intervals(self) -> list[float | None]:
-        """Return the half-width of the 95 % confidence interval of each mean value; None for each value if the run is
-        too short.
-        """
+        """Return the half-width of each mean's 95 % confidence interval; None for each if the run is too short."""
         blocks = [[each[2] for each in replace(self, run=part).means()] for part in self.run.blocks]
         return [batch_half_width(np.array(each)) for each in zip(*blocks, strict=True)]
 
@@ -275,13 +260,15 @@ class RunFigures:
         return found[0], found[1]
 
     def result(self, coarse: RunFigures | None) -> TimeRun:
-        """Return the results of this run. If `coarse` is not None, they are compared with that run, which has longer
-        time steps.
-        """
+        """Return the results of this run, compared with the run `coarse` of longer time steps unless it is None."""
         links, time = self.of.problem.system.links, [repr(float(each)) for each in self.time]
         start = np.array([self.of.problem.angles.get(link, 0.0) for link in links])[:, None]
         pairs = self.names[: len(self.of.model.pairs)]
         outputs = [name for name, _, _ in self.outputs]
+        rate = abs(self.of.case.rate) / tau
+        cycles = {source.id: float(source.cycles) for source in self.of.sources.values()}
+        cycles |= {f"beat of {link}": 1 / (rate * beat) for link, (_, beat) in self.of.case.escapements.items()}
+        counted = {name: self.angle_of(name)[self.first :] for name in outputs}
         return TimeRun(
             self.of.train.name,
             self.of.state,
@@ -307,7 +294,7 @@ class RunFigures:
             self._impacts(),
             self.energy,
             self.deviations,
-            {name: tuple(self._peaks(name)) for name, _, _ in self.outputs},
+            {name: tuple(find_peaks(self.time[self.first :], counted[name], rate, cycles)) for name in outputs},
             () if coarse is None else tuple(self._compared(coarse)),
             self.run.numbers[UNSOLVED],
             self.of.notes,
@@ -318,7 +305,7 @@ class RunFigures:
         )
 
     def _compared(self, coarse: RunFigures) -> Iterator[ConvergedFigure]:
-        """Yield each result together with its value from the run with longer time steps."""
+        """Yield each result together with its value from the run `coarse`, which has longer time steps."""
         # a contact may have impacts in only one of the runs
         coarse_extremes = {each[0]: each for each in coarse.extremes()}
         rows = [*zip(coarse.means(), self.means(), self.intervals() or repeat(None), strict=False)]
@@ -337,14 +324,6 @@ class RunFigures:
         link, base = next(each[1:] for each in self.outputs if each[0] == name)
         found: Floats = self.turned[self.of.index[link]] - self.of.sense(link, base) * self.turned[self.of.index[base]]
         return found
-
-    def _peaks(self, name: str) -> Iterator[SpectrumPeak]:
-        angle = self.angle_of(name)
-        cycles = {source.id: float(source.cycles) for source in self.of.sources.values()}
-        # time of one revolution of the driving link
-        turn = tau / abs(self.of.case.rate)
-        cycles |= {f"beat of {link}": turn / beat for link, (_, beat) in self.of.case.escapements.items()}
-        return iter(find_peaks(self.time[self.first :], angle[self.first :], abs(self.of.case.rate) / tau, cycles))
 
 
 def _converged(one: _Figure, other: _Figure, interval: float | None) -> bool:
@@ -432,8 +411,8 @@ def find_amplitudes(time: Floats, angle: Floats) -> tuple[Floats, Floats]:
 
 
 def _source(order: float, width: float, cycles: Mapping[str, float]) -> str:
-    """Return the name of the pair that has the lowest harmonic near a vibration order, with the number of this
-    harmonic, or "" if there is none.
+    """Return the name and harmonic of the pair that causes a vibration order, such as "c2~d1 x1": the lowest harmonic
+    within `width`; "" if there is none.
     """
     near = [
         (harmonic, name)

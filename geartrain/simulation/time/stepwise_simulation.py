@@ -158,7 +158,7 @@ class Simulation(Shown):
 
     @property
     def _share(self) -> float:
-        """Present speed of the drive divided by its declared speed."""
+        """Ratio of the present speed of the drive to its declared speed; 0 if the declared speed is 0."""
         own = self._of.case.drive.value
         return self.drive / own if own else 0.0
 
@@ -179,7 +179,7 @@ class Simulation(Shown):
         return float(self._turned()[self._of.index[self.drive_link]])
 
     def _turned(self) -> Floats:
-        """Return the angle through which each link has turned since the start [rad]."""
+        """Return the angle turned by each link since time 0 [rad], extrapolated within the present time step."""
         # the requested time may be within a step that is not computed yet
         late = self.time - float(self._state.clock[1]) * self.step
         return self._of.speeds @ (self._state.angle + late * self._state.speed)
@@ -287,9 +287,8 @@ class Simulation(Shown):
         self._read(record, steps)
 
     def _apply_new_speed(self) -> int:
-        """Set prescribed coordinates to a new speed. Return 1 if a speed changes, and 0 if no speed changes.
-
-        If a speed changes, the momentum must be corrected in the first step.
+        """Set the prescribed coordinate speeds to the present speed of the drive. Return 1 if they change, so that the
+        next time step must correct the momentum; otherwise return 0.
         """
         if self.drive_kind != "rate":
             return 0
@@ -304,9 +303,7 @@ class Simulation(Shown):
         return 1
 
     def _run_steps(self, record: RunRecord, steps: int, stride: int) -> None:
-        """Advance the simulation by `steps` steps. A single sample, which is never completed, accumulates all
-        impulses.
-        """
+        """Compute `steps` time steps, whose impulses `record` adds up as one incomplete sample."""
         ahead = max(steps, 1) * self.step + float(self._state.clock[0])
         # a stride beyond the steps keeps the sample open
         rules = step_rules(self._model, self._state, StepPlan(self.step, 0, steps, stride + 1), ahead)

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.simulation.contacts.link_inertia import LinkInertia
     from geartrain.simulation.contacts.separation_rate import SeparationRates
-    from geartrain.simulation.time.time_run import ContactInTime, ConvergedFigure, TimeRun
+    from geartrain.simulation.time.time_run import ConvergedFigure, TimeRun
 
 
 _SURE = 1e-9  # tolerance of the relative error of the energy balance; a smaller error is rounding
@@ -77,8 +77,19 @@ def _sections(found: TimeReport) -> Iterator[Section]:
     if found.separation is not None:
         from geartrain.simulation.contacts.separation_rate import separation_section
 
-        section = separation_section(found.separation)
-        yield replace(section, paragraphs=(*section.paragraphs, *_validity_notes(run)))
+        section, notes = separation_section(found.separation), []
+        if run.driven != "rate":
+            notes.append("Separation rates assume an input of constant speed; the speed of this input may vary.")
+        if run.model == "compliant":
+            notes.append(
+                "Separation rates assume rigid teeth; compliant teeth vibrate at ratio jumps and may separate earlier."
+            )
+        elif run.restitution:
+            notes.append(
+                "Separation rates assume no restitution; with restitution, teeth bounce wherever their speed ratio "
+                "jumps."
+            )
+        yield replace(section, paragraphs=(*section.paragraphs, *notes))
     if run.contacts:
         yield _contacts(run)
     yield _outputs(run)
@@ -101,16 +112,6 @@ def _sections(found: TimeReport) -> Iterator[Section]:
         yield _converged(run)
     if found.inertias:
         yield _inertia(found.inertias)
-
-
-def _validity_notes(run: TimeRun) -> Iterator[str]:
-    """Yield reasons why teeth may separate in this run below the predicted input speeds."""
-    if run.driven != "rate":
-        yield "Separation rates assume an input of constant speed; the speed of this input may vary."
-    if run.model == "compliant":
-        yield "Separation rates assume rigid teeth; compliant teeth vibrate at ratio jumps and may separate earlier."
-    elif run.restitution:
-        yield "Separation rates assume no restitution; with restitution, teeth bounce wherever their speed ratio jumps."
 
 
 def _summary(run: TimeRun) -> Iterator[str]:
@@ -143,7 +144,24 @@ def _summary(run: TimeRun) -> Iterator[str]:
 
 
 def _contacts(run: TimeRun) -> Section:
-    rows = [_contact(run, each) for each in run.contacts]
+    turn = tau / abs(run.rate) if run.rate else 0.0
+    rows = [
+        (
+            each.name,
+            figure(100 * each.apart, 4),
+            figure(100 * each.coast, 4),
+            figure(each.impact_rate * turn, 4),
+            figure(1e6 * each.power / each.impact_rate, 4) if each.impact_rate else "",
+            figure(1e3 * each.power, 4) if each.impact_rate else "",
+            figure(each.hardest, 4) if each.impact_rate else "",
+            figure(degrees(each.gap), 4) if each.gap > _STILL else "",
+            figure(1e3 * each.torque, 5),
+            figure(1e3 * each.rubbed, 4) if each.rubbed else "",
+            figure(1e3 * each.peak, 5) if each.peak is not None else "",
+            figure(each.dynamic_factor, 4) if each.dynamic_factor is not None else "",
+        )
+        for each in run.contacts
+    ]
     header = (
         *("contact", "apart (%)", "coast (%)", "impacts per turn", "each (µJ)", "all (mW)"),
         *("hardest (rad/s)", "gap (deg)", "torque (N mm)", "friction (mW)", "peak (N mm)", "dynamic factor"),
@@ -160,24 +178,6 @@ def _contacts(run: TimeRun) -> Section:
         "to the maximum quasi-static torque.",
     ]
     return Section("Contacts", text, (filled_table(header, cut(rows), 3),))
-
-
-def _contact(run: TimeRun, each: ContactInTime) -> tuple[str, ...]:
-    turn = tau / abs(run.rate) if run.rate else 0.0
-    return (
-        each.name,
-        figure(100 * each.apart, 4),
-        figure(100 * each.coast, 4),
-        figure(each.impact_rate * turn, 4),
-        figure(1e6 * each.power / each.impact_rate, 4) if each.impact_rate else "",
-        figure(1e3 * each.power, 4) if each.impact_rate else "",
-        figure(each.hardest, 4) if each.impact_rate else "",
-        figure(degrees(each.gap), 4) if each.gap > _STILL else "",
-        figure(1e3 * each.torque, 5),
-        figure(1e3 * each.rubbed, 4) if each.rubbed else "",
-        figure(1e3 * each.peak, 5) if each.peak is not None else "",
-        figure(each.dynamic_factor, 4) if each.dynamic_factor is not None else "",
-    )
 
 
 def _outputs(run: TimeRun) -> Section:
@@ -212,7 +212,7 @@ def _slides(run: TimeRun, name: str) -> bool:
 
 
 def _angle(run: TimeRun, name: str, angle: float) -> str:
-    """Return an angle in degrees as text, or the travel of a sliding link with its unit."""
+    """Return a deviation as text: degrees for an output that turns, or mm with the unit for an output that slides."""
     if angle <= _STILL:
         return "0"
     return f"{figure(angle / tau, 4)} mm" if _slides(run, name) else figure(degrees(angle), 4)
@@ -265,7 +265,7 @@ def _converged(run: TimeRun) -> Section:
 
 
 def _unconverged_notes(run: TimeRun) -> Iterator[str]:
-    """Yield notes on the results that have not converged, with their errors and the options that improve them."""
+    """Yield sentences on results that differ between both time steps, and options that help."""
     loose = [each for each in run.figures if not each.converged]
     if not loose:
         yield "All figures converged."

@@ -145,9 +145,7 @@ class TimeRun(Tabular, Pictured, TrainResult):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Columns of a table with one row for each sample: time, turns, angles, speeds, torques, gaps and
-        deviations.
-        """
+        """Columns of a table with a row for each sample: time, turns, angles, speeds, torques, gaps, deviations."""
         made: dict[str, Floats] = {"time (s)": self.time, "turns": self.turns}
         for found, what in (
             (self.angles, "angle (rad)"),

@@ -74,19 +74,15 @@ def time_run_figure(run: TimeRun, title: str = "") -> Figure:
         panel.tick_params(labelbottom=False)
     if panels:
         _name(panels[-1], _across_text(run))
-        _key(panels[0], bool(pairs))
+        panels[0].scatter([], [], s=24, c=RED, marker="^", label="impact")
+        if pairs:
+            panels[0].fill_between([], [], [], color=PALE, alpha=0.6, label="coast flank")
+        legend_above(panels[0], 2)
     return headed(figure, title)
 
 
-def _key(panel: Axes, gaps: bool) -> None:
-    panel.scatter([], [], s=24, c=RED, marker="^", label="impact")
-    if gaps:
-        panel.fill_between([], [], [], color=PALE, alpha=0.6, label="coast flank")
-    legend_above(panel, 2)
-
-
 def _across(run: TimeRun) -> Floats:
-    """Return the abscissa of the plot: revolutions of an input with prescribed speed, or time [s] for other drives."""
+    """Return the values on the horizontal axis: revolutions of an input of prescribed speed, or time [s]."""
     return run.turns if run.driven == "rate" else run.time
 
 
@@ -95,8 +91,8 @@ def _across_text(run: TimeRun) -> str:
 
 
 def _loose(run: TimeRun) -> list[str]:
-    """Return the names of at most `_PAIRS` pairs with backlash that are out of contact for the longest times, in the
-    order of the train.
+    """Return the names of the pairs with backlash whose gaps are drawn, in the order of the declaration: at most
+    `_PAIRS` pairs, which are out of contact for the longest time.
     """
     names = [
         name
@@ -109,7 +105,7 @@ def _loose(run: TimeRun) -> list[str]:
 
 
 def _moving(run: TimeRun) -> list[str]:
-    """Return the names of the outputs that do not turn uniformly, in descending order of their deviations."""
+    """Return the outputs that do not turn uniformly, at most `_OUTPUTS`, by descending deviation."""
     deviation = {each.output: max(each.ahead, each.behind) for each in run.deviations}
     swing = {name: max((peak.amplitude for peak in run.spectra[name]), default=0.0) for name in deviation}
     names = [name for name in deviation if max(deviation[name], swing[name]) > _SEEN]
@@ -117,7 +113,7 @@ def _moving(run: TimeRun) -> list[str]:
 
 
 def _stretch(run: TimeRun, pairs: list[str]) -> slice:
-    """Return the slice of the samples around the maximum gap of all drawn pairs, or of the last samples."""
+    """Return the range of samples in which gaps are drawn, which is centred on the maximum gap of all pairs."""
     whole = len(run.time)
     first = int(np.searchsorted(run.time, run.skip))
     middle = whole
@@ -131,7 +127,7 @@ def _stretch(run: TimeRun, pairs: list[str]) -> slice:
 
 
 def _gap(panel: Axes, run: TimeRun, pair: str, stretch: slice) -> None:
-    """Plot the gap at the drive flank of a pair. The coast flank is drawn as a band, and impacts are marked."""
+    """Plot the gap at the drive flank of a pair, with the coast flank as a band and marks of impacts."""
     at, front = _across(run)[stretch], np.degrees(run.gaps[pair][stretch])
     back = front + np.degrees(run.coast_gaps[pair][stretch])
     panel.fill_between(at, back, 1.06 * back.max(), color=PALE, alpha=0.6, linewidth=0, gid=f"coast flank {pair}")
@@ -148,7 +144,7 @@ def _gap(panel: Axes, run: TimeRun, pair: str, stretch: slice) -> None:
 
 
 def _speed(panel: Axes, run: TimeRun, stop: str, stretch: slice) -> None:
-    """Plot the speed of a link with an escapement between its beats."""
+    """Plot the speed of an escape wheel between its beats."""
     at = _across(run)[stretch]
     panel.plot(at, run.speeds[stop][stretch], color=BLUE, linewidth=1.0)
     _impacts(panel, run, stop, stretch)
@@ -157,7 +153,7 @@ def _speed(panel: Axes, run: TimeRun, stop: str, stretch: slice) -> None:
 
 
 def _impacts(panel: Axes, run: TimeRun, contact: str, stretch: slice) -> None:
-    """Mark impacts at the lower edge of a panel. The area of each marker increases with the energy of the impact."""
+    """Mark the impacts of a contact at the lower edge of a panel, by marks that grow with their energy."""
     own = np.array([name == contact for name in run.impacts.contact], dtype=bool)
     if not own.any():
         return
@@ -168,19 +164,9 @@ def _impacts(panel: Axes, run: TimeRun, contact: str, stretch: slice) -> None:
     near = (at >= across[stretch.start]) & (at <= across[stretch.stop - 1]) & (energy > 0)
     if near.any():
         # matplotlib's size is an area, so the area of a marker grows with the energy
-        size = 4 + 36 * energy[near] / energy.max()
+        size, y = 4 + 36 * energy[near] / energy.max(), np.full(near.sum(), 0.05)
         foot = panel.get_xaxis_transform()
-        panel.scatter(
-            at[near],
-            np.full(near.sum(), 0.05),
-            s=size,
-            c=RED,
-            marker="^",
-            transform=foot,
-            linewidths=0,
-            zorder=4,
-            clip_on=False,
-        )
+        panel.scatter(at[near], y, s=size, c=RED, marker="^", transform=foot, linewidths=0, zorder=4, clip_on=False)
 
 
 def _ahead(panel: Axes, run: TimeRun, moving: list[str]) -> None:
@@ -211,27 +197,21 @@ def _spectrum(panel: Axes, run: TimeRun, moving: list[str]) -> None:
         panel.set_ylim(_DEEPEST * top, 60 * top)
         panel.set_xscale("log")
         panel.xaxis.set_major_formatter(lambda at, _: f"{at:g}")
-        panel.set_xlim(max(float(drawn[-1][0, 0]), abs(run.rate) / tau / 2), float(drawn[-1][0, -1]))
-        _minor_numbers(panel)
+        low, high = max(float(drawn[-1][0, 0]), abs(run.rate) / tau / 2), float(drawn[-1][0, -1])
+        panel.set_xlim(low, high)
+        # an axis of few decades needs labels between the powers of ten, such as 20, 30 and 50
+        few = high < _DECADES * low
+        panel.xaxis.set_minor_formatter(lambda at, _: f"{at:g}" if few and f"{at:e}"[0] in "235" else "")
         for at, amplitude, source in _named(run.spectra[moving[0]]):
             over = max(float(size[abs(heard / at - 1) < _CLEAR - 1].max(initial=0.0)) for heard, size in drawn)
-            if panel.get_xlim()[0] < at < panel.get_xlim()[1] and amplitude > _DEEPEST * top:
+            if low < at < high and amplitude > _DEEPEST * top:
                 write(panel, at, 1.4 * over, source, rotation=60, ha="left", va="bottom", fontsize=FINE)
     _name(panel, "frequency (Hz)", "amplitude (deg)", f"spectrum; lines of {short(moving[0])} are labelled")
 
 
-def _minor_numbers(panel: Axes) -> None:
-    """Label the minor ticks of a logarithmic axis as 20, 30 and 50 instead of 2 x 10^1 if the axis spans few powers of
-    ten.
-    """
-    low, high = panel.get_xlim()
-    few = high < _DECADES * low
-    panel.xaxis.set_minor_formatter(lambda at, _: f"{at:g}" if few and f"{at:e}"[0] in "235" else "")
-
-
 def _named(peaks: Sequence[SpectrumPeak]) -> Iterator[tuple[float, float, str]]:
-    """Yield frequency [Hz], amplitude [deg] and source of the strongest lines whose source is known, without close
-    neighbours.
+    """Yield the frequency [Hz], amplitude [deg] and source of each spectral line that is labelled: strong lines of a
+    known source without close neighbours.
     """
     taken: list[float] = []
     for peak in peaks:

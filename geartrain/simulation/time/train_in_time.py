@@ -78,31 +78,29 @@ class DrivenTrain:
         samples: int | None = None,
         fast: bool | None = None,
     ) -> TimeStudy:
-        """Return a study with two runs over `turns` revolutions of the driving link, as described in
-        `GearTrain.dynamics`.
-        """
+        """Return two runs over `turns` revolutions of the driving link, as described in `GearTrain.dynamics`."""
         check_numbers(turns=turns, skip=skip, restitution=self.restitution)
         check_whole_numbers(steps=steps, samples=samples)
         check_choice("model", model, ("rigid", "compliant"))
-        seen, found = self._recorded_outputs(), self._model(radians_per_second(self.rate), model == "compliant")
-        return TimeStudy(found, seen, turns, skip, steps, samples, fast)
+        return TimeStudy(*self._model(model == "compliant"), turns, skip, steps, samples, fast)
 
     def simulation(self, step: float | None, fast: bool | None) -> Simulation:
         """Return a simulation of the train that starts at time 0, as described in `GearTrain.simulation`."""
         from geartrain.simulation.time.stepwise_simulation import Simulation
 
         check_numbers(step=step, restitution=self.restitution)
-        seen, found = self._recorded_outputs(), self._model(radians_per_second(self.rate))
+        found, seen = self._model()
         step = TimeStudy(found, seen, 1).plan(2).step if step is None else step
         return Simulation(found, seen, step, fast=is_fast(fast, inf))
 
-    def _recorded_outputs(self) -> list[tuple[str, str, str]]:
-        """Return name, link and reference link of each recorded output."""
-        own = self.train.planets_as_one.kinematics
-        return [(name, *links) for name, links in own.seen_links(self.state, self.outputs).items()]
-
-    def _model(self, rate: float | None, yields: bool = False) -> TrainModel:
-        return model_in_time(self.train, self.state, self.without, rate, self.restitution, yields)
+    def _model(self, yields: bool = False) -> tuple[TrainModel, list[tuple[str, str, str]]]:
+        """Return the contact model of the train, and the name, link and reference link of each recorded output. Teeth
+        are compliant if `yields` is True.
+        """
+        seen = self.train.planets_as_one.kinematics.seen_links(self.state, self.outputs)
+        rate = radians_per_second(self.rate)
+        found = model_in_time(self.train, self.state, self.without, rate, self.restitution, yields)
+        return found, [(name, *links) for name, links in seen.items()]
 
 
 def model_in_time(
@@ -122,11 +120,8 @@ def model_in_time(
     rubs = scale is None and any(part.friction_radius for part in train.declaration.links.values())
     setting = train.unfolded.load_case(state) if rubs else None
     train = train.planets_as_one
-    declared, case, problem = (
-        train.declaration,
-        train.kinematics.case(state),
-        find_motion_problem(train, state, without),
-    )
+    declared, case = train.declaration, train.kinematics.case(state)
+    problem = find_motion_problem(train, state, without)
     if case.one_way:
         names = ", ".join(each.name for each in case.one_way)
         what = f"the simulation in time does not include the one-way clutches {names}"
@@ -269,9 +264,7 @@ class VibrationModes(Tabular, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Columns of a table with one row for each mode: number, natural frequency, damping ratio, and angles of the
-        links.
-        """
+        """Columns of a table with a row for each mode: number, frequency, damping ratio, angles of links."""
         angles = zip(self.shapes.labels[0], self.shapes.values.tolist(), strict=True)
         return {
             "mode": [*range(1, len(self.frequencies) + 1)],

@@ -35,11 +35,6 @@ _SAFE = 250
 """Limit of the decimal exponents of terms: no product underflows or overflows in float64 between 10^-250 and 10^250."""
 
 
-def monomial_of(exponents: Iterable[int]) -> Monomial:
-    """Return the monomial that has the given exponents of all variables."""
-    return tuple((variable, power) for variable, power in enumerate(exponents) if power)
-
-
 def products_of(columns: Sequence[Floats]) -> Product:
     """Return a `Product` that multiplies columns of values, one for each variable. Powers must be 1 or more."""
 
@@ -56,16 +51,6 @@ def sum_and_size(terms: Iterable[Floats], shape: tuple[int, ...] = ()) -> tuple[
     if not each:
         return np.zeros(shape), np.zeros(shape)
     return reduce(np.add, each), reduce(np.add, map(np.abs, each))
-
-
-def sum_roundings(monomials: Sequence[Monomial], roundings: Sequence[int]) -> int:
-    """Return an upper bound on the number of roundings of a sum of monomials, in one term and in the summation.
-
-    roundings   number of roundings in the value of each variable
-    """
-    # a power p of a variable with n roundings has p + p n roundings; a coefficient adds two
-    each = (sum(abs(power) * (roundings[variable] + 1) for variable, power in monomial) for monomial in monomials)
-    return max(each, default=0) + len(monomials) + 2
 
 
 def in_range(terms: Iterable[tuple[Fraction | int, Iterable[int]]], largest: Sequence[float]) -> bool:
@@ -105,8 +90,11 @@ def _bounded_sum(
     terms: Sequence[WholeTerm], scale: int, roundings: Sequence[int], product: Product
 ) -> tuple[Floats, Floats]:
     """Return the values of a polynomial divided by `scale`, and bounds on their absolute errors."""
-    monomials = [monomial_of(exponents) for _, exponents in terms]
+    monomials = [tuple((at, power) for at, power in enumerate(exponents) if power) for _, exponents in terms]
     # the exact quotient of two integers is rounded once
     factors = [float(Fraction(coefficient, scale)) for coefficient, _ in terms]
     value, size = sum_and_size(one * product(each) for one, each in zip(factors, monomials, strict=True))
-    return value, SLACK * sum_roundings(monomials, roundings) * UNIT_ROUNDOFF * size
+    # a power p of a variable with n roundings has p + p n roundings; a coefficient adds two
+    each = (sum(abs(power) * (roundings[at] + 1) for at, power in monomial) for monomial in monomials)
+    count = max(each, default=0) + len(monomials) + 2
+    return value, SLACK * count * UNIT_ROUNDOFF * size

@@ -217,7 +217,7 @@ def eliminate_units(
 
 
 def residues(row: Mapping[int, Fraction], modulus: int = PRIME) -> LinearForm:
-    """Return a multiple of a rational row whose coefficients are integers, reduced modulo a prime."""
+    """Return a multiple of a rational row that has integer coefficients, reduced modulo a prime."""
     # one factor for the whole row does not change the rank, and avoids inverting denominators modulo the prime
     scale = math.lcm(*(value.denominator for value in row.values()))
     return {c: residue for c, value in row.items() if (residue := int(value * scale) % modulus)}  # type: ignore[misc]

@@ -140,13 +140,13 @@ def read_fraction(text: str) -> Fraction:
     return coprime(int(Decimal(top)), int(Decimal(bottom or "1")))
 
 
-def abridged_text(value: Fraction | int, most: int = 40) -> str:
-    """Format a number with all digits if they fit in `most` characters, else give only the number of digits.
+def abridged_text(value: Fraction | int) -> str:
+    """Format a number with all digits if they fit in 40 characters, else give only the number of digits.
 
     >>> abridged_text(Fraction(11, 10) ** 5), abridged_text(Fraction(11, 10) ** 5000)
     ('161051/100000', '(5207 digits)/(5001 digits)')
     """
-    if is_short(value, most):
+    if is_short(value, 40):
         return fraction_text(value)
     top, bottom = value.numerator, value.denominator
     return f"({count_digits(top)} digits)" + (f"/({count_digits(bottom)} digits)" if bottom != 1 else "")

@@ -72,11 +72,8 @@ class FactoredRatios:
         for hop in reversed(hops):
             # the anchor is kept, because the number read next probably has the same one
             if hop == at:
-                self._keep(self.anchor[at], value)
+                self._kept[self.anchor[at]] = value
+                if len(self._kept) > _KEPT:
+                    del self._kept[next(iter(self._kept))]
             value = coprime(*times(value.numerator, value.denominator, self.top[hop], self.bottom[hop]))
         return value
-
-    def _keep(self, at: int, value: Fraction) -> None:
-        self._kept[at] = value
-        if len(self._kept) > _KEPT:
-            del self._kept[next(iter(self._kept))]

@@ -16,7 +16,7 @@ Compilation takes several seconds. `telling` calls a function when it begins, an
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from functools import cached_property, update_wrapper
 from hashlib import sha256
@@ -119,10 +119,12 @@ class Kernel(Generic[P, R]):
         return self._made(no_cpython_wrapper=True)
 
     def _made(self, **options: bool) -> Callable[P, R]:
-        numba = _numba()
+        numba, own = _numba(), self._function
         # a copy that calls compiled kernels; the hash in its name makes numba's cache key depend on all of its sources
-        twin = self._copy_with({name: each._called for name, each in self._named.items() if isinstance(each, Kernel)})
-        twin.__qualname__ = f"{self._function.__qualname__}_{self.digest}{'_'.join(['', *options])}"
+        called = {name: each._called for name, each in self._named.items() if isinstance(each, Kernel)}
+        twin = FunctionType(own.__code__, {**own.__globals__, **called}, own.__name__, own.__defaults__)
+        twin.__annotations__ = own.__annotations__
+        twin.__qualname__ = f"{own.__qualname__}_{self.digest}{'_'.join(['', *options])}"
         made = numba.njit(twin, error_model="numpy", nogil=True, no_cfunc_wrapper=True, **options)
         with suppress(RuntimeError):  # neither the package's folder nor the user's cache is writable
             made.enable_caching()
@@ -132,13 +134,6 @@ class Kernel(Generic[P, R]):
     def chosen(self, fast: bool) -> Callable[P, R]:
         """Return the compiled function if `fast` is True, else the function in plain Python."""
         return self.compiled if fast else self
-
-    def _copy_with(self, names: Mapping[str, object]) -> FunctionType:
-        """Return a copy of the function in which the given global names refer to other objects."""
-        own = self._function
-        twin = FunctionType(own.__code__, {**own.__globals__, **names}, own.__name__, own.__defaults__)
-        twin.__annotations__ = own.__annotations__
-        return twin
 
     @property
     def _named(self) -> dict[str, Any]:
@@ -179,20 +174,15 @@ def is_fast(fast: bool | None, seconds: float) -> bool:
 
     Raises `MissingExtraError` if `fast` is true and numba is not installed.
     """
-    if fast is None:
-        return seconds >= _PAYS and usable()
-    if fast:
-        _numba()
-    return fast
-
-
-def usable() -> bool:
-    """Return True if numba is installed and can be imported."""
-    try:
-        _numba()
-    except MissingExtraError:
-        return False
-    return True
+    wanted = seconds >= _PAYS if fast is None else fast
+    if wanted:
+        try:
+            _numba()
+        except MissingExtraError:
+            if fast:
+                raise
+            return False
+    return wanted
 
 
 def _numba() -> ModuleType:

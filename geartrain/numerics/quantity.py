@@ -265,13 +265,20 @@ class Figure:
         if match is None:
             raise _not_a_number(raw)
         left, sign, right = match.groups()
-        value = Fraction(left)
+        value, half = Fraction(left), None
+        mantissa, _, exponent = left.lower().partition("e")
         if sign is not None:
             below = Fraction(right)
             if not below:
                 raise bad("number", f"'{text}' divides by zero", "write a denominator other than 0")
-            return cls(_within(value / below, text), None, text)
-        return cls(_within(value, text), _half_unit(left), text)
+            value /= below
+        elif "." in mantissa or exponent:
+            # an exponent moves the last decimal: 1e3 is known to half a thousand
+            decimals = len(mantissa.partition(".")[2])
+            half = Fraction(10) ** (int(exponent or 0) - decimals) / 2
+        if value and not 1 / _MOST <= abs(value) <= _MOST:
+            raise _out_of_range(text, "a number must be 0, or from 1e-300 to 1e300", "write a number in that range")
+        return cls(value, half, text)
 
     @classmethod
     def __get_pydantic_core_schema__(cls, source: Any, handler: GetCoreSchemaHandler) -> core_schema.CoreSchema:
@@ -331,21 +338,6 @@ class Amount(Figure):
 def _not_a_number(raw: object) -> PydanticCustomError:
     shown = repr(raw) if len(repr(raw)) <= 40 else repr(raw)[:37] + "..."
     return bad("number", f"{shown} is not a number", "write an integer, a fraction 254/19 or 1:30, or a decimal")
-
-
-def _within(value: Fraction, text: str) -> Fraction:
-    if value and not 1 / _MOST <= abs(value) <= _MOST:
-        raise _out_of_range(text, "a number must be 0, or from 1e-300 to 1e300", "write a number in that range")
-    return value
-
-
-def _half_unit(text: str) -> Fraction | None:
-    mantissa, _, exponent = text.lower().partition("e")
-    if "." not in mantissa and not exponent:
-        return None
-    # an exponent moves the last decimal: 1e3 is known to half a thousand
-    decimals = len(mantissa.partition(".")[2])
-    return Fraction(10) ** (int(exponent or 0) - decimals) / 2
 
 
 def checked(is_valid: Callable[[Any], bool], message: str, fix: str) -> AfterValidator:
@@ -448,7 +440,9 @@ class Quantity:
         if match is None or match[2] is None:
             figure = Figure.parse(raw)
             if not plain and figure.value:
-                raise _no_unit(text, dimension)
+                known = units_of(dimension)
+                first = "mm" if dimension.startswith("length") else known.split(", ")[0]
+                raise bad("unit", f"'{text}' has no unit", f"for example, write '{text} {first}'; units: {known}")
             return _in_range(cls(figure.value, None, text), dimension)
         # several blanks within a unit count as one
         unit = " ".join(match[2].split())
@@ -522,12 +516,6 @@ def as_rotation(speed: Quantity) -> Quantity:
 def as_torque(load: Quantity) -> Quantity:
     """Return a force on a sliding link as the torque [N m] that has the same power; return torques unchanged."""
     return Quantity(load.base * TRAVEL_ARM, "N m", load.text) if load.dimension == "force" else load
-
-
-def _no_unit(text: str, dimension: str) -> PydanticCustomError:
-    first = "mm" if dimension.startswith("length") else units_of(dimension).split(", ")[0]
-    fix = f"for example, write '{text} {first}'; units: {units_of(dimension)}"
-    return bad("unit", f"'{text}' has no unit", fix)
 
 
 def _with_article(noun: str) -> str:

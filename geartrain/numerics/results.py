@@ -9,7 +9,7 @@ results contain the name of the function that draws them, which is imported when
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, fields, is_dataclass
 from fnmatch import fnmatchcase
 from fractions import Fraction
@@ -251,7 +251,10 @@ class Tabular(Shown):
         """Return the table as a numpy record array, in which `records["link"]` is a column; missing numbers are NaN."""
         import numpy as np
 
-        columns = {name: np.array(_without_gaps(values)) for name, values in self.columns.items()}
+        columns = {}
+        for name, values in self.columns.items():
+            gap = "" if any(isinstance(value, str) for value in values) else float("nan")
+            columns[name] = np.array([gap if value is None else value for value in values])
         kinds = [(name, column.dtype) for name, column in columns.items()]
         return np.rec.fromarrays(list(columns.values()), dtype=kinds)
 
@@ -285,14 +288,6 @@ def _unit(meaning: str) -> str:
     """Return the unit in square brackets in the description of a column; "" if it has no unit."""
     found = search(r"\[([^\]]+)\]", meaning)
     return found[1] if found else ""
-
-
-def _without_gaps(values: Sequence[Any]) -> Sequence[Any]:
-    """Return a column with None replaced by NaN if it contains numbers, or by "" if it contains text."""
-    if not any(value is None for value in values):
-        return values
-    texts = any(isinstance(value, str) for value in values)
-    return [("" if texts else float("nan")) if value is None else value for value in values]
 
 
 def _cell(value: object) -> str:
@@ -481,23 +476,17 @@ def field_docs(kind: type) -> Mapping[str, str]:
 def _docs_of_classes(module: str) -> Mapping[str, Mapping[str, str]]:
     import ast
     import inspect
-    import sys
 
-    found: dict[str, Mapping[str, str]] = {}
-    todo: list[tuple[str, ast.AST]] = [("", ast.parse(inspect.getsource(sys.modules[module])))]
+    found: dict[str, dict[str, str]] = {}
+    todo: list[tuple[str, ast.AST]] = [("", ast.parse(inspect.getsource(modules[module])))]
     while todo:
         prefix, node = todo.pop()
         for part in ast.iter_child_nodes(node):
             if isinstance(part, ast.ClassDef):
-                found[prefix + part.name] = dict(_docs_in(part.body))
+                docs = found[prefix + part.name] = {}
+                for statement in pairwise(part.body):
+                    match statement:
+                        case ast.AnnAssign(target=ast.Name(name)), ast.Expr(value=ast.Constant(str(text))):
+                            docs[name] = " ".join(text.split())
                 todo.append((f"{prefix}{part.name}.", part))
     return found
-
-
-def _docs_in(body: Sequence[Any]) -> Iterator[tuple[str, str]]:
-    import ast
-
-    for statement, doc in pairwise(body):
-        match statement, doc:
-            case ast.AnnAssign(target=ast.Name(name)), ast.Expr(value=ast.Constant(str(text))):
-                yield name, " ".join(text.split())

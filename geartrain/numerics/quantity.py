@@ -277,7 +277,8 @@ class Figure:
             decimals = len(mantissa.partition(".")[2])
             half = Fraction(10) ** (int(exponent or 0) - decimals) / 2
         if value and not 1 / _MOST <= abs(value) <= _MOST:
-            raise _out_of_range(text, "a number must be 0, or from 1e-300 to 1e300", "write a number in that range")
+            why = "a number must be 0, or from 1e-300 to 1e300"
+            raise bad("number", f"{text} is out of range", "write a number in that range", why)
         return cls(value, half, text)
 
     @classmethod
@@ -345,7 +346,7 @@ def checked(is_valid: Callable[[Any], bool], message: str, fix: str) -> AfterVal
 
     def check(given: Any) -> Any:
         if not is_valid(given):
-            raise PydanticCustomError("bound", message, {"text": given.text, "fix": fix})
+            raise bad("bound", message.format(text=given.text), fix)
         return given
 
     return AfterValidator(check)
@@ -472,11 +473,7 @@ def _in_range(quantity: Quantity, dimension: str) -> Quantity:
     noun = _with_article(quantity.dimension or dimension)
     unit = "" if quantity.unit is None else f" {base_unit(scale(quantity.unit)[0])}"
     why = f"{noun} must be from {float(low):g}{unit} to {float(high):g}{unit}"
-    raise _out_of_range(quantity.text, why, f"write {noun} in that range")
-
-
-def _out_of_range(text: str, why: str, fix: str) -> PydanticCustomError:
-    return PydanticCustomError("number", "{text} is out of range", {"text": text, "why": why, "fix": fix})
+    raise bad("number", f"{quantity.text} is out of range", f"write {noun} in that range", why)
 
 
 def in_unit(speed: Quantity, unit: str) -> Fraction:

@@ -59,27 +59,15 @@ def shift_table(train: GearTrain, answers: Sequence[Answer]) -> Section:
     rows = []
     for answer in answers:
         engaged = declared.case(answer.state).closed
-        marks = [closed_mark(declared, clutch) if clutch in engaged else "" for clutch in clutches]
+        marks = [
+            ("x" if declared.clutches[name].one_way is None else "*") if name in engaged else "" for name in clutches
+        ]
         cells = [_speed_and_ratio(answer, name) for name in names]
         rows.append((str(answer.state), *marks, answer.verdict.kind, *cells))
     text = ("x marks an engaged clutch or brake. " if clutches else "") + "Outputs: speed, and input divided by output."
-    text = f"{holding_note(declared)}{text}"
+    if any(each.one_way for each in declared.clutches.values()):
+        text = f"* marks a one-way clutch that holds (only while the input drives). {text}"
     return Section("States", (text,), (Table(("state", *clutches, "verdict", *names), rows),))
-
-
-def closed_mark(declared: Train, clutch: str) -> str:
-    """Return the mark of a closed clutch or brake in a shift table: `*` for a one-way clutch, `x` for any other clutch
-    or brake.
-    """
-    return "x" if declared.clutches[clutch].one_way is None else "*"
-
-
-def holding_note(declared: Train) -> str:
-    """Return an explanation of the mark for one-way clutches in a shift table; an empty string if the train has no
-    one-way clutch.
-    """
-    one_way = any(each.one_way for each in declared.clutches.values())
-    return "* marks a one-way clutch that holds (only while the input drives). " if one_way else ""
 
 
 def _speed_and_ratio(answer: Answer, name: str) -> str:
@@ -104,25 +92,17 @@ def answer_sections(train: GearTrain, answer: Answer) -> Iterator[Section]:
 
 
 def _pointers(train: GearTrain, answer: Answer) -> Section:
-    """Return a section with the speed, period, target and error of each pointer.
-
-    If no output has a dial, a target or a published figure, all outputs are shown. Otherwise only the number of the
-    remaining outputs is given.
-    """
-    pointers = [each for each in answer.outputs.values() if _is_pointer(each)] or list(answer.outputs.values())
-    rows = [_pointer_row(train.declaration, result) for result in pointers]
-    declared = train.declaration
+    """Return a section with the speed, period, target and error of each pointer, or of all outputs without pointers."""
+    outputs, declared = list(answer.outputs.values()), train.declaration
+    # a pointer has a dial, a target or a published figure; an output that fails an expectation is also shown
+    pointers = [each for each in outputs if each.output.is_pointer or not each.holds] or outputs
+    rows = [_pointer_row(declared, result) for result in pointers]
     second = "output/input" if declared.unit_days is None else "period"
     error = "s a day" if _is_clock(declared) else "d a century"
     table = filled_table(("output", "speed", second, "target", "ppm off", error, "fault"), rows, 3)
-    others = len(answer.outputs) - len(pointers)
+    others = len(outputs) - len(pointers)
     more = (f"{plural(others, 'further output')} without dial, target or printed figure: see 'All outputs'.",)
     return Section(titled(answer.state, "outputs"), more if others else (), (replace(table, rows=cut(table.rows)),))
-
-
-def _is_pointer(result: OutputResult) -> bool:
-    """Return True if an output has a dial, a target or a published figure, or does not meet an expectation."""
-    return result.output.is_pointer or not result.holds
 
 
 def _pointer_row(declared: Train, result: OutputResult) -> tuple[str, ...]:
@@ -186,11 +166,8 @@ _LONGER = 2  # d: a pointer of such a period may be off by a day
 
 
 def _clock_rates(declared: Train, result: OutputResult, target: TargetResult) -> tuple[str, str, str]:
-    """Return three strings: the error of an output in seconds per day, the error in seconds per year, and the number of
-    days after which the error is one day.
-
-    The first two strings are empty unless the output has a clock hand or a target of about one day. The third is empty
-    for targets shorter than that.
+    """Return three strings: the error of an output in seconds per day and in seconds per year, both empty for other
+    outputs than clock hands, and the days after which the error is one day, empty for targets of up to about a day.
     """
     if declared.unit_days is None or target.days_per_century is None:
         return "", "", ""

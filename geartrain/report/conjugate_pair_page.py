@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from geartrain.report.document import Document, Section, Table, figure
 from geartrain.report.gear_pairs import without_losses
-from geartrain.teeth.conjugate.path_losses import FREE, LOADED, ONE_PAIR, SHARED
+from geartrain.teeth.conjugate.path_losses import FREE, LOADED, ONE_PAIR, SHARED, depth
 
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_mesh import DesignLosses, PairDesign
@@ -71,8 +71,6 @@ def _wheels(design: PairDesign) -> Section:
 
 
 def _path(design: PairDesign) -> Section:
-    from geartrain.teeth.conjugate.path_losses import depth
-
     path = design.path
     rows = []
     for recess, name, arc in ((False, "approach", design.arcs[0]), (True, "recess", design.arcs[1])):
@@ -107,8 +105,6 @@ _LOADED = {
 
 
 def _losses_and_stresses(found: DesignLosses) -> Section:
-    from geartrain.teeth.conjugate.path_losses import ONE_PAIR, SHARED
-
     loads = found.measures.one_pair, found.measures.shared
     loaded = [(words, *(cost(getattr(costs, name)) for costs in loads)) for name, words in _LOADED.items()]
     free = [
@@ -167,8 +163,10 @@ def describe_form_comparison(found: FormComparison) -> Document:
     header = ("form", "arcs", *map(_header, (*LOADED, *FREE)))
     table = Table(header, list(map(_ratios, found.forms)), True)
     sections = [Section("Ratios", (text,), [table]), _sharing(found), _base(found)]
-    if faulty := [line for form in found.forms for line in _reasons(form)]:
-        sections.append(Section("Forms that cannot run", faulty))
+    faults = [(form.name, fault) for form in found.forms for fault in form.faults]
+    if faults:
+        reasons = [f"{name}: {'; '.join(filter(None, (f.what, f.why, f.fix)))}." for name, f in faults]
+        sections.append(Section("Forms that cannot run", reasons))
     return Document(f"Tooth forms, {pair_name(found.path)}", [found.matched], sections)
 
 
@@ -221,9 +219,3 @@ def _base(found: FormComparison) -> Section:
         "as the root of curvature divided by cos psi; maximum heat divided by friction times tangential force."
     )
     return Section("The involute of 20 deg", (text,), (Table(("quantity", "one pair", "shared"), rows),))
-
-
-def _reasons(form: MeasuredForm) -> Iterator[str]:
-    for fault in form.faults:
-        words = (fault.what, fault.why, fault.fix)
-        yield f"{form.name}: " + "; ".join(word for word in words if word) + "."

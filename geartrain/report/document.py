@@ -89,13 +89,12 @@ def table_document(columns: Mapping[str, Sequence[object]], most: int) -> Docume
     rows.
     """
     count = len(next(iter(columns.values()), ()))
-    rows = [[_cell(value) for value in row] for row in islice(zip(*columns.values(), strict=True), most)]
+    rows = [
+        ["" if value is None else f"{value:.8g}" if isinstance(value, float) else str(value) for value in row]
+        for row in islice(zip(*columns.values(), strict=True), most)
+    ]
     more = [f"{count - most:,} more rows."] if count > most else []
     return Document("", [], [Section("", more, [Table(list(columns), rows)])] if columns else [])
-
-
-def _cell(value: object) -> str:
-    return "" if value is None else f"{value:.8g}" if isinstance(value, float) else str(value)
 
 
 def filled_table(header: Sequence[str], rows: Sequence[Sequence[str]], always: int, wide: bool = False) -> Table:
@@ -131,11 +130,12 @@ def _field_column(column: str | _CellColumn, docs: Mapping[str, str]) -> _CellCo
     name, _, digits = field.partition(":")
     unit = _UNIT.search(docs.get(name, ""))
     head = head if given else f"{name.replace('_', ' ')} ({unit[1]})" if unit else name.replace("_", " ")
-    return head, lambda result: _field_text(getattr(result, name), digits)
 
+    def cell(result: Any) -> str:
+        value = getattr(result, name)
+        return "-" if value is None else figure(value, int(digits)) if digits else str(value)
 
-def _field_text(value: Any, digits: str) -> str:
-    return "-" if value is None else figure(value, int(digits)) if digits else str(value)
+    return head, cell
 
 
 @dataclass(frozen=True, slots=True)
@@ -278,13 +278,8 @@ def without_details(document: Document, requested: Sequence[str] = ()) -> Docume
     titles = [section.title for section in document.sections]
     for word in requested:
         if not any(word.lower() in title.lower() for title in titles):
-            raise QuestionError(
-                Problem(
-                    f"the report has no section '{word}'",
-                    f"its sections are {', '.join(titles)}",
-                    "use a word from one of these titles",
-                )
-            )
+            what, why = f"the report has no section '{word}'", f"its sections are {', '.join(titles)}"
+            raise QuestionError(Problem(what, why, "use a word from one of these titles"))
     if requested:
         kept = [each for each in document.sections if any(word.lower() in each.title.lower() for word in requested)]
         return replace(document, summary=(), sections=kept)
@@ -342,13 +337,9 @@ def cut(rows: Sequence[Sequence[str]], of: int | None = None, most: int = MOST_R
 # ------------------------------------------------------------------------------------------------ tables within a width
 
 
-GAP = 2
-"""Number of spaces between two columns of a table, except for a matrix, which has one space."""
-
-
 def gap_of(table: Table) -> int:
-    """Return the number of spaces between two columns of a table."""
-    return 1 if table.wide else GAP
+    """Return the number of spaces between two columns of a table: one in a matrix, two in other tables."""
+    return 1 if table.wide else 2
 
 
 def strips(table: Table, width: int) -> Iterator[Table]:

@@ -58,7 +58,9 @@ def collect_formulas(
     train: GearTrain, states: Sequence[str | None], outputs: Sequence[str] = (), sensitivities: bool = False
 ) -> FormulaReport:
     """Return the formulas of a train's outputs in the given states."""
-    formulas = tuple(each for state in states for each in _formulas(train, state, outputs))
+    declared = train.declaration
+    given = (declared.single_state(state) for state in states)
+    formulas = tuple(each for state in given for each in speed_formulas(declared, state, outputs))
     found = (
         RatioElasticity(each.state, each.output, share.input, wheel, share.ratio.elasticity(wheel))
         for each in formulas
@@ -66,11 +68,7 @@ def collect_formulas(
         for wheel in share.ratio.formula.wheels
     )
     elasticities, varying = tuple(found) if sensitivities else (), tuple(varying_couplings(train))
-    return FormulaReport(train.name, train.declaration.title, formulas, elasticities, varying)
-
-
-def _formulas(train: GearTrain, state: str | None, outputs: Sequence[str] = ()) -> Iterator[OutputFormula]:
-    return speed_formulas(train.declaration, train.declaration.single_state(state), outputs)
+    return FormulaReport(train.name, declared.title, formulas, elasticities, varying)
 
 
 def describe_formulas(found: FormulaReport, latex: bool = False, inverse: bool = False) -> Document:
@@ -89,8 +87,9 @@ def formula_section(train: GearTrain, state: str | None, explained: bool = True)
 
     explained   True to begin the section with an explanation of the notation
     """
+    formulas = speed_formulas(train.declaration, train.declaration.single_state(state))
     # a formula without tooth counts would only repeat a given speed
-    shown = [each for each in _formulas(train, state) if any(share.ratio.formula.wheels for share in each.shares)]
+    shown = [each for each in formulas if any(share.ratio.formula.wheels for share in each.shares)]
     if shown:
         lines = (text for each in shown for text in _lines(each, False))
         yield Section(titled(state, "formulas"), ((_HEAD,) if explained else ()) + tuple(lines))

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from geartrain.report.document import Document, Section, Table, exact, figure, result_table
 
 if TYPE_CHECKING:
-    from geartrain.analysis.gear_series import GearSearch, GearSeries, PossibleGear
+    from geartrain.analysis.gear_series import GearSearch, PossibleGear
     from geartrain.analysis.gearbox import Gearbox, GearState, ShiftElement
 
 _DIGITS = 5  # significant digits of ratios, torques and efficiencies
@@ -129,7 +129,10 @@ def describe_gear_search(found: GearSearch) -> Document:
                 f"Spread {figure(series.spread, _DIGITS)}; standard deviation of the logarithms of steps "
                 f"{series.deviation:.3g}; double-transition shifts: {series.double_shifts}."
             )
-            sections.append(Section(title, (head, text), (_series_table(series),)))
+            steps = [*(figure(step, _DIGITS) for step in series.steps), "-"]
+            rows = [(*_row(gear), step) for gear, step in zip(series.gears, steps, strict=True)]
+            table = Table(("closed", "ratio", "declared as", "step"), rows)
+            sections.append(Section(title, (head, text), (table,)))
     elif found.requested:
         text = f"No series of {found.requested} gears has all its steps in the requested range."
         sections.append(Section("Series", (text,)))
@@ -139,9 +142,3 @@ def describe_gear_search(found: GearSearch) -> Document:
 def _row(gear: PossibleGear) -> tuple[str, ...]:
     ratio = "held" if gear.ratio is None else figure(gear.ratio, _DIGITS)
     return ", ".join(gear.engaged), ratio, ", ".join(gear.states)
-
-
-def _series_table(series: GearSeries) -> Table:
-    steps = [*(figure(step, _DIGITS) for step in series.steps), "-"]
-    rows = [(*_row(gear), step) for gear, step in zip(series.gears, steps, strict=True)]
-    return Table(("closed", "ratio", "declared as", "step"), rows)

@@ -20,8 +20,7 @@ from geartrain.errors import MissingExtraError
 from geartrain.report.document import CitedText, Document, Table, strips
 from geartrain.scene.palette import THEMES
 
-ON_PAPER = 110
-"""Characters per line of a printed table on A4 or letter paper."""
+_ON_PAPER = 110  # characters per line of a printed table on A4 or letter paper
 WORDS = {"viewer": "Animation", "pictures": "Pictures", "sources": "Sources"}
 _LONG = re.compile(r"(\.\d\d)\d+")  # digits of a decimal number after the second place
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data: blob:; script-src "
@@ -127,7 +126,7 @@ def _on_paper(table: Table) -> list[Table]:
     """Return the strips of columns in which a table that is wider than a sheet is printed; an empty list for other
     tables.
     """
-    parts = list(strips(table, ON_PAPER))
+    parts = list(strips(table, _ON_PAPER))
     return parts if len(parts) > 1 else []
 
 

@@ -29,13 +29,12 @@ from geartrain.wings import WINGS, WingResult, has_wing, wing
 Schema = dict[str, Any]
 
 FLAG: Schema = {"type": "boolean"}
+OBJECT: Schema = {"type": "object"}
 
 
 def _list(item: Schema) -> Schema:
     return {"type": "array", "items": item}
 
-
-OBJECT: Schema = {"type": "object"}
 
 # ----------------------------------------------------------------------------------------------------------- questions
 
@@ -195,21 +194,16 @@ def _of_one(kind: Any, to: Callable[[Any], Any] | None, keys: tuple[str | Key, .
     if kind in _PLAIN:
         return _PLAIN[kind]
     if is_typeddict(kind):
-        return _typed_dict(kind)
+        kinds = {name: _evaluated(part, sys.modules[kind.__module__]) for name, part in kind.__annotations__.items()}
+        needed = {Required: True, NotRequired: False}
+        required = [name for name, each in kinds.items() if needed.get(get_origin(each), kind.__total__)]
+        return _fields({name: shape_of(each) for name, each in kinds.items()}, required, kind)
     # a pydantic model
     if hasattr(kind, "model_json_schema"):
         return dict(kind.model_json_schema(schema_generator=DefaultsAsWritten))
     if hasattr(kind, "to_dict") and not issubclass(kind, Result):  # a class with its own `to_dict`
         return shape_of(_returned(kind.to_dict))
     return _record(kind, keys_of(kind))
-
-
-def _typed_dict(kind: Any) -> Schema:
-    """Return the schema of a `TypedDict`, some of whose keys may be optional."""
-    kinds = {name: _evaluated(part, sys.modules[kind.__module__]) for name, part in kind.__annotations__.items()}
-    needed = {Required: True, NotRequired: False}
-    required = [name for name, each in kinds.items() if needed.get(get_origin(each), kind.__total__)]
-    return _fields({name: shape_of(each) for name, each in kinds.items()}, required, kind)
 
 
 def _one_of(shapes: list[Schema]) -> Schema:

@@ -330,25 +330,28 @@ def _outputs(tallies: Sequence[RunningStatistics], deviation: str) -> tuple[Tabl
     def row(tally: RunningStatistics) -> tuple[str, ...]:
         # a mean speed of 0 cannot be the divisor
         speeds = _speeds(*tally.speeds) + ("" if tally.ratio else " (divided by the input's)")
-        return tally.name, figure(tally.ratio, 9), *_amounts(tally.slides, tally.peak_to_peak, tally.rms), speeds
+        return (
+            tally.name,
+            figure(tally.ratio, 9),
+            *(_amount(tally.slides, each) for each in (tally.peak_to_peak, tally.rms)),
+            speeds,
+        )
 
     def head(unit: str) -> tuple[str, ...]:
         mean = "mean travel (mm per turn)" if unit == "mm" else "mean speed"
         return ("output", mean, *_deviation_heads(deviation, unit), "speed / mean speed")
 
-    return _by_unit(tallies, head, lambda tally: [row(tally)])
+    return _by_unit(tallies, head, row)
 
 
 def _by_unit(
     tallies: Sequence[RunningStatistics],
     head: Callable[[str], tuple[str, ...]],
-    rows: Callable[[RunningStatistics], Sequence[tuple[str, ...]]],
+    row: Callable[[RunningStatistics], tuple[str, ...]],
 ) -> tuple[Table, ...]:
-    """Return two tables: the outputs that turn, with angles in deg, and the links that slide, with travels in mm."""
+    """Return up to two tables: outputs that turn, with angles in deg, and links that slide, with travels in mm."""
     groups = {unit: [tally for tally in tallies if _unit(tally.slides) == unit] for unit in ("deg", "mm")}
-    return tuple(
-        Table(head(unit), [row for tally in own for row in rows(tally)]) for unit, own in groups.items() if own
-    )
+    return tuple(Table(head(unit), list(map(row, own))) for unit, own in groups.items() if own)
 
 
 def _speeds(low: float, high: float) -> str:
@@ -422,14 +425,8 @@ def _shares(motion: Motion, outputs: Sequence[str]) -> Table:
         reaches = {name: abs(motion.sensitivity[name][source.id]) * (high - low) for name in outputs}
         given = [_amount(name in motion._sliding, reach, 4) for name, reach in reaches.items()]
         rows.append((source.id, driver.wheel, driver.why, str(source.cycles), *given))
-    header = (
-        "pair",
-        "driving wheel",
-        "basis",
-        "periods a turn",
-        *(f"{name} ({_unit(name in motion._sliding)})" for name in outputs),
-    )
-    return Table(header, rows, wide=True)
+    named = (f"{name} ({_unit(name in motion._sliding)})" for name in outputs)
+    return Table(("pair", "driving wheel", "basis", "periods a turn", *named), rows, wide=True)
 
 
 def _steps(motion: Motion) -> Iterator[Section]:
@@ -456,15 +453,9 @@ def _random_phases(run: MotionRun) -> Section:
     deviation = run.motion._problem.deviation
     text = f"{len(run.phase_statistics)} sets of random phases of the teeth, seed {run.seed}."
     tables = _by_unit(
-        run.statistics,
-        lambda unit: ("output", *_deviation_heads(deviation, unit), "speed / mean speed"),
-        lambda tally: [row(tally)],
+        run.statistics, lambda unit: ("output", *_deviation_heads(deviation, unit), "speed / mean speed"), row
     )
     return Section("Random phases", (text,), tables)
-
-
-def _amounts(slides: bool, *values: float) -> tuple[str, ...]:
-    return tuple(_amount(slides, value) for value in values)
 
 
 def _amount(slides: bool, value: float, digits: int = 6) -> str:
@@ -478,14 +469,9 @@ def _spectrum(name: str, lines: list[SpectrumLine], slides: bool) -> Section:
     rows = []
     for line in lines:
         sources = ", ".join(f"{pair} x{harmonic}" for pair, harmonic, _ in line.shares)
-        amplitudes = _amounts(slides, line.expected, line.measured)
+        amplitudes = (_amount(slides, each) for each in (line.expected, line.measured))
         rows.append((str(line.order), figure(float(line.order), 8), sources, *amplitudes))
-    header = (
-        "order",
-        "per turn of the input",
-        "pair and harmonic",
-        f"expected ({_unit(slides)})",
-        f"measured ({_unit(slides)})",
-    )
+    unit = _unit(slides)
+    header = ("order", "per turn of the input", "pair and harmonic", f"expected ({unit})", f"measured ({unit})")
     text = "Amplitudes by exact order: expected to first order, and measured in the composed motion."
     return Section(f"Spectrum of {name}", (text,), (Table(header, rows),))

@@ -16,11 +16,7 @@ from geartrain.report.document import Document, Section, Table, figure
 from geartrain.report.gear_pairs import fault_text, joined_table, without_losses
 from geartrain.teeth.conjugate.conjugate_mesh import ConjugateMesh
 from geartrain.teeth.rubbed_transmission import pair_friction
-from geartrain.teeth.triangular.triangular_mesh import (
-    TriangularMesh,
-    explain_clearance,
-    triangular_figures,
-)
+from geartrain.teeth.triangular.triangular_mesh import TriangularMesh, explain_clearance, triangular_figures
 from geartrain.teeth.triangular.triangular_transmission import contact_course
 
 if TYPE_CHECKING:
@@ -198,14 +194,9 @@ def triangular_sections(mesh: TriangularMesh, operation: PairOperation | None) -
     if window is not None:
         yield _clearance(transmission, window)
     if transmission.intervals:
-        yield from (
-            _path(transmission),
-            _course(mesh),
-            _transmission(transmission),
-            _collisions(transmission),
-            _losses(mesh),
-            *_impact_section(transmission, operation),
-        )
+        yield from (_path(transmission), _course(mesh), _transmission(transmission), _collisions(transmission))
+        yield _losses(mesh)
+        yield from _impact_section(transmission, operation)
 
 
 def triangular_verdict(mesh: TriangularMesh) -> str:

@@ -17,10 +17,8 @@ if TYPE_CHECKING:
 def describe_sphere(found: GearSphere) -> Document:
     """Return a document on a set of gears on a sphere: mobility, phase closure, kinds of gear and mesh, and sizes."""
     configuration = found.configuration
-    summary = [
-        f"{len(configuration.names)} gears, {len(configuration.meshes)} meshes, on a sphere of radius "
-        f"{found.radius:.15g}."
-    ]
+    counts = f"{len(configuration.names)} gears, {len(configuration.meshes)} meshes"
+    summary = [f"{counts}, on a sphere of radius {found.radius:.15g}."]
     return Document(configuration.title or "Gears on a sphere", summary, list(_sections(found)))
 
 

@@ -127,14 +127,9 @@ class TorqueReport(Result):
 
 
 def collect_torque_report(
-    train: GearTrain,
-    found: Sequence[Torques],
-    over_turn: TorqueCycle | None = None,
-    friction_trials: Any = None,
+    train: GearTrain, found: Sequence[Torques], over_turn: TorqueCycle | None = None, friction_trials: Any = None
 ) -> TorqueReport:
-    """Return the torque report of a train in one or more states: torques, power flow, losses, and efficiency in both
-    directions.
-    """
+    """Return the torque report of a train in one or more states."""
     states = tuple(collect_torques(train, each) for each in found)
     return TorqueReport(train.name, train.declaration.title, states, over_turn, friction_trials)
 
@@ -456,8 +451,8 @@ def turns_text(turns: float) -> str:
 
 def _run(found: TorqueCycle) -> str:
     assert found.turns is not None
-    text = f"Torque at '{found.link}' over {turns_text(found.span)} of the input, at {len(found.turns)} positions"
-    text += ", including kinks and both sides of jumps"
+    positions = f"{len(found.turns)} positions, including kinks and both sides of jumps"
+    text = f"Torque at '{found.link}' over {turns_text(found.span)} of the input, at {positions}"
     if found.period is not None:
         whole = found.span / found.period
         text += f"; everything repeats after {turns_text(found.period)}"

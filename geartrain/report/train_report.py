@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from math import degrees
 from typing import TYPE_CHECKING
@@ -37,11 +38,10 @@ from geartrain.report.document import (
 )
 from geartrain.report.formula_report import formula_section
 from geartrain.report.train_data import TrainReport
-from geartrain.train import Link, Source, Train, Wheel
+from geartrain.train import Train, Wheel
 from geartrain.wings import wing
 
 if TYPE_CHECKING:
-    from geartrain.analysis.gearbox import Gearbox
     from geartrain.dynamics.clock_rate import Timekeeping
     from geartrain.kinematics.phasing import MeshPhasing
     from geartrain.kinematics.speeds import Mobility
@@ -117,14 +117,20 @@ def _details(found: TrainReport) -> Iterator[Section]:
         rows = [(e.place, e.printed, e.right, e.why) for e in declared.errata]
         yield Section("Errata of the sources", (), (Table(("place", "printed", "right", "why"), rows),))
     if declared.sources:
-        yield Section(SOURCES, [source_line(key, source) for key, source in declared.sources.items()])
+        lines = []
+        for key, source in declared.sources.items():
+            lines.append(f"Source {key}: {source.cite}" + (f" ({source.note})" if source.note else "") + ".")
+        yield Section(SOURCES, lines)
 
 
 def _answers(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Section]:
     """Yield the sections on outputs, targets and speeds of each state. If the train has states, tables of all states
     come first.
     """
-    box = _gearbox(train)
+    box = None
+    if train.declaration.clutches and train.states:
+        with suppress(GearTrainError):  # not a valid gearbox
+            box = train.gearbox()
     if box is not None:
         from geartrain.report.gearbox_report import gearbox_sections
 
@@ -202,16 +208,6 @@ def _fusees(train: GearTrain) -> Iterator[Section]:
         yield Section(titled(state, "fusee"), (text,), (Table(("quantity", "value"), rows),))
 
 
-def _gearbox(train: GearTrain) -> Gearbox | None:
-    """Return the train as a gearbox; None if the train has no clutches or brakes, has no states, or is not a valid
-    gearbox.
-    """
-    try:
-        return train.gearbox() if train.declaration.clutches and train.states else None
-    except GearTrainError:
-        return None
-
-
 def _summary(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
     declared = train.declaration
     for answer in answers:
@@ -240,11 +236,6 @@ def _summary(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
         )
 
 
-def source_line(key: str, source: Source) -> str:
-    """Return one line of text with the key and the full reference of a source."""
-    return f"Source {key}: {source.cite}" + (f" ({source.note})" if source.note else "") + "."
-
-
 def _structure(train: GearTrain) -> Iterator[Section]:
     declared = train.declaration
     parts = (declared.revolutes, declared.slides, declared.gears, declared.couplings, declared.wheels)
@@ -252,7 +243,11 @@ def _structure(train: GearTrain) -> Iterator[Section]:
     nouns = ("turning pair", "sliding pair", "gear pair", "coupling", "wheel")
     counted = ", ".join(plural(count, noun) for count, noun in zip(counts, nouns, strict=True) if count)
     text = f"{len(declared.links)} links (the frame is '{declared.frame}'), {counted}."
-    rows = [(name, _wheels(link.wheels), _joint(train, name), _note(link)) for name, link in declared.links.items()]
+    rows = []
+    for name, link in declared.links.items():
+        copies = f"{link.copies} equal copies" if link.copies > 1 else ""
+        note = "; ".join(filter(None, (copies, link.note)))
+        rows.append((name, _wheels(link.wheels), _joint(train, name), note))
     moves = "turns or slides in (axis)" if declared.sliding else "turns in (axis)"
     table = filled_table(("link", "wheels and teeth", moves, "note"), rows, 3)
     yield Section("Structure", (text,), (replace(table, rows=cut(table.rows)),))
@@ -274,12 +269,6 @@ def _adjacency(train: GearTrain) -> Iterator[Section]:
     slides = ", P sliding pair" if train.declaration.slides else ""
     text = f"R turning pair{slides}, G gear pair{couplings}, + several; columns by last digit."
     yield Section(_MATRIX, (text,), (Table(("link", head), rows, wide=True),))
-
-
-def _note(link: Link) -> str:
-    """Return a text with the number of copies of a link and its declared note."""
-    number = f"{link.copies} equal copies" if link.copies > 1 else ""
-    return "; ".join(filter(None, (number, link.note or "")))
 
 
 def _wheels(wheels: dict[str, Wheel]) -> str:
@@ -306,10 +295,8 @@ def _joint(train: GearTrain, link: str) -> str:
 
 def _circuits(train: GearTrain) -> Section:
     shown = train.circuits[:MOST_ROWS]
-    tables = [
-        _abreast(train.declaration, shown[at : at + _CIRCUITS_ABREAST])
-        for at in range(0, len(shown), _CIRCUITS_ABREAST)
-    ]
+    starts = range(0, len(shown), _CIRCUITS_ABREAST)
+    tables = [_abreast(train.declaration, shown[at : at + _CIRCUITS_ABREAST]) for at in starts]
     pairs = "gear pair and coupling" if train.declaration.couplings else "gear pair"
     text = f"One circuit for each {pairs}, of bodies i and j with carrier k: tau = (w_i - w_k)/(w_j - w_k)."
     more = [f"{len(train.circuits) - MOST_ROWS} more circuits are not shown."] if train.circuits[MOST_ROWS:] else []

@@ -16,7 +16,6 @@ from itertools import chain
 from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field, PrivateAttr, model_validator
-from pydantic_core import PydanticCustomError
 
 from geartrain.errors import Loc, Marks, Problem, QuestionError, dotted, suggest
 from geartrain.numerics.quantity import (
@@ -29,6 +28,7 @@ from geartrain.numerics.quantity import (
     Rate,
     as_rotation,
     as_torque,
+    bad,
     in_unit,
     same_kind,
 )
@@ -62,7 +62,7 @@ from geartrain.train.mechanism import (
     Wheel,
 )
 from geartrain.train.outputs import Dial, FacePlate, Output, SpeedUnit, TourStep, View
-from geartrain.train.periods import CalendarDate, julian_day, period_table, read_date
+from geartrain.train.periods import julian_day, period_table, read_date
 from geartrain.train.reconstruction import Reconstruction
 from geartrain.train.states import Clutch, Drive, Erratum, Escapement, Remove, State, StateCase
 
@@ -102,25 +102,16 @@ class Epoch(Declared):
     @model_validator(mode="after")
     def _check_date(self) -> Epoch:
         try:
-            self._read()
+            read_date(self.date, self.calendar)
         except ValueError as error:
-            raise PydanticCustomError(
-                "date",
-                "{problem}",
-                {
-                    "problem": str(error),
-                    "fix": "write year-month-day, such as 2000-01-01, or -204-05-12 for 12 May 205 BC",
-                },
-            ) from None
+            fix = "write year-month-day, such as 2000-01-01, or -204-05-12 for 12 May 205 BC"
+            raise bad("date", str(error), fix) from None
         return self
-
-    def _read(self) -> CalendarDate:
-        return read_date(self.date, self.calendar)
 
     @cached_property
     def julian_day(self) -> Fraction:
         """Julian day of the date [d]; day 0 begins at noon of -4712-01-01 in the Julian calendar."""
-        return julian_day(self._read())
+        return julian_day(read_date(self.date, self.calendar))
 
 
 DeclaredEpoch = Annotated[Epoch, short_for("date")]
@@ -161,10 +152,6 @@ def friction_in_force(declared: CoulombFriction | FrictionLaw | None) -> Frictio
 
 
 # ---------------------------------------------------------------------------------------------------------- declaration
-
-
-def _read_source(raw: object) -> object:
-    return {"cite": raw} if isinstance(raw, str) else raw
 
 
 class Train(Declared):
@@ -222,8 +209,7 @@ class Train(Declared):
         None, description="Expected verdict of all states, which does not count as a failure; default `determined`"
     )
     friction: DeclaredFriction | None = Field(
-        None,
-        description="Default friction of all gear pairs: a coefficient, or the keys of a friction law",
+        None, description="Default friction of all gear pairs: a coefficient, or the keys of a friction law"
     )
     tooth_form: DeclaredToothForm | None = Field(None, description="Default tooth form of all gear pairs")
     restitution: DeclaredRestitution | None = Field(
@@ -269,8 +255,8 @@ class Train(Declared):
         description="Declaration to extend: a file in the same folder, or the name of a shipped train or evidence",
     )
     remove: Remove | None = Field(None, description="Parts of the declaration in `extends` to remove")
-    sources: ByName[Annotated[Source, BeforeValidator(_read_source)]] = Field(
-        {}, validate_default=True, description="Sources by key"
+    sources: ByName[Annotated[Source, BeforeValidator(lambda raw: {"cite": raw} if isinstance(raw, str) else raw)]] = (
+        Field({}, validate_default=True, description="Sources by key")
     )
     errata: tuple[Erratum, ...] = Field((), description="Errors in published sources")
     reconstruct: Reconstruction | None = Field(
@@ -503,14 +489,8 @@ class Train(Declared):
             Name of a state; None for the only state, or for a train without states.
         """
         if state is None and len(self.states) > 1:
-            names = ", ".join(self.states)
-            raise QuestionError(
-                Problem(
-                    f"'{self.name}' has several states",
-                    "the result depends on the state",
-                    f"give one of these states: {names}",
-                )
-            )
+            what, why = f"'{self.name}' has several states", "the result depends on the state"
+            raise QuestionError(Problem(what, why, f"give one of these states: {', '.join(self.states)}"))
         self.check_state(state)
         return next(iter(self.states), None) if state is None else state
 

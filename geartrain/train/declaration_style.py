@@ -107,10 +107,6 @@ class _SectionSource:
         """Return the source text of a YAML node."""
         return self.text[node.start_mark.index : node.end_mark.index].strip()
 
-    def is_written_as(self, entries: Sequence[_Entry]) -> bool:
-        """Return True if the section is a list that is already written as `entries`."""
-        return [each.text for each in entries] == [self.source(node) for node in self.items]
-
     def entry(self, text: str, node: yaml.Node) -> _Entry:
         """Return an entry with a text, and with the comments before and after a node; each comment is used once."""
         start, end = node.start_mark.line, _last_line(node)
@@ -219,7 +215,8 @@ def _long_belts(written: _SectionSource) -> list[str] | None:
 def _pairs(written: _SectionSource, write: Callable[[_SectionSource, yaml.Node], str]) -> list[str] | None:
     """Return the lines of the section of gear pairs, with each entry rewritten by `write`; None if no entry changes."""
     entries = [written.entry(write(written, node), node) for node in written.items]
-    if written.is_written_as(entries) or any("\n" in each.text for each in entries):
+    unchanged = [each.text for each in entries] == [written.source(node) for node in written.items]
+    if unchanged or any("\n" in each.text for each in entries):
         return None
     all_short = not any(each.text.startswith("{") for each in entries)
     return list(_section("gears", entries, written.head, "[]" if all_short else "", "- "))

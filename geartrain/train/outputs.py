@@ -10,7 +10,6 @@ from math import atan2, pi
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Field, ValidationInfo, model_validator
-from pydantic_core import PydanticCustomError
 
 from geartrain.errors import suggest
 from geartrain.numerics.containers import FrozenDict
@@ -133,9 +132,7 @@ def _read_whole(raw: object) -> int:
         return number
     shown = text if len(text) <= 30 else f"{text[:27]}..."
     fix = f"write `names: {text}`" if text in NAMED_SCALES else f"give a whole number from 1 to {_MOST:,}"
-    raise PydanticCustomError(
-        "dial", "{shown} is not a valid number of divisions or turns", {"shown": shown, "fix": fix}
-    )
+    raise bad("dial", f"{shown} is not a valid number of divisions or turns", fix)
 
 
 Whole = Annotated[int, BeforeValidator(_read_whole)]
@@ -203,10 +200,9 @@ class Graduation(Declared):
         names, own = raw["names"], dict(raw)
         if isinstance(names, str):
             if names not in NAMED_SCALES:
-                fix = suggest(
-                    names, NAMED_SCALES, otherwise=f"use one of {', '.join(NAMED_SCALES)}, or a list of names"
-                )
-                raise PydanticCustomError("dial", "the scale '{names}' is unknown", {"names": names, "fix": fix})
+                otherwise = f"use one of {', '.join(NAMED_SCALES)}, or a list of names"
+                fix = suggest(names, NAMED_SCALES, otherwise=otherwise)
+                raise bad("dial", f"the scale '{names}' is unknown", fix)
             cell, parts = NAMED_SCALES[names]
             own.setdefault("divisions", sum(span for _, span in parts))
             # a division is a degree or a day only if the scale keeps its number of divisions
@@ -228,34 +224,21 @@ class Graduation(Declared):
         given = [span for span in spans if span is not None]
         if given and len(given) < len(spans):
             missing = next(each.name for each in self.names if each.span is None)
-            fix = {"name": missing, "fix": "give a span to every name, or to none"}
-            raise PydanticCustomError("dial", "'{name}' has no span, but other names have one", fix)
-        if given and sum(given) != self.divisions:
-            off = sum(given) - self.divisions
-            raise PydanticCustomError(
-                "dial",
-                "the spans of its names add up to {total}, {off} too {way} for {divisions} divisions",
-                {
-                    "total": sum(given),
-                    "off": abs(off),
-                    "way": "many" if off > 0 else "few",
-                    "divisions": self.divisions,
-                    "fix": "make the spans add up to `divisions`, or omit `divisions`",
-                },
-            )
+            fix = "give a span to every name, or to none"
+            raise bad("dial", f"'{missing}' has no span, but other names have one", fix)
+        if given and (off := sum(given) - self.divisions):
+            excess = f"{abs(off)} too {'many' if off > 0 else 'few'} for {self.divisions} divisions"
+            fix = "make the spans add up to `divisions`, or omit `divisions`"
+            raise bad("dial", f"the spans of its names add up to {sum(given)}, {excess}", fix)
         for cell in (*self.glyphs, *self.doubled):
             if cell > self.divisions:
-                context = {
-                    "cell": cell,
-                    "divisions": self.divisions,
-                    "fix": f"give a number from 1 to {self.divisions}",
-                }
-                raise PydanticCustomError("dial", "cell {cell} is beyond the {divisions} divisions", context)
+                what = f"cell {cell} is beyond the {self.divisions} divisions"
+                raise bad("dial", what, f"give a number from 1 to {self.divisions}")
         known = {*self.cell_names, *(each.name for each in self.names)}
         for name in self.inscriptions:
             if name not in known:
-                near = suggest(name, sorted(known), otherwise="write one of the names of the dial")
-                raise PydanticCustomError("dial", "the dial has no name '{name}'", {"name": name, "fix": near})
+                fix = suggest(name, sorted(known), otherwise="write one of the names of the dial")
+                raise bad("dial", f"the dial has no name '{name}'", fix)
         return self
 
     @property
@@ -283,8 +266,8 @@ def _distribute_names(name: str, parts: tuple[tuple[str, int], ...], divisions: 
     total, count = sum(span for _, span in parts), _read_whole(divisions)
     shares = [(part, Fraction(span * count, total)) for part, span in parts]
     if any(share.denominator > 1 for _, share in shares):
-        context = {"name": name, "divisions": count, "fix": f"give `divisions: {total}`, or omit `divisions`"}
-        raise PydanticCustomError("dial", "{divisions} divisions cannot be distributed over the scale {name}", context)
+        what = f"{count} divisions cannot be distributed over the scale {name}"
+        raise bad("dial", what, f"give `divisions: {total}`, or omit `divisions`")
     return [(part, int(share)) for part, share in shares]
 
 
@@ -398,11 +381,7 @@ def _check_calendar_unit(raw: object) -> object:
     if found := _CALENDAR_PERIOD.fullmatch(str(raw)[:100]):
         name = "month_synodic_J2000" if found[2] == "month" else "year_tropical_J2000"
         fix = f"write `{{name: {name}, turns: 1/{found[1]}}}` or another name of `geartrain periods`, or a time in days"
-        raise PydanticCustomError(
-            "unit",
-            "'{text}' has an unknown unit",
-            {"text": str(raw), "why": "years and months have several lengths", "fix": fix},
-        )
+        raise bad("unit", f"'{raw}' has an unknown unit", fix, "years and months have several lengths")
     return raw
 
 
@@ -441,31 +420,15 @@ class Target(Declared):
     note: str | None = Field(None, description="Remark for readers")
 
     @model_validator(mode="after")
-    def _has_one_key(self) -> Target:
-        return exactly_one(self, "a target", ("name", "period", "speed"))
-
-    @model_validator(mode="after")
-    def _check_sign(self) -> Target:
-        if self.sense is not None and self.speed is not None:
-            raise PydanticCustomError(
-                "target",
-                "the speed {speed} and `sense` are both given",
-                {"speed": self.speed.text, "fix": "omit `sense`, and write a retrograde speed with a minus sign"},
-            )
-        return self
-
-    @model_validator(mode="after")
-    def _check_tolerance(self) -> Target:
+    def _check_keys(self) -> Target:
+        exactly_one(self, "a target", ("name", "period", "speed"))
         tolerance = self.tolerance
+        if self.sense is not None and self.speed is not None:
+            fix = "omit `sense`, and write a retrograde speed with a minus sign"
+            raise bad("target", f"the speed {self.speed} and `sense` are both given", fix)
         if tolerance and tolerance.unit is not None and self.speed is not None and not self.speed.value:
-            raise PydanticCustomError(
-                "target",
-                "a relative tolerance of {tolerance} is 0 for a speed of 0",
-                {
-                    "tolerance": tolerance.text,
-                    "fix": "give the maximum difference as a number in the train's unit",
-                },
-            )
+            fix = "give the maximum difference as a number in the train's unit"
+            raise bad("target", f"a relative tolerance of {tolerance} is 0 for a speed of 0", fix)
         return self
 
 
@@ -541,19 +504,12 @@ class Published(Declared):
         return self.magnitude or (self.as_ == "period" and self.sense is None)
 
     @model_validator(mode="after")
-    def _check_ratio(self) -> Published:
+    def _check_value(self) -> Published:
         # a printed 0.0 is rounded, and permits a small ratio
         exact = self.value.half is None and (self.tolerance is None or not self.tolerance.value)
         if self.as_ == "input/output" and not self.value.value and exact:
-            raise PydanticCustomError(
-                "published",
-                "an input/output ratio of 0 would mean that the input is at rest",
-                {"fix": "write `{value: 0, as: output/input}` for an output at rest"},
-            )
-        return self
-
-    @model_validator(mode="after")
-    def _check_sign(self) -> Published:
+            what = "an input/output ratio of 0 would mean that the input is at rest"
+            raise bad("published", what, "write `{value: 0, as: output/input}` for an output at rest")
         period = self.as_ == "period"
         if period and not (isinstance(self.value, PrintedPeriod) and self.value.above_zero):
             fix = "write `{value: 0, as: speed}` for a link at rest"

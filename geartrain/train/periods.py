@@ -14,7 +14,7 @@ from fractions import Fraction
 from functools import cache
 from importlib import resources
 from types import MappingProxyType
-from typing import Literal
+from typing import Literal, cast
 
 from geartrain.errors import suggest
 
@@ -147,15 +147,8 @@ def period_table() -> Mapping[str, Period]:
     text = resources.files(__package__).joinpath("periods.csv").read_text(encoding="utf-8")
     rows = {}
     for row in csv.DictReader(text.splitlines()):
-        value = Fraction(row["exact"] or row["value"])
-        rows[row["name"]] = Period(
-            row["name"],
-            row["kind"],  # type: ignore[arg-type]
-            value,
-            row["what"],
-            row["source"],
-            row["confidence"],
-        )
+        value, kind = Fraction(row["exact"] or row["value"]), cast(Literal["period", "speed", "count"], row["kind"])
+        rows[row["name"]] = Period(row["name"], kind, value, row["what"], row["source"], row["confidence"])
     return MappingProxyType(rows)
 
 

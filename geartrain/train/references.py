@@ -67,13 +67,6 @@ def mixed_torques(train: Train) -> Iterator[Problem]:
             return
 
 
-def rates(train: Train) -> Iterator[Problem]:
-    """Yield a problem if the rate of the train is declared both by `rate` and by `drive`."""
-    if train.rate is not None and train.drive is not None and train.drive.rate is not None:
-        why = f"`rate` is {train.rate}, and the rate of `drive` is {train.drive.rate}"
-        yield Problem("the rate is declared twice", why, "remove one of them", train.place("drive", "rate"))
-
-
 _TARGET_KEYS = "write a speed as `{speed: 5/19}`, a time as `{period: 365.25 d}`, turns as `{name: NAME, turns: 5}`"
 
 
@@ -89,12 +82,11 @@ def target_units(train: Train, target: Target, loc: Loc) -> Iterator[Problem]:
             yield Problem(what, "a target given as a string is a name in the table of periods", fix, place)
             return
         if row.kind == "count":
-            yield Problem(
+            what, fix = (
                 f"'{target.name}' is a count and cannot be a target",
-                "a target is a speed or a period",
                 "choose a period or a speed listed by `geartrain periods`",
-                place,
             )
+            yield Problem(what, "a target is a speed or a period", fix, place)
             return
         # speeds of the table are in turns per year
         if row.kind == "speed" and not (train.unit and train.unit.per.startswith("year")):
@@ -140,17 +132,6 @@ def published_units(train: Train, published: Published, loc: Loc) -> Iterator[Pr
         yield Problem(what, why, "write the period in days, or declare `unit: {per: 365.25 d}`", train.place(*loc))
 
 
-def _epoch_units(train: Train) -> Iterator[Problem]:
-    """Yield a problem if an epoch is declared but the train's unit is not a time."""
-    if train.epoch is not None and train.unit_days is None:
-        yield Problem(
-            "the epoch needs a unit of time",
-            f"`unit` converts turns to days; {f'{train.unit.per} is not a time' if train.unit else 'none is declared'}",
-            "for example, add `unit: {per: year_tropical_J2000}`",
-            train.place("epoch"),
-        )
-
-
 def set_outputs(train: Train) -> Iterator[Problem]:
     """Yield a problem if a link is set at the epoch twice, or after an output whose angle is relative to it."""
     used: dict[str, str] = {}  # links that are set or referred to, with the output
@@ -180,47 +161,32 @@ def declared_units(train: Train) -> Iterator[Problem]:
     """Yield a problem if the unit is invalid, if an epoch is declared without a unit of time, or if lengths with and
     without units are mixed.
     """
-    yield from _epoch_units(train)
-    if train.unit is not None and train.unit.per not in period_table() and train.unit_quantity is None:
-        yield Problem(
-            f"'{train.unit.per}' is not a unit",
-            "`per` is a time, a length, or a period listed by `geartrain periods`",
-            _suggested_unit(train, train.unit.per),
-            train.place("unit"),
-        )
-    elif (
-        train.unit is not None and train.unit.per in period_table() and period_table()[train.unit.per].kind != "period"
-    ):
-        yield Problem(
-            f"'{train.unit.per}' is not a period",
-            "a speed of 1 is one turn per period, time or length",
-            "give a time, a length or a period listed by `geartrain periods`",
-            train.place("unit"),
-        )
-    elif train.unit_quantity is not None and train.unit_quantity.value <= 0:
-        yield Problem(
-            f"a unit must be greater than 0, not '{train.unit_quantity}'",
-            "a speed of 1 means one turn per unit",
-            "give a time or a length above 0",
-            train.place("unit"),
-        )
-    plain: list[Loc] = []
-    named: list[Loc] = []
-    for label, axis in train.axes.items():
-        for length in axis.position or ():
-            if length.value:
-                (plain if length.unit is None else named).append(("axes", label))
-    for at, coupling in enumerate(train.couplings):
-        for size in coupling.lengths:
-            if size.value:
-                (plain if size.unit is None else named).append(("couplings", at))
-    if plain and named:
-        yield Problem(
-            "lengths with and without units are mixed",
-            f"`{dotted(named[0])}` has a unit, but this value has none",
-            "give all lengths a unit, or none",
-            train.place(*plain[0]),
-        )
+    if train.epoch is not None and train.unit_days is None:
+        reason = f"{train.unit.per} is not a time" if train.unit else "none is declared"
+        fix = "for example, add `unit: {per: year_tropical_J2000}`"
+        place = train.place("epoch")
+        yield Problem("the epoch needs a unit of time", f"`unit` converts turns to days; {reason}", fix, place)
+    if train.unit is not None:
+        per, quantity, place = train.unit.per, train.unit_quantity, train.place("unit")
+        row = period_table().get(per)
+        if row is None and quantity is None:
+            why = "`per` is a time, a length, or a period listed by `geartrain periods`"
+            yield Problem(f"'{per}' is not a unit", why, _suggested_unit(train, per), place)
+        elif row is not None and row.kind != "period":
+            why = "a speed of 1 is one turn per period, time or length"
+            fix = "give a time, a length or a period listed by `geartrain periods`"
+            yield Problem(f"'{per}' is not a period", why, fix, place)
+        elif quantity is not None and quantity.value <= 0:
+            what, why = f"a unit must be greater than 0, not '{quantity}'", "a speed of 1 means one turn per unit"
+            yield Problem(what, why, "give a time or a length above 0", place)
+    lengths: list[tuple[Loc, Quantity]]
+    lengths = [(("axes", label), length) for label, axis in train.axes.items() for length in axis.position or ()]
+    lengths += [(("couplings", at), size) for at, coupling in enumerate(train.couplings) for size in coupling.lengths]
+    plain = next((loc for loc, length in lengths if length.value and length.unit is None), None)
+    named = next((loc for loc, length in lengths if length.value and length.unit is not None), None)
+    if plain is not None and named is not None:
+        what, why = "lengths with and without units are mixed", f"`{dotted(named)}` has a unit, but this value has none"
+        yield Problem(what, why, "give all lengths a unit, or none", train.place(*plain))
 
 
 # ----------------------------------------------------------------------------------------------------------- references
@@ -229,13 +195,11 @@ def declared_units(train: Train) -> Iterator[Problem]:
 def find_problems(train: Train) -> Iterator[Problem]:
     """Yield a problem for every unresolved reference and every invalid combination in a train."""
     if train.remove is not None and train.extends is None:
-        why = "it removes parts of a parent, and no parent is named"
-        yield Problem(
-            "`remove` is given without `extends`",
-            why,
+        why, fix = (
+            "it removes parts of a parent, and no parent is named",
             "add `extends: parent.yaml`, or delete `remove`",
-            train.place("remove"),
         )
+        yield Problem("`remove` is given without `extends`", why, fix, train.place("remove"))
     yield from _links(train)
     yield from _wheels(train)
     yield from _materials(train)
@@ -557,15 +521,13 @@ def _prescriptions(train: Train) -> Iterator[Problem]:
     yield from mixed_inputs(train)
     yield from mixed_torques(train)
     yield from sliding_problems(train)
-    yield from rates(train)
+    if train.rate is not None and train.drive is not None and train.drive.rate is not None:
+        why = f"`rate` is {train.rate}, and the rate of `drive` is {train.drive.rate}"
+        yield Problem("the rate is declared twice", why, "remove one of them", train.place("drive", "rate"))
     if train.escapement is not None and train.escapement.link == train.frame in train.links:
         what = f"the escapement is on the frame '{train.frame}', which does not turn"
-        yield Problem(
-            what,
-            "an escapement acts on a link that turns",
-            "name the link of the escape wheel",
-            train.place("escapement", "link"),
-        )
+        why, fix = "an escapement acts on a link that turns", "name the link of the escape wheel"
+        yield Problem(what, why, fix, train.place("escapement", "link"))
 
 
 def _one_way(train: Train) -> Iterator[Problem]:
@@ -606,13 +568,9 @@ def _reconstruction(train: Train) -> Iterator[Problem]:
             )
     for wheel in requested.geometry.radii if requested.geometry is not None else ():
         if wheel in train.wheels and train.wheels[wheel][1].module is not None:
-            why = "one follows from the other and the tooth count"
-            yield Problem(
-                f"both a module and a pitch radius are given for '{wheel}'",
-                why,
-                "give only the one that was measured",
-                train.place("reconstruct", "geometry", "radii", wheel),
-            )
+            what = f"both a module and a pitch radius are given for '{wheel}'"
+            why, fix = "one follows from the other and the tooth count", "give only the one that was measured"
+            yield Problem(what, why, fix, train.place("reconstruct", "geometry", "radii", wheel))
 
 
 # ----------------------------------------------------------------------------------------------------- links that slide

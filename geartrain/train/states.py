@@ -12,7 +12,6 @@ from math import inf, pi, tau
 from typing import TYPE_CHECKING, Annotated, ClassVar, Literal, NamedTuple
 
 from pydantic import BeforeValidator, Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from geartrain.errors import Loc, Problem
 from geartrain.numerics.exact import abridged_text, decimal
@@ -168,11 +167,8 @@ class HandDrive(Declared):
     def _has_one_key(self) -> HandDrive:
         exactly_one(self, "a hand", ("torque", "rate"))
         if self.torque is not None and self.stiffness is not None:
-            raise PydanticCustomError(
-                "drive",
-                "`stiffness` applies only to a hand with a `rate`",
-                {"fix": "omit `stiffness`, or give `rate` instead of `torque`"},
-            )
+            fix = "omit `stiffness`, or give `rate` instead of `torque`"
+            raise bad("drive", "`stiffness` applies only to a hand with a `rate`", fix)
         check_range("drive", self.torque, self.range)
         return self
 
@@ -331,11 +327,8 @@ class Escapement(Declared):
             # simple pendulum whose half period is one beat
             length = GRAVITY * (self.beat.si / pi) ** 2
             if abs(self.pendulum.length.si / length - 1) > _NEAR:
-                raise PydanticCustomError(
-                    "escapement",
-                    "the length of the pendulum does not match the beat",
-                    {"fix": f"give {1000 * length:.4g} mm, which follows from pi sqrt(l/g), or another `beat`"},
-                )
+                fix = f"give {1000 * length:.4g} mm, which follows from pi sqrt(l/g), or another `beat`"
+                raise bad("escapement", "the length of the pendulum does not match the beat", fix)
         return self
 
     @property
@@ -355,14 +348,8 @@ class Escapement(Declared):
 def _read_sense(raw: object) -> object:
     if raw in ("forward", "backward", None):
         return raw
-    raise PydanticCustomError(
-        "one_way",
-        "`one_way` needs a sense of rotation",
-        {
-            "why": f"{raw!r} is not a sense of rotation",
-            "fix": "write `one_way: forward` or `one_way: backward`: the sense in which it may turn",
-        },
-    )
+    fix = "write `one_way: forward` or `one_way: backward`: the sense in which it may turn"
+    raise bad("one_way", "`one_way` needs a sense of rotation", fix, f"{raw!r} is not a sense of rotation")
 
 
 class Clutch(Declared):
@@ -384,9 +371,8 @@ class Clutch(Declared):
     @model_validator(mode="after")
     def _has_one_key(self) -> Clutch:
         if self.teeth is not None and self.one_way is None:
-            raise PydanticCustomError(
-                "teeth", "`teeth` applies only to a one-way clutch", {"fix": "add `one_way: forward`, or omit `teeth`"}
-            )
+            fix = "add `one_way: forward`, or omit `teeth`"
+            raise bad("teeth", "`teeth` applies only to a one-way clutch", fix)
         return exactly_one(self, "a clutch", ("fixes", "locks"))
 
     @property
@@ -630,8 +616,6 @@ class StateCase(Shown):
         # an indirect brake or lock is described by the declaration that causes it
         links = self.causes.get(links, links)
         by = f" by {self.clutches[links]}" if links in self.clutches else ""
-        return (
-            f"'{links[0]}' is fixed{by}"
-            if len(links) == 1
-            else f"'{links[0]}' and '{links[1]}' are locked together{by}"
-        )
+        if len(links) == 1:
+            return f"'{links[0]}' is fixed{by}"
+        return f"'{links[0]}' and '{links[1]}' are locked together{by}"

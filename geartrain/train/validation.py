@@ -153,12 +153,8 @@ def _problem_of(error: Mapping[str, Any], place: Marks) -> Problem:
             fix = f"write `{loc[-2]}: {{wheels: {{w: {error['input']}}}}}`: teeth belong to a wheel, here named w"
         return Problem(f"unknown key '{key}'", f"{_where(loc[:-1])} has no such key", fix, place(loc))
     if kind == "missing" and isinstance(loc[-1], int):
-        return Problem(
-            f"{_where(loc[:-1])} is too short",
-            f"entry {loc[-1] + 1} is missing",
-            "add the missing entry",
-            place(loc[:-1]),
-        )
+        what, why = f"{_where(loc[:-1])} is too short", f"entry {loc[-1] + 1} is missing"
+        return Problem(what, why, "add the missing entry", place(loc[:-1]))
     if kind == "missing":
         fix = f"add `{_wheel_pair(error['input'])}`" if _is_wheel_pair(loc) else f"add `{key}:`"
         return Problem(f"key '{key}' is missing", f"{_where(loc[:-1])} requires it", fix, place(loc[:-1]))
@@ -169,7 +165,6 @@ def _problem_of(error: Mapping[str, Any], place: Marks) -> Problem:
     if kind == "union_tag_not_found":
         tag = context["discriminator"].strip("'")
         return Problem(f"key '{tag}' is missing", f"it selects the kind of {_where(loc)}", f"add `{tag}:`", place(loc))
-    what = f"{_where(loc)}: {error['msg'][0].lower()}{error['msg'][1:]}"
     if "fix" in context:
         return Problem(f"{_where(loc)}: {error['msg']}", context.get("why", ""), context["fix"], place(loc))
     shown = repr(error["input"])
@@ -183,6 +178,7 @@ def _problem_of(error: Mapping[str, Any], place: Marks) -> Problem:
         return Problem(f"{_where(loc)} is not {shape}", got, fix, place(loc))
     if kind == "literal_error":
         return Problem(f"{_where(loc)} is not one of the allowed values", got, f"use {context['expected']}", place(loc))
+    what = f"{_where(loc)}: {error['msg'][0].lower()}{error['msg'][1:]}"
     return Problem(what, got, "see `geartrain inspect schema`", place(loc))
 
 
@@ -221,14 +217,12 @@ def _where(loc: Loc) -> str:
 def _real_steps(loc: Loc) -> Loc:
     """Return the path without the tags that pydantic inserts for unions, which do not occur in the file."""
     tags = {"count", "doubt", *COUPLINGS, *form_names(), *_laws()}
-    return tuple(
-        step
-        for at, step in enumerate(loc)
-        if not (
-            (step in tags and at > 0 and loc[at - 1] in ("teeth", "tooth_form", "friction"))
-            or (step in tags and at > 1 and loc[at - 2] == "couplings")
-        )
-    )
+
+    def is_inserted(at: int) -> bool:
+        after_union = at > 0 and loc[at - 1] in ("teeth", "tooth_form", "friction")
+        return loc[at] in tags and (after_union or (at > 1 and loc[at - 2] == "couplings"))
+
+    return tuple(step for at, step in enumerate(loc) if not is_inserted(at))
 
 
 def _keys_at(loc: Loc) -> Iterator[str]:
@@ -315,16 +309,13 @@ def _with_belts(root: YamlNode) -> YamlNode:
     couplings = root.mapping.get("couplings", YamlNode([], belts.place))
     if not isinstance(couplings.value, list):
         return root  # validation reports it
-    added = [_belt(each) for each in belts.items]
+    added = []
+    for belt in belts.items:
+        parts = {"kind": YamlNode("belt", belt.place), "around": _pair(belt).mapping["pair"]}
+        added.append(YamlNode(parts, belt.place, dict.fromkeys(parts, belt.place)))
     rest = {key: node for key, node in root.mapping.items() if key != "belts"}
     merged = {**rest, "couplings": YamlNode([*couplings.items, *added], couplings.place)}
     return YamlNode(merged, root.place, {"couplings": belts.place, **root.keys})
-
-
-def _belt(belt: YamlNode) -> YamlNode:
-    wheels = _pair(belt).mapping["pair"]
-    parts = {"kind": YamlNode("belt", belt.place), "around": wheels}
-    return YamlNode(parts, belt.place, dict.fromkeys(parts, belt.place))
 
 
 def _check_short_forms(
@@ -338,8 +329,11 @@ def _check_short_forms(
     lists += [each for key, part in joints.items() for each in _lists(key, part, "{{pair: [{}, {}], axis: A}}")]
     wrong = [gear for gear in short_gears if len(names := _wheels(gear.value)) != 2 or not all(names)]
     for joint in short_joints.values():
-        single = [axis for axis, links in joint.mapping.items() if len(links.items) < 2]
-        lists += [_single_link(axis, joint.keys.get(axis, joint.place)) for axis in single]
+        for axis in (axis for axis, links in joint.mapping.items() if len(links.items) < 2):
+            why = "the first link of its list carries the other links"
+            fix = f"for example, write `{axis}: [frame, arbor]`"
+            place = joint.keys.get(axis, joint.place)
+            lists.append(Problem(f"axis '{axis}' has fewer than two links", why, fix, place))
     if len(wrong) == 2 == len(short_gears) and all(_MARK not in gear.value for gear in wrong):  # gears: [a, b]
         raise DeclarationError(_invalid_pair(YamlNode(" ".join(gear.value for gear in wrong), wrong[0].place)))
     if lists or wrong:  # texts are composed only for the problems that are shown
@@ -355,13 +349,6 @@ def _lists(key: str, parts: YamlNode | None, form: str) -> Iterator[Problem]:
         what = f"{len(listed)} entries of `{key}` are lists" if several else f"an entry of `{key}` is a list"
         fix = f"write `{form.format(*names)}`" + (", and the other entries likewise" if several else "")
         yield Problem(what, f"each entry has the form `{form.format('a', 'b')}`", fix, listed[0].place)
-
-
-def _single_link(axis: str, place: str) -> Problem:
-    why = "the first link of its list carries the other links"
-    return Problem(
-        f"axis '{axis}' has fewer than two links", why, f"for example, write `{axis}: [frame, arbor]`", place
-    )
 
 
 def _joints(joints: YamlNode) -> Iterator[YamlNode]:

@@ -8,7 +8,7 @@ from fractions import Fraction
 from itertools import combinations, pairwise
 from math import comb, log
 from statistics import pstdev
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.analysis.gearbox import gearbox_ends
@@ -16,9 +16,6 @@ from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.results import Key, Result, Tabular
 from geartrain.train import State
-
-if TYPE_CHECKING:
-    pass
 
 MOST_COMBINATIONS = 20_000  # sets of closed elements, each of which is solved exactly
 _JOINER = "+"  # between the names of closed elements in the name of a state
@@ -274,12 +271,10 @@ series.
 
 def _series(gears: Sequence[PossibleGear], links: Links, number: int) -> _Found:
     """Count the series of `number` gears by dynamic programming, and find the series with the maximum spread and the
-    series with the minimum variance of the logarithmic steps.
-
-    If the first and the last gear are given, the mean logarithmic step is fixed, so the series with the minimum sum of
-    squares also has the minimum variance. Ties in spread are broken by variance, and ties in variance by the number of
-    double shifts.
+    series with the minimum variance of the logarithmic steps. Ties are broken by variance, then by double shifts.
     """
+    # for a given first and last gear, the mean logarithmic step is fixed, so that the minimum sum of squares gives the
+    # minimum variance
     ratios = [each.ratio or Fraction(1) for each in gears]
     count, found = 0, list[tuple[Fraction, _Way]]()
     for start, first in enumerate(ratios):

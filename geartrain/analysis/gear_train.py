@@ -796,14 +796,12 @@ class GearTrain:
         declared = self.declaration
         links, wheels = len(declared.links), len(declared.wheels)
         size = f"{links} links, {wheels} wheels" + (f", {len(self.states)} states" if self.states else "")
-        return f"<GearTrain {self.name}: {size}; {self._verdicts()}>"
-
-    def _verdicts(self) -> str:
         try:
-            return " or ".join(dict.fromkeys(answer.verdict.kind for answer in self.answers()))
+            verdicts = " or ".join(dict.fromkeys(answer.verdict.kind for answer in self.answers()))
         # repr must not raise, even for a declaration that cannot be solved
         except GearTrainError as error:
-            return error.problems[0].what
+            verdicts = error.problems[0].what
+        return f"<GearTrain {self.name}: {size}; {verdicts}>"
 
     def _repr_html_(self) -> str:
         page = imported_function("report.train_report", "describe_in_short")(self)

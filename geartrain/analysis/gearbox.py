@@ -208,10 +208,13 @@ def find_gearbox(train: TrainMechanics, output: str | None = None) -> Gearbox:
     source, link = gearbox_ends(train.declaration, output)
     answers = [train.kinematics.solve(name) for name in train.declaration.states]
     found = [_state(train, answer, source, link) for answer in answers]
-    states = (_with_step(one, other) for one, other in zip(found, [*found[1:], None], strict=True))
+    # a step from a forward to a reverse gear would be negative, and without meaning
+    for at, (one, other) in enumerate(pairwise(found)):
+        if one.ratio is not None and other.ratio is not None and one.ratio * other.ratio > 0:
+            found[at] = replace(one, step=one.ratio / other.ratio)
     elements, shifts = tuple(_elements(train, found)), tuple(_shifts(found))
     own = train.declaration
-    return Gearbox(own.name, own.title, source, link, tuple(states), elements, shifts)
+    return Gearbox(own.name, own.title, source, link, tuple(found), elements, shifts)
 
 
 def gearbox_ends(declared: Train, output: str | None) -> tuple[str, str]:
@@ -333,13 +336,6 @@ def _between_sets(load: Torques, flow: PowerFlow) -> list[PowerStream]:
         net[ends] = net.get(ends, Fraction(0)) + stream.power - net.pop(ends[::-1], Fraction(0))
     directed = ((ends, power) if power > 0 else (ends[::-1], -power) for ends, power in net.items() if power)
     return [PowerStream(source, target, power) for (source, target), power in directed]
-
-
-def _with_step(state: GearState, following: GearState | None) -> GearState:
-    # a step from a forward to a reverse gear would be negative, and without meaning
-    if following is None or state.ratio is None or following.ratio is None or state.ratio * following.ratio < 0:
-        return state
-    return replace(state, step=state.ratio / following.ratio)
 
 
 def _shifts(states: Sequence[GearState]) -> Iterator[Shift]:

@@ -23,6 +23,7 @@ import typer
 from geartrain.cli.common import Names, tell
 from geartrain.cli.option_values import MOST_COUNT, exact, input_rate, whole
 from geartrain.cli.option_values import restitution as read_restitution
+from geartrain.errors import QuestionError
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -144,14 +145,17 @@ def long_run(what: str, question: Mapping[str, Any], out: Path | None, options: 
 @contextmanager
 def _journal(path: Path, question: Mapping[str, Any], resume: bool) -> Iterator[Journal | None]:
     """Open the journal file at `path`, and yield the journal, or None if the folder is not writable."""
-    from geartrain.numerics.work import Journal
+    from geartrain.numerics.work import Journal, another_question
 
     # a run works without a journal, but it cannot be resumed then
     if not resume and not os.access(path.parent, os.W_OK):
         yield None
         return
     if resume and not path.exists():
-        _check_others(path, question)
+        # journals of the same command with other options
+        others = sorted(path.parent.glob(f"{path.name.partition('-')[0]}-*.partial.jsonl"))
+        if problems := [another_question(other, question) for other in others]:
+            raise QuestionError(problems)
         tell(f"nothing to resume: {path} does not exist; starting a new run")
     with Journal(path, question, resume=resume) as journal:
         try:
@@ -159,16 +163,6 @@ def _journal(path: Path, question: Mapping[str, Any], resume: bool) -> Iterator[
         finally:
             if not journal.closed and not len(journal):  # an empty journal is not kept
                 journal.finish()
-
-
-def _check_others(path: Path, question: Mapping[str, Any]) -> None:
-    """Raise `QuestionError` if the folder contains journals of the same command with other options."""
-    from geartrain.errors import QuestionError
-    from geartrain.numerics.work import another_question
-
-    others = sorted(path.parent.glob(f"{path.name.partition('-')[0]}-*.partial.jsonl"))
-    if problems := [another_question(other, question) for other in others]:
-        raise QuestionError(problems)
 
 
 # ------------------------------------------------------------------------------------------------------- motion in time
@@ -249,30 +243,24 @@ def run_in_time(train: GearTrain, state: str | None, requested: dict[str, Any]) 
 @contextmanager
 def interruptible(what: str) -> Iterator[Callable[[float], bool]]:
     """Open a progress bar and yield a function to be called with each completed fraction of the work. The function
-    returns True after Ctrl-C.
+    returns True after Ctrl-C; a second Ctrl-C raises `KeyboardInterrupt` as usual.
     """
-    with progress(what, _WHOLE, patience=2.0) as bar, _interrupts() as came:
+    interrupted = False
+
+    def note(number: int, frame: Any) -> None:
+        nonlocal interrupted
+        signal.signal(signal.SIGINT, before)
+        interrupted = True
+
+    with progress(what, _WHOLE, patience=2.0) as bar:
 
         def on_done(share: float) -> bool:
             bar.advance(round(share * _WHOLE))
-            return bool(came)
+            return interrupted
 
-        yield on_done
-
-
-@contextmanager
-def _interrupts() -> Iterator[list[int]]:
-    """Yield a list that is empty until the user presses Ctrl-C. A second Ctrl-C raises `KeyboardInterrupt` as usual."""
-    came: list[int] = []
-
-    def note(number: int, frame: Any) -> None:
-        # the second Ctrl-C interrupts immediately
-        signal.signal(signal.SIGINT, before)
-        came.append(number)
-
-    before = signal.getsignal(signal.SIGINT)
-    signal.signal(signal.SIGINT, note)
-    try:
-        yield came
-    finally:
-        signal.signal(signal.SIGINT, before)
+        before = signal.getsignal(signal.SIGINT)
+        signal.signal(signal.SIGINT, note)
+        try:
+            yield on_done
+        finally:
+            signal.signal(signal.SIGINT, before)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 from inspect import signature
-from math import prod
+from math import isfinite, nan, prod
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 
@@ -257,12 +258,9 @@ def run(
     if vary:
         for option, given in {"--at": at, "--profile": profile}.items():
             if given is not None:
-                raise option_error(
-                    option,
-                    f"{option} and --vary are given together",
-                    f"omit {option} or --vary",
-                    f"--vary evaluates several pairs, but {option} applies to a single pair",
-                )
+                what, fix = f"{option} and --vary are given together", f"omit {option} or --vary"
+                why = f"--vary evaluates several pairs, but {option} applies to a single pair"
+                raise option_error(option, what, fix, why)
         sweep(pair, vary, picture, json, to)
         return
     mesh, operation = pair.mesh(), None
@@ -383,7 +381,6 @@ def sweep(pair: PairRequest, vary: list[str], picture: Sink, json: bool, to: Sin
     """
     from geartrain.numerics.files import csv_text
     from geartrain.teeth.triangular.parameter_sweep import sweep as run_sweep
-    from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
 
     ranges, units = _ranges(vary)
     read_pair_friction(pair.friction).number("--vary")
@@ -440,18 +437,14 @@ def _ranges(vary: list[str]) -> tuple[dict[str, list[float]], dict[str, str]]:
 
 def _number(text: str) -> tuple[float, str]:
     """Return the number at the start of a text, and the unit that follows the number."""
-    import math
-    import re
-
     match = re.fullmatch(r"([+-]?[\d.]+(?:[eE][+-]?\d+)?)\s*([A-Za-z°].*)?", text)
     try:
-        value = float(match[1]) if match else math.nan
+        value = float(match[1]) if match else nan
     except ValueError:
-        value = math.nan
-    if match is None or not math.isfinite(value):
-        raise option_error(
-            "--vary", f"'{text}' is not a number", "write a number such as 1.01, or a quantity such as 30deg"
-        )
+        value = nan
+    if match is None or not isfinite(value):
+        fix = "write a number such as 1.01, or a quantity such as 30deg"
+        raise option_error("--vary", f"'{text}' is not a number", fix)
     return value, match[2] or ""
 
 

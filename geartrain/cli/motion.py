@@ -86,11 +86,12 @@ def run(
     """
     from geartrain.analysis.gear_train import load
     from geartrain.dynamics import MotionRun
+    from geartrain.numerics.files import partial_name
 
     to = sink(out, force, (".md", ".html", ".json", ".csv"))
     picture = picture_sink(plot, force, theme)
-    # where the results of an interrupted run are written, checked together with the others
-    cut = _partial(to)
+    # where the results of an interrupted run are written, checked together with the others; CSV tables have their own
+    cut = STANDARD if to.path is None or to.suffix == ".csv" else sink(partial_name(to.path), to.force)
     check_distinct_outputs(to, cut, picture)
     if resume and (to.suffix != ".csv" or to.path is None):
         raise option_error(
@@ -131,17 +132,6 @@ def _turns(text: str, motion: Motion) -> float:
         what, fix = "the speeds have no common period", "give a number of revolutions"
         raise option_error("--turns", what, fix, "all speeds are constant")
     return float(motion.period)
-
-
-def _partial(to: Sink) -> Sink:
-    """Return the destination of partial results after an interruption. CSV tables are excluded, because they have a
-    partial file of their own.
-    """
-    if to.path is None or to.suffix == ".csv":
-        return STANDARD
-    from geartrain.numerics.files import partial_name
-
-    return sink(partial_name(to.path), to.force)
 
 
 def _report(

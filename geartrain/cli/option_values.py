@@ -14,7 +14,7 @@ import typer
 from pydantic_core import PydanticCustomError
 
 from geartrain.cli.common import option_error
-from geartrain.errors import GearTrainError, Problem
+from geartrain.errors import GearTrainError
 from geartrain.numerics.quantity import Figure, Quantity
 from geartrain.scene.palette import ThemeName
 
@@ -43,7 +43,8 @@ def read_quantity(place: str, text: str, dimension: str, plain: bool = False, mi
     try:
         found = Quantity.parse(text, dimension, plain)
     except PydanticCustomError as error:
-        raise value_error(error, place) from None
+        context = error.context or {}
+        raise option_error(place, error.message(), str(context.get("fix", "")), str(context.get("why", ""))) from None
     if found.value and not dimension.startswith("fraction") and not 1 / _MOST < abs(found.si) < _MOST:
         fix = f"give a magnitude between {1 / _MOST:g} and {_MOST:g} in SI units"
         raise option_error(place, f"{text} is out of range", fix, "its square would overflow or underflow")
@@ -99,15 +100,14 @@ def exact(place: str, text: str, what: str, such_as: str, low: float = -inf, hig
     return found
 
 
-def decimal(place: str, text: str, what: str, such_as: str, low: float = 0.0, high: float = _MOST) -> float:
-    """Parse a number from `low` to `high` as a float. Raise `GearTrainError` for other text, and for a number whose
+def decimal(place: str, text: str, what: str, such_as: str, low: float = 0.0) -> float:
+    """Parse a number from `low` to 1e30 as a float. Raise `GearTrainError` for other text, and for a number whose
     square would underflow.
     """
-    found = float(exact(place, text, what, such_as, low, high))
+    found = float(exact(place, text, what, such_as, low, _MOST))
     if found and abs(found) < 1 / _MOST:
-        raise option_error(
-            place, f"'{text}' is not a valid {what}", f"give a value such as {such_as}", "its square would underflow"
-        )
+        fix = f"give a value such as {such_as}"
+        raise option_error(place, f"'{text}' is not a valid {what}", fix, "its square would underflow")
     return found
 
 
@@ -118,19 +118,13 @@ def turns(place: str, text: str) -> Fraction:
     return exact(place, text, "number of turns", "4 or -1/2", -MOST_TURNS, MOST_TURNS)
 
 
-def whole(place: str, text: str, what: str, such_as: str, low: int = 0, high: int = MOST_COUNT) -> int:
-    """Parse an integer from `low` to `high`, both included. Raises `GearTrainError` for other values."""
-    found = exact(place, text, what, such_as, low, high)
+def whole(place: str, text: str, what: str, such_as: str, low: int = 0) -> int:
+    """Parse an integer from `low` to 10^9, both included. Raises `GearTrainError` for other values."""
+    found = exact(place, text, what, such_as, low, MOST_COUNT)
     if found.denominator != 1:
         fix = f"give an integer, such as {such_as}"
         raise option_error(place, f"'{text}' is not a valid {what}", fix, "it is not an integer")
     return int(found)
-
-
-def value_error(error: PydanticCustomError, place: str) -> GearTrainError:
-    """Convert a pydantic error raised by a number parser to an error message for users."""
-    context = error.context or {}
-    return GearTrainError(Problem(error.message(), str(context.get("why", "")), str(context.get("fix", "")), place))
 
 
 def at_option(error: GearTrainError, place: str) -> GearTrainError:

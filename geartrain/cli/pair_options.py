@@ -23,8 +23,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.wheel_pair import WheelPair
     from geartrain.teeth.friction_law import FrictionLaw
     from geartrain.teeth.gear_mesh import GearMesh
-    from geartrain.teeth.meshing_wheels import MeshingWheels
-    from geartrain.teeth.outlines.wheel_outline import BlankSizes, WheelOutline
+    from geartrain.teeth.outlines.wheel_outline import WheelOutline
     from geartrain.teeth.tooth_form import ToothForm
 
     Mesh = TypeVar("Mesh", bound=GearMesh)
@@ -193,7 +192,7 @@ class PairRequest:
     own: Mapping[str, str]
     """Parameters of the tooth form as text, keyed by parameter name."""
     module: float | None = None
-    """Module of the pair [m]; None if no module is given."""
+    """Normal module of the pair [m]; None if no module is given."""
     friction: str = "0"
     driver: int = 1
     rate: str | None = None
@@ -208,13 +207,20 @@ class PairRequest:
 
         Raises `GearTrainError` if the pair cannot have teeth of this form.
         """
-        from geartrain.teeth.meshing_wheels import MeshDriver
+        from geartrain.teeth.meshing_wheels import MeshDriver, MeshingWheels
+        from geartrain.train import GearPair
 
         # tooth counts in a sweep are floats
         z1, z2 = (round(float(varied.get(name, z))) for name, z in zip(("z1", "z2"), self.teeth, strict=True))
         rub = read_pair_friction(varied.get("friction", self.friction))
         ring = self.internal or self.model.ringed
-        wheels = two_wheels((z1, z2), rub.coefficient, self.module, ring, self.shaft_angle, self.helix)
+        kind = "helical" if self.helix else "spur" if self.shaft_angle is None else "bevel"
+        # the transverse module is the normal module divided by the cosine of the helix angle
+        distance = None if self.module is None else self.module / cos(self.helix) * (z1 + z2) / 2
+        # external helical wheels have opposite hands, a ring has the hand of its pinion
+        helices = (self.helix, self.helix if ring else -self.helix)
+        pair, kinds, rings = GearPair(pair=("wheel 1", "wheel 2")), (kind, kind), (False, ring)
+        wheels = MeshingWheels(pair, "", (z1, z2), kinds, rings, rub.coefficient, distance, helix=helices)
         form = self.form({name: value for name, value in varied.items() if name not in PAIR})
         try:
             mesh = form.mesh(wheels, lambda: self.shaft_angle)
@@ -235,29 +241,6 @@ class PairRequest:
         )
 
 
-def two_wheels(
-    teeth: tuple[int, int],
-    friction: float,
-    module: float | None,
-    internal: bool = False,
-    shaft_angle: float | None = None,
-    helix: float = 0.0,
-) -> MeshingWheels:
-    """Create the wheels of a pair that does not belong to a train. `module` is the normal module [m], and `helix` is
-    the helix angle of the first wheel [rad].
-    """
-    from geartrain.teeth.meshing_wheels import MeshingWheels
-    from geartrain.train import GearPair
-
-    kind = "helical" if helix else "spur" if shaft_angle is None else "bevel"
-    # the transverse module is the normal module divided by the cosine of the helix angle
-    distance = None if module is None else module / cos(helix) * sum(teeth) / 2
-    pair = GearPair(pair=("wheel 1", "wheel 2"))
-    # external helical wheels have opposite hands, a ring has the hand of its pinion
-    lean = (helix, helix if internal else -helix)
-    return MeshingWheels(pair, "", teeth, (kind, kind), (False, internal), friction, distance, helix=lean)
-
-
 # --------------------------------------------------------------------------------------------------- outline of a wheel
 
 
@@ -274,22 +257,16 @@ def write_profile(mesh: GearMesh, wheel: int, blank: Mapping[str, str], to: Sink
     if to.path is None:
         return []
     from geartrain.drawing import outline_text
-
-    made = mesh.wheel_outline(wheel, _blank_sizes(mesh.wheels.module, blank))
-    emit(outline_text(made, to.suffix), to)
-    return [made]
-
-
-def _blank_sizes(module: float | None, sizes: Mapping[str, str]) -> BlankSizes:
-    """Parse the sizes of a wheel blank, which are given as text in `sizes`; `module` is in m."""
     from geartrain.teeth.outlines.wheel_outline import BlankSizes
 
-    if module is None:
+    if (module := mesh.wheels.module) is None:
         fix, why = "for example, give --module 2mm", "an outline is written to scale"
         raise option_error("--module", "the module is missing", fix, why)
-    texts = {"tolerance": FINE, **sizes}
-    lengths = {name: 1000 * quantity(f"--blank {name}", text, "length") for name, text in texts.items()}
-    return BlankSizes(1000 * module, **lengths)
+    sizes = {"tolerance": FINE, **blank}
+    lengths = {name: 1000 * quantity(f"--blank {name}", text, "length") for name, text in sizes.items()}
+    made = mesh.wheel_outline(wheel, BlankSizes(1000 * module, **lengths))
+    emit(outline_text(made, to.suffix), to)
+    return [made]
 
 
 FINE = "0.001mm"

@@ -100,17 +100,19 @@ def run(
     to = sink(out, force, (".md", ".html", ".json", *_YAML))
     picture = picture_sink(plot, force, theme)
     check_distinct_outputs(to, picture)
-    if survey or suggest:
-        _check_listed(to, picture)
+    # a list of results has no single sphere
+    if (survey or suggest) and to.suffix in _YAML:
+        raise option_error("-o", "a list of results cannot be written as a train", "use .md, .html or .json")
+    if (survey or suggest) and picture.path is not None:
+        raise option_error("--plot", "a list of results cannot be drawn", "omit --plot, or --suggest and --survey")
     if survey:
         _survey(json, to)
         return
     if solid is None and graph is None:
         raise option_error("SOLID", "no gears are given", "give a solid, --graph or --survey")
     if solid is not None and graph is not None:
-        raise option_error(
-            "SOLID", "a solid and --graph are given", "omit one of them", "both set the positions of the gears"
-        )
+        what, why = "a solid and --graph are given", "both set the positions of the gears"
+        raise option_error("SOLID", what, "omit one of them", why)
     made = _graph(graph, aim, minimum) if graph else None
     configuration = made.configuration if made else _solid(solid or "", gears, teeth, drop or [], exact)
     if suggest:
@@ -129,14 +131,6 @@ def run(
 
         draw(sphere_figure(*found.pose()), picture)
     raise typer.Exit(GOOD if found.moves and (found.closure is None or found.closure) else VERDICT)
-
-
-def _check_listed(to: Sink, picture: Sink) -> None:
-    """Raise an error for -o x.yaml and --plot if a list is requested, because these options need a single sphere."""
-    if to.suffix in _YAML:
-        raise option_error("-o", "a list of results cannot be written as a train", "use .md, .html or .json")
-    if picture.path is not None:
-        raise option_error("--plot", "a list of results cannot be drawn", "omit --plot, or --suggest and --survey")
 
 
 def _survey(json: bool, to: Sink) -> None:

@@ -202,12 +202,8 @@ def usage_problem(error: Any) -> Problem:
     what = str(error.message).rstrip(".").removeprefix("Value error, ")
     if (name := getattr(error, "option_name", None)) is not None:
         if not what.startswith("No such option"):
-            return Problem(
-                "the value of this option is missing" if "requires" in what else "this option takes no value",
-                "",
-                see,
-                name,
-            )
+            kind = "the value of this option is missing" if "requires" in what else "this option takes no value"
+            return Problem(kind, "", see, name)
         known = [each for one in context.command.params for each in one.opts if each.startswith("--")]
         close = nearest_names(name.lstrip("-"), [each.lstrip("-") for each in known])
         fix = f"did you mean --{' or --'.join(close)}?" if close else see
@@ -247,13 +243,8 @@ def guarded(run: Callable[[], Any]) -> int:
     except Exception as error:
         # an error without a file name is one of standard output
         if isinstance(error, OSError) and error.filename is None and error.errno in _DISK:
-            what = Problem(
-                "the result cannot be written",
-                str(error),
-                "free disk space, or write to another disk",
-                "standard output",
-            )
-            complain(GearTrainError(what))
+            fix = "free disk space, or write to another disk"
+            complain(GearTrainError(Problem("the result cannot be written", str(error), fix, "standard output")))
             _discard_output()
             return NOT_USABLE
         _report_internal_error(error)

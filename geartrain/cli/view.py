@@ -95,10 +95,15 @@ def view(
     shown = _layout(embed, kiosk, other)
     trains = load_all([file] if other is None else [file, other])
     to = _page_sink(out or file_name("-".join(train.name for train in trains), ".html"), force)
-    # a simulation, and a page with two trains, show one state
-    first = dynamics or other is not None
-    taken = [(train, each) for train in trains for each in _states(train, state, first)]
-    runs = [_simulated(train, each, request) if dynamics else None for train, each in taken]
+    taken: list[tuple[GearTrain, str | None]] = []
+    for train in trains:
+        states = train.states or (None,) if state is None else (state,)
+        # a simulation, and a page with two trains, show one state
+        taken += [(train, each) for each in (states[:1] if dynamics or other is not None else states)]
+    runs: list[TimeRun | None] = [None] * len(taken)
+    if dynamics:  # of one train, with as many samples as a page can contain
+        samples = _MOST_ANGLES // len(trains[0].declaration.links)
+        runs = [run_in_time(*each, request.arguments() | {"samples": samples}) for each in taken]
     whole = shown == "page"
     scenes = [build_scene(train, each, run=run, formulas=whole) for (train, each), run in zip(taken, runs, strict=True)]
     _write_page(scenes, to, shown, other is not None, not discs)
@@ -147,22 +152,6 @@ def _check_request(request: TimeRequest, dynamics: bool, other: str | None) -> N
     if dynamics and other is not None:
         why = "two trains on one page share a crank, but each simulation has its own time"
         raise option_error(other, "two trains are given with --dynamics", "write a page for each train", why)
-
-
-def _simulated(train: GearTrain, state: str | None, request: TimeRequest) -> TimeRun:
-    """Run the simulation in the time domain that a page shows, with as many samples as a page can contain."""
-    samples = _MOST_ANGLES // len(train.declaration.links)
-    return run_in_time(train, state, request.arguments() | {"samples": samples})
-
-
-def _states(train: GearTrain, state: str | None, first: bool) -> Sequence[str | None]:
-    """Return the states to be shown: the state `state` if it is not None, or the first state if `first` is True, or all
-    states.
-    """
-    if state is not None:
-        return (state,)
-    names = train.states or (None,)
-    return names[:1] if first else names
 
 
 def _page_sink(path: Path, force: bool) -> Sink:

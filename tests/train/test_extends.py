@@ -248,7 +248,7 @@ def test_a_parent_that_is_missing_is_refused(tmp_path: Path, name: str, said: st
 def test_a_circle_of_parents_is_refused(tmp_path: Path, length: int) -> None:
     for at in range(length):
         (tmp_path / f"t{at}.yaml").write_text(f"extends: t{(at + 1) % length}.yaml\n", encoding="utf-8")
-    with pytest.raises(GearTrainError, match="circle") as caught:
+    with pytest.raises(GearTrainError, match="forms a cycle") as caught:
         load(tmp_path / "t0.yaml")
     assert "t0.yaml:1" in str(caught.value) or f"t{length - 1}.yaml:1" in str(caught.value)
 

@@ -123,9 +123,7 @@ def _best_of(task: Callable[[], Any]) -> tuple[float, Any]:
 
 
 def _measure_speeds(train: GearTrain, state: str | None, _: int) -> Iterator[MethodAccuracy]:
-    """Yield the accuracy of the methods for speeds: exact elimination, if `solve` uses it by default, and
-    floating-point elimination.
-    """
+    """Yield the accuracy of the methods for speeds: exact elimination, where it is the default, and floats."""
     usual = train.solve(state)
     if not usual.verdict:
         raise QuestionError(Problem(usual.verdict.text))
@@ -148,9 +146,7 @@ def _measure_speeds(train: GearTrain, state: str | None, _: int) -> Iterator[Met
 
 
 def _measure_motion(train: GearTrain, state: str | None, positions: int) -> Iterator[MethodAccuracy]:
-    """Yield the accuracy of the methods for motion: composition of transmission functions and first-order
-    superposition.
-    """
+    """Yield the accuracy of the methods for motion: composed transmission functions, and first-order superposition."""
     if not train.mechanics.meshes_in(state) and not train.mechanics.couplings:
         raise QuestionError(Problem(_NO_FORM))
     import numpy as np

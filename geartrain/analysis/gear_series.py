@@ -69,9 +69,7 @@ class GearSeries(Result):
 
     @property
     def double_shifts(self) -> int:
-        """Number of shifts between consecutive gears in which more than one element opens or more than one element
-        closes.
-        """
+        """Number of shifts between neighbouring gears at which two or more elements open, or two or more close."""
         return sum(not _is_single(a, b) for a, b in pairwise(self.gears))
 
 

@@ -218,9 +218,7 @@ def find_gearbox(train: TrainMechanics, output: str | None = None) -> Gearbox:
 
 
 def gearbox_ends(declared: Train, output: str | None) -> tuple[str, str]:
-    """Return the names of the input link and the output link. `QuestionError` is raised if the train is not a
-    gearbox.
-    """
+    """Return the names of the input link and the output link; raise `QuestionError` if the train is not a gearbox."""
     if not declared.clutches or not declared.states:
         what = f"'{declared.name}' is not a gearbox"
         why = "a gearbox declares `clutches`, and `states` that engage them"
@@ -284,18 +282,14 @@ def _slip(speeds: Mapping[str, Fraction], clutch: Clutch) -> Fraction | None:
 
 
 def _load(train: TrainMechanics, state: str, source: str, link: str) -> Torques | None:
-    """Return the torques for the case that the input `source` drives and unit power leaves the train at the output
-    `link`; None if the torques are undetermined.
-    """
+    """Return the torques if `source` drives and unit power leaves the train at `link`; None if undetermined."""
     found = solve_driven(train, link, source, state)
     # torques are divided by the input torque, so a torque of 0 counts as undetermined
     return found if found.verdict and found.external.get(source) else None
 
 
 def _torques(load: Torques, source: str, engaged: Mapping[str, tuple[str, ...]]) -> dict[str, Fraction | None]:
-    """Return the torque of each closed element, keyed by element name. `engaged` maps the name of each element to the
-    names of the links that it connects or brakes.
-    """
+    """Return the torque of each closed element by name; `engaged` gives the links that it connects or brakes."""
     drive, held = load.external[source], {each.links: each.torques for each in load.held}
     known = {name: held[links] for name, links in engaged.items() if links in held}
     # elements that hold the same links share their torque in an unknown ratio
@@ -304,9 +298,7 @@ def _torques(load: Torques, source: str, engaged: Mapping[str, tuple[str, ...]])
 
 
 def _circulation(load: Torques) -> Fraction | None:
-    """Return the power that recirculates between gear sets, divided by the input power; None if the input power is
-    0.
-    """
+    """Return the power that recirculates between gear sets over the input power; None if the input power is 0."""
     flow = find_power_flow(load)
     if not flow.power_in:
         return None

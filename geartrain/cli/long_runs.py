@@ -58,9 +58,7 @@ class ProgressBar:
         self._shown.update(self._task, advance=steps, visible=time.monotonic() >= self._from)
 
     def reach(self, done: int, total: int) -> None:
-        """Set the number of completed steps and the total number of steps. The bar is hidden if the total is 1
-        or less.
-        """
+        """Set the number of completed steps and the total number of steps; a bar for one step is hidden."""
         self._shown.update(self._task, completed=done, total=total or None, visible=total > 1)
 
 
@@ -108,9 +106,7 @@ class RunOptions:
 
 
 def close_journal(journal: Journal | None, cut: bool) -> None:
-    """Remove the journal of a complete computation. If the computation was interrupted (`cut`), print how to
-    resume it.
-    """
+    """Remove the journal of a complete computation; if it was interrupted (`cut`), print how to resume it."""
     if not cut:
         if journal is not None:
             journal.finish()

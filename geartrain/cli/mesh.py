@@ -362,9 +362,7 @@ VARIED = (*parameters_of(Triangular), *PAIR)
 
 
 def read_operation(inertia: str | None, rate: str | None, load: str | None) -> PairOperation:
-    """Return the operating conditions of a pair, parsed from the inertia and load of the driven wheel and the speed of
-    the driving wheel.
-    """
+    """Return the operation of a pair: inertia and load of the driven wheel, and speed of the driving wheel."""
     from geartrain.dynamics.motion.pair_impacts import PairOperation
     from geartrain.numerics.quantity import RADIANS_PER_TURN
 
@@ -376,9 +374,7 @@ def read_operation(inertia: str | None, rate: str | None, load: str | None) -> P
 
 
 def sweep(pair: PairRequest, vary: list[str], picture: Sink, json: bool, to: Sink) -> None:
-    """Run a parameter sweep, and write its results as a table. If a file is named for a picture, also write
-    a picture.
-    """
+    """Run a parameter sweep, and write its table and, if a file is named for a picture, the picture."""
     from geartrain.numerics.files import csv_text
     from geartrain.teeth.triangular.parameter_sweep import sweep as run_sweep
 
@@ -411,9 +407,7 @@ def sweep(pair: PairRequest, vary: list[str], picture: Sink, json: bool, to: Sin
 
 
 def _ranges(vary: list[str]) -> tuple[dict[str, list[float]], dict[str, str]]:
-    """Return two mappings, keyed by parameter: the values of each varied parameter, and the unit in which they were
-    given.
-    """
+    """Return the values of each varied parameter, and the unit in which they were given, by parameter."""
     if len(vary) > 2:
         raise option_error("--vary", f"{len(vary)} parameters are given", "give --vary once or twice")
     ranges: dict[str, list[float]] = {}

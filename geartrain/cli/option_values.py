@@ -101,9 +101,7 @@ def exact(place: str, text: str, what: str, such_as: str, low: float = -inf, hig
 
 
 def decimal(place: str, text: str, what: str, such_as: str, low: float = 0.0) -> float:
-    """Parse a number from `low` to 1e30 as a float. Raise `GearTrainError` for other text, and for a number whose
-    square would underflow.
-    """
+    """Parse a number from `low` to 1e30 as a float; reject other text and numbers whose square would underflow."""
     found = float(exact(place, text, what, such_as, low, _MOST))
     if found and abs(found) < 1 / _MOST:
         fix = f"give a value such as {such_as}"
@@ -128,7 +126,5 @@ def whole(place: str, text: str, what: str, such_as: str, low: int = 0) -> int:
 
 
 def at_option(error: GearTrainError, place: str) -> GearTrainError:
-    """Return a copy of the error in which `place`, the option that caused the error, is the location of every problem
-    without a location.
-    """
+    """Return the error with `place`, the option that caused it, as the location of problems without a location."""
     return GearTrainError(replace(each, place=each.place or place.replace("_", "-")) for each in error.problems)

@@ -78,9 +78,7 @@ def _words(annotation: Any) -> list[str]:
 
 
 def read_assignments(texts: Iterable[str], known: Sequence[str], option: str, fix: str = "") -> dict[str, str]:
-    """Parse KEY=VALUE options into a mapping from key to value. Raises `QuestionError` if a key is unknown or given
-    twice.
-    """
+    """Parse KEY=VALUE options into a mapping; raise `QuestionError` if a key is unknown or given twice."""
     found: dict[str, str] = {}
     for text in texts:
         name, equals, value = map(str.strip, text.partition("="))
@@ -163,16 +161,12 @@ def read_helix(helix: str | None, shaft_angle: float | None) -> float:
 
 
 def read_module(module: str | None) -> float | None:
-    """Parse the module [m]; return None if `module` is None. Raises `GearTrainError` if the value is not a positive
-    length.
-    """
+    """Parse the module [m]; None if it is not given. A value that is not a positive length raises an error."""
     return None if module is None else quantity("--module", module, "length", minimum="above 0")
 
 
 def read_wheels(teeth: tuple[int, int], internal: bool, angle: str | None) -> WheelPair:
-    """Create a pair of wheels without dimensions, for conjugate teeth. Raises `GearTrainError` if the wheels cannot
-    mesh.
-    """
+    """Create a pair of wheels without dimensions; raise `GearTrainError` if the wheels cannot mesh."""
     from geartrain.teeth.conjugate.wheel_pair import WheelPair
 
     wheels = WheelPair(*teeth, internal, read_shaft_angle(internal, angle))
@@ -232,9 +226,7 @@ class PairRequest:
             raise at_parameter(error, f"-p {placed[0]}" if placed and min(z1, z2) >= FEWEST else COUNTS) from None
 
     def form(self, varied: Mapping[str, str]) -> ToothForm:
-        """Create the tooth form with some parameters replaced. A varied clearance parameter replaces all given
-        clearance parameters.
-        """
+        """Create the tooth form with some parameters replaced; a varied clearance replaces all given clearances."""
         replaced = {*CLEARANCES} if {*varied} & {*CLEARANCES} else set()
         return read_form(
             self.model, {name: text for name, text in self.own.items() if name not in replaced} | dict(varied)
@@ -294,9 +286,7 @@ class PairFrictionOption:
         return self.coefficient
 
     def of(self, mesh: Mesh, rate: str | None) -> Mesh:
-        """Return a copy of the mesh with this friction. Raise `GearTrainError` if a friction law needs a speed or a
-        module that is not known.
-        """
+        """Return the mesh with this friction; raise an error if a law needs a speed or module that is not known."""
         if self.law is None:
             return mesh
         radius = mesh.pitch_radius
@@ -315,9 +305,7 @@ class PairFrictionOption:
 
 
 def read_pair_friction(text: str) -> PairFrictionOption:
-    """Parse a coefficient of friction, or a friction law with its parameters. Raise `GearTrainError` if the text is
-    invalid.
-    """
+    """Parse a coefficient of friction or a friction law with its parameters; raise an error for other text."""
     name = text.split(",")[0].strip()
     if "=" not in text and name not in ("buckingham", "dokos", "stribeck", "table"):
         return PairFrictionOption(read_coefficient(text))

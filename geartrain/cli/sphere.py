@@ -175,9 +175,7 @@ def _graph(file: Path, aim: Any, minimum: int) -> GraphSet:
 
 
 def _teeth(text: str | None) -> dict[str, int] | int | None:
-    """Parse the tooth count of each kind of gear, such as `5=20,3=12`, or one tooth count for all gears. Return None if
-    `text` is None.
-    """
+    """Parse one tooth count for all gears, or one for each kind of gear, such as `5=20,3=12`; None for None."""
     if text is None:
         return None
     try:
@@ -190,9 +188,7 @@ def _teeth(text: str | None) -> dict[str, int] | int | None:
 
 
 def _sphere_radius(configuration: Configuration, text: str) -> float:
-    """Return the radius of the sphere. The text contains either this radius, or KIND=RADIUS, the pitch radius of one
-    kind of gear.
-    """
+    """Return the radius of the sphere from this radius or from KIND=RADIUS, the pitch radius of one kind of gear."""
     from geartrain.spherical.gear_sizes import size_gears
 
     kind, wheel, number = text.rpartition("=")

@@ -126,9 +126,7 @@ def run(
 
 
 def _over_turn(train: GearTrain, found: Sequence[Torques], turns: str, samples: int, link: str | None) -> TorqueCycle:
-    """Return the torque over the requested revolutions, computed in the requested state or in the only state with
-    loads.
-    """
+    """Return the torque over the requested revolutions in the requested state, or in the only state with loads."""
     state = _loaded_state(train, found, "--turns").state
     if turns == "period":
         from geartrain.dynamics.turn.train_turn import find_torque_period

@@ -133,9 +133,7 @@ class LazyGroup(TyperGroup):
         self.commands = self.verbs  # type: ignore[assignment]
 
     def resolve_command(self, ctx: Any, args: list[str]) -> tuple[str | None, Any, list[str]]:
-        """Return the command that is named in `args`, as click requires. Raises `QuestionError` if the name
-        is unknown.
-        """
+        """Return the command that is named in `args`, as click requires; raise `QuestionError` for unknown names."""
         name = args[0]
         # shell completion parses incomplete lines (resilient), which must not raise errors
         if name not in self.verbs and not name.startswith("-") and not ctx.resilient_parsing:
@@ -160,9 +158,7 @@ class _ReaderGoneError(Exception):
 
 
 class EndingGroup(TyperGroup):
-    """Group of commands that handles closed pipes and Ctrl-C itself, because typer would exit with the exit code of a
-    verdict.
-    """
+    """Group of commands that ends on closed pipes and Ctrl-C itself; typer would exit with the code of a verdict."""
 
     def make_context(self, *given: Any, **more: Any) -> Any:
         """Parse the command line and return the context. The options `--help` and `--version` exit here."""
@@ -289,9 +285,7 @@ def _report_internal_error(error: Exception) -> None:
 
 
 def _write_traceback(text: str) -> str:
-    """Write a traceback and the command line to a new file. Return the name of the file, or an empty string if it
-    cannot be created.
-    """
+    """Write a traceback and the command line to a new file; return its name, or "" if it cannot be created."""
     import platform
     from importlib.metadata import version
 

@@ -142,9 +142,7 @@ def _layout(embed: bool, kiosk: bool, other: str | None) -> Shown:
 
 
 def _check_request(request: TimeRequest, dynamics: bool, other: str | None) -> None:
-    """Raise `QuestionError` if options of --dynamics are given without --dynamics, or if --dynamics is given for two
-    trains.
-    """
+    """Raise `QuestionError` for options of --dynamics without --dynamics, and for --dynamics with two trains."""
     if not dynamics and request != TimeRequest():
         what = "options of --dynamics are given without --dynamics"
         why = "without --dynamics the page shows the kinematics only"
@@ -155,9 +153,7 @@ def _check_request(request: TimeRequest, dynamics: bool, other: str | None) -> N
 
 
 def _page_sink(path: Path, force: bool) -> Sink:
-    """Return the destination of a page. Raises `QuestionError` if browsers do not open files with this suffix as a
-    page.
-    """
+    """Return the destination of a page; raise `QuestionError` for a suffix that browsers do not open as a page."""
     if is_standard(path) or path.suffix.lower() in (".html", ".htm") or path.is_dir():
         return sink(path, force)
     why = f"'{path.suffix}' is not a suffix of an HTML page" if path.suffix else "its name has no suffix"

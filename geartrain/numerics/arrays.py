@@ -16,10 +16,7 @@ Indices = NDArray[np.intp]
 
 
 def packed(values: NDArray[Any], kind: Literal["<f8", "<f4", "<u4"] = "<f8") -> str:
-    """Return an array as base64 text of little-endian numbers, row by row.
-
-    The conversion is lossless, and the text has about a third of the length of decimal numbers.
-    """
+    """Return an array, row by row, as lossless base64 text of little-endian numbers."""
     return b64encode(values.astype(kind).tobytes()).decode("ascii")
 
 

@@ -111,10 +111,7 @@ def _square_blocks(rows: Mapping[int, Collection[int]], known: Collection[int]) 
 
 
 def _maximum_matching(rows: Mapping[int, Collection[int]]) -> dict[int, int]:
-    """Return a maximum bipartite matching as a mapping from column to row, found by augmenting paths.
-
-    Each round visits every column at most once.
-    """
+    """Return a maximum bipartite matching as a mapping from column to row, found by augmenting paths."""
     row_of: dict[int, int] = {}
     free = list(rows)
     while True:
@@ -149,9 +146,7 @@ def _augment_from(rows: Mapping[int, Collection[int]], root: int, row_of: dict[i
 
 
 def _reachable(starts: list[int], across: Mapping[int, Collection[int]], back: Mapping[int, int]) -> set[int]:
-    """Return all vertices on the same side as `starts` (rows or columns) that can be reached from them by alternating
-    paths.
-    """
+    """Return the rows (or columns) that alternating paths reach from the rows (or columns) `starts`."""
     found, queue = set(starts), list(starts)
     for here in queue:
         for there in across[here]:

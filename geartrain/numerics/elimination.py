@@ -68,10 +68,7 @@ class TooDenseError(Exception):
 
 
 def add_into(row: dict[int, Any], other: Mapping[int, Any], factor: Any) -> None:
-    """Add factor * other to a row in place, and remove entries that cancel.
-
-    Entries are numbers or polynomials, all of one type.
-    """
+    """Add factor * other to a row in place, and remove entries that cancel; entries are numbers or polynomials."""
     for column, coefficient in other.items():
         value = row[column] + factor * coefficient if column in row else factor * coefficient
         if value:

@@ -66,9 +66,7 @@ class PeriodicFunction(ABC):
 
     @cached_property
     def _samples(self) -> Floats:
-        """Ascending positions over one period, at most `resolution` apart, with positions on both sides of every
-        breakpoint.
-        """
+        """Ascending positions over one period, at most `resolution` apart, on both sides of every breakpoint."""
         starts = self.breakpoints if len(self.breakpoints) else np.zeros(1)
         widths = np.diff(starts, append=starts[0] + self.period)
         counts = self.per_interval + np.ceil(widths / self.resolution).astype(np.int64)
@@ -82,9 +80,7 @@ class PeriodicFunction(ABC):
         return found
 
     def extremes(self, order: int = 0) -> tuple[float, float]:
-        """Return the minimum and maximum over a period of the derivative of the given order, from 0 (the function) to
-        2. Positions at which it is NaN are ignored.
-        """
+        """Return the minimum and maximum over a period of the derivative of order 0 to 2; NaN values are ignored."""
         x = self._samples
         slopes = self.derivative(x, order + 1)
         turns = np.flatnonzero(slopes[:-1] * slopes[1:] < 0)

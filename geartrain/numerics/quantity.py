@@ -152,9 +152,7 @@ def scale(unit: str) -> tuple[str, Fraction]:
 
 
 def turns_in(unit: str) -> Fraction:
-    """Return the angle [turn] per unit of time at a speed of 1 in the given unit: 1/360 for deg/s, and 1 for rpm or no
-    unit.
-    """
+    """Return the angle per unit of time [turn] at a speed of 1 in a unit: 1/360 for deg/s, 1 for rpm or no unit."""
     angle = unit.partition("/")[0] if "/" in unit else TURN
     return scale(angle)[1]
 
@@ -464,9 +462,7 @@ class Quantity:
 
 
 def _in_range(quantity: Quantity, dimension: str) -> Quantity:
-    """Return the quantity; raise an error if it is outside the range of its dimension, which is limited so that
-    products and squares can be represented in float64.
-    """
+    """Return the quantity; raise an error outside the range in which float64 represents products and squares."""
     low, high = _BOUNDS.get(dimension, _EXACT)
     if not quantity.value or low <= abs(quantity.base) <= high:
         return quantity

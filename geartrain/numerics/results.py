@@ -206,9 +206,7 @@ class Tabular(Shown):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Columns of equal length, by name. Numbers are floats; exact numbers are strings in separate columns; missing
-        values are None.
-        """
+        """Columns by name: floats, and exact numbers as strings in separate columns; None where a value is missing."""
         rows = _described(self, self.ROWS) or ()
         return {name: [row[name] for row in rows] for name in (rows[0] if rows else ())}
 

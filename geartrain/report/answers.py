@@ -50,9 +50,7 @@ _SPANS = {
 
 
 def shift_table(train: GearTrain, answers: Sequence[Answer]) -> Section:
-    """Return a section with one row for each state, which contains the engaged brakes and clutches and the speed and
-    ratio of each output.
-    """
+    """Return a section with a row for each state: engaged brakes and clutches, and speed and ratio of each output."""
     declared = train.declaration
     clutches = list(declared.clutches)
     names = list(dict.fromkeys(name for answer in answers for name in answer.outputs))
@@ -79,16 +77,21 @@ def _speed_and_ratio(answer: Answer, name: str) -> str:
 
 
 def answer_sections(train: GearTrain, answer: Answer) -> Iterator[Section]:
-    """Yield the sections on one state: first the pointers with their targets, then, as details, all outputs, targets
-    and speeds.
-    """
+    """Yield the sections on one state: pointers and their targets, then all outputs, targets and speeds as details."""
     if answer.outputs:
         yield _pointers(train, answer)
         yield replace(_outputs(train, answer), detail=True)
     if answer.one_way:
         yield Section(titled(answer.state, "one-way clutches"), [f"{each}." for each in clutch_lines(answer)])
     yield from (replace(section, detail=True) for section in _targets(train.declaration, answer))
-    yield replace(_speed_section(train, answer), detail=bool(answer.outputs and answer.verdict))
+    case = train.declaration.case(answer.state)
+    given = [*map(case.given, case.inputs)]
+    given += [f"{link} fixed" for link in case.fixed] + [f"{a} and {b} locked together" for a, b in case.locks]
+    lines = [f"Prescribed: {', '.join(given) or 'nothing'}.", f"Verdict: {answer.verdict}."]
+    if answer.method == "floats":
+        lines.append(why_floats(answer) if case.exact else "Solved in floats: radians are mixed with turns.")
+    detail = bool(answer.outputs and answer.verdict)
+    yield Section(titled(answer.state, "speeds"), lines, tuple(_speeds(train, answer)), detail=detail)
 
 
 def _pointers(train: GearTrain, answer: Answer) -> Section:
@@ -134,9 +137,7 @@ def _target_cells(declared: Train, target: TargetResult | None) -> tuple[str, st
 
 
 def _period(declared: Train, speed: SpeedValue | None) -> str:
-    """Return the time of one turn as a string; an empty string for a link at rest, or if speeds have no unit
-    of time.
-    """
+    """Return the time of one turn as a string; "" for a link at rest, or if speeds have no unit of time."""
     if not speed or declared.unit_days is None:
         return ""
     # short units, because the table has many columns
@@ -208,16 +209,6 @@ def _targets(declared: Train, answer: Answer) -> Iterator[Section]:
     yield Section(titled(answer.state, "against the targets"), tuple(said), (table,))
 
 
-def _speed_section(train: GearTrain, answer: Answer) -> Section:
-    case = train.declaration.case(answer.state)
-    given = [*map(case.given, case.inputs)]
-    given += [f"{link} fixed" for link in case.fixed] + [f"{a} and {b} locked together" for a, b in case.locks]
-    lines = [f"Prescribed: {', '.join(given) or 'nothing'}.", f"Verdict: {answer.verdict}."]
-    if answer.method == "floats":
-        lines.append(why_floats(answer) if case.exact else "Solved in floats: radians are mixed with turns.")
-    return Section(titled(answer.state, "speeds"), lines, tuple(_speeds(train, answer)))
-
-
 _COMPARED = {"speed": "with sense", "magnitude": "magnitude", "difference": "difference"}
 
 
@@ -275,9 +266,7 @@ def _output(train: GearTrain, result: OutputResult) -> tuple[str, ...]:
 
 
 def result_words(result: OutputResult) -> str:
-    """Return a string with the computed value, exact and as a decimal number, that corresponds to a
-    published figure.
-    """
+    """Return the computed value that corresponds to a published figure, as a fraction and as a decimal number."""
     published = result.output.published
     if result.found is None:
         if result.speed is None or published is None or published.as_ == "speed":
@@ -292,9 +281,7 @@ def result_words(result: OutputResult) -> str:
 
 
 def only_sign(result: OutputResult) -> str:
-    """Return a remark and a remedy if an output has the expected magnitude but the opposite sense, or an empty string
-    if it does not.
-    """
+    """Return a remark and a remedy if an output has the expected magnitude in the opposite sense, else ""."""
     if not result.differs_in_sign:
         return ""
     published = result.output.published
@@ -361,9 +348,7 @@ def _span(declared: Train, units: Fraction | float, digits: int = 7) -> str:
 
 
 def doubtful_wheels(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Section]:
-    """Yield a section on the change of pointer speeds if a wheel of uncertain tooth count has one tooth more or one
-    tooth fewer.
-    """
+    """Yield a section on how pointer speeds change if an uncertain wheel has one tooth more or one tooth fewer."""
     for answer in answers:
         found = list(train.kinematics.sensitivity(answer)) if answer.verdict else []
         pointers = {name for name, result in answer.outputs.items() if result.output.dial or result.targets}
@@ -448,9 +433,7 @@ def speeds_text(answer: Answer, output: str | None, oblique: frozenset[str]) -> 
 
 
 def clutch_lines(answer: Answer) -> Iterator[str]:
-    """Yield a line for each one-way clutch that reports whether the clutch is engaged or overruns; then yield notes on
-    the clutches.
-    """
+    """Yield a line for each one-way clutch, which holds or overruns, and then the notes on these clutches."""
     yield from (each.text(answer.unit) for each in answer.one_way)
     yield from answer.notes
 
@@ -471,9 +454,7 @@ def answer_document(answer: Answer) -> Document | None:
 
 
 def why_floats(answer: Answer) -> str:
-    """Return a text with the reason why a system was solved in floating-point arithmetic, the estimated error, and how
-    to get exact fractions.
-    """
+    """Return why a system was solved in floating point, the estimated error, and the way to exact fractions."""
     error = max((each.estimate for each in answer.accuracy.values()), default=0.0)
     why = "the system is coupled too densely for exact elimination within about a second"
     return (
@@ -483,9 +464,7 @@ def why_floats(answer: Answer) -> str:
 
 
 def _speed(speed: SpeedValue | None, tolerance: Fraction | None, slides: bool = False) -> str:
-    """Return a speed as a string that contains a fraction, the mark ≈ if the speed depends on an approximate ratio, and
-    a unit if the link slides.
-    """
+    """Return a speed as a fraction, with the mark ≈ after an approximate ratio, and with a unit if the link slides."""
     text = exact(speed) + " mm" if slides and speed is not None else exact(speed)
     return f"≈ {text.removeprefix('≈ ')}" if tolerance else text
 
@@ -495,9 +474,7 @@ def _marks(answer: Answer, link: str, oblique: frozenset[str]) -> str:
 
 
 def _pi(answer: Answer, name: str) -> str:
-    """Return a mark if the speed of a link or output contains pi but is not written as a multiple of pi, or an empty
-    string if no mark is needed.
-    """
+    """Return a mark for a speed that contains pi but is not written as a multiple of pi, else ""."""
     speed = answer.speeds.get(name) if name not in answer.outputs else answer.outputs[name].speed
     if speed is None or not answer.contains_pi.get(name) or "π" in exact(speed):
         return ""
@@ -505,9 +482,7 @@ def _pi(answer: Answer, name: str) -> str:
 
 
 def _errors(answer: Answer, link: str) -> str:
-    """Return a string with the condition number, the estimated error and the true error of a floating-point speed; an
-    empty string for an exact speed.
-    """
+    """Return condition number, estimated error and true error of a floating-point speed; "" for an exact speed."""
     accuracy = answer.accuracy.get(link)
     if accuracy is None:
         return ""

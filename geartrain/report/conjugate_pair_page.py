@@ -20,9 +20,7 @@ if TYPE_CHECKING:
 
 
 def conjugate_verdict(design: PairDesign) -> str:
-    """Return a sentence that states whether the teeth can run. If they cannot, the sentence gives each reason and its
-    remedy.
-    """
+    """Return a sentence that says whether the teeth can run or, if not, gives each reason with its remedy."""
     if design.runs and design.locks:
         return "Verdict: the teeth keep the ratio exactly at every instant, but friction locks them."
     if design.runs:
@@ -33,9 +31,7 @@ def conjugate_verdict(design: PairDesign) -> str:
 
 
 def conjugate_sections(design: PairDesign) -> Iterator[Section]:
-    """Yield the sections on a pair. If the teeth cannot run, yield only the sections on the wheels and the path of
-    contact.
-    """
+    """Yield the sections on a pair; those on losses and friction only if the teeth can run."""
     yield from (_wheels(design), _path(design))
     if design.losses_and_stresses is not None:
         yield from (_losses_and_stresses(design.losses_and_stresses), _friction(design))
@@ -175,9 +171,7 @@ def _header(name: str) -> str:
 
 
 def _sharing(found: FormComparison) -> Section:
-    """Return the section on the sharing of the load by tooth pairs. The section is a single sentence if no contact
-    ratio exceeds 1.
-    """
+    """Return the section on load sharing by tooth pairs; it is one sentence if no contact ratio exceeds 1."""
     base = found.measures
     runs = [form.measures for form in found.forms if form.runs and form.measures]
     if all(each.contact_ratio < 1 + 1e-9 for each in (base, *runs)):  # tolerance for a contact ratio of exactly 1

@@ -18,9 +18,7 @@ if TYPE_CHECKING:
 
 
 def coupling_sections(train: GearTrain) -> Iterator[Section]:
-    """Yield a section on the sizes of the couplings of a train and on effects that are not modelled. Kinds of couplings
-    without any remarks are omitted.
-    """
+    """Yield a section on the sizes of couplings and on effects that are not modelled, where there are any."""
     shown = [each for each in train.declaration.couplings if each.about or each.UNKNOWN]
     if shown:
         lengths = _belt_lengths(train) if any(each.kind == "belt" for each in shown) else {}

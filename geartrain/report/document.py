@@ -85,9 +85,7 @@ class Table(Shown):
 
 
 def table_document(columns: Mapping[str, Sequence[object]], most: int) -> Document:
-    """Return a document with one table: the first `most` rows of the columns of a result, and the number of omitted
-    rows.
-    """
+    """Return a document with a table of the first `most` rows of a result, and the number of omitted rows."""
     count = len(next(iter(columns.values()), ()))
     rows = [
         ["" if value is None else f"{value:.8g}" if isinstance(value, float) else str(value) for value in row]
@@ -307,9 +305,7 @@ def exact(value: Fraction | float | None) -> str:
 
 
 def one_to(ratio: Fraction | float | None) -> str:
-    """Return the ratio of output to input as a string `1 : n`, or `n : 1` if the output is faster; a dash for None or
-    0.
-    """
+    """Return the ratio of output to input as `1 : n`, or as `n : 1` if the output is faster; "-" for None or 0."""
     if not ratio:
         return "-"
     if not -1 < ratio < 1:
@@ -417,9 +413,7 @@ def _columns(table: Table) -> list[tuple[str, ...]]:
 
 
 def _minimum(column: Sequence[str], whole: bool) -> int:
-    """Return the minimum width of a column in characters: the length of its longest word, or of its longest cell if
-    cells are not wrapped.
-    """
+    """Return the minimum width of a column: the length of its longest word, or of its longest cell if not wrapped."""
     pieces = column if whole else [word for cell in column for word in cell.split()]
     return max(1, *(len(piece) for piece in pieces), 0)
 

@@ -72,9 +72,7 @@ def collect_formulas(
 
 
 def describe_formulas(found: FormulaReport, latex: bool = False, inverse: bool = False) -> Document:
-    """Return a document with the formula, value and locking condition of each output. If `found` contains elasticities,
-    the document includes them.
-    """
+    """Return a document with formula, value, locking condition and any elasticities of each output."""
     states = dict.fromkeys(each.state for each in found.formulas)
     sections = [section for state in states for section in _state(found, state, latex, inverse)]
     sections += [varying_section(found.couplings)] if found.couplings else []

@@ -123,9 +123,7 @@ def _template(name: str) -> Any:
 
 
 def _on_paper(table: Table) -> list[Table]:
-    """Return the strips of columns in which a table that is wider than a sheet is printed; an empty list for other
-    tables.
-    """
+    """Return the strips of columns in which a table wider than a sheet is printed; [] for other tables."""
     parts = list(strips(table, _ON_PAPER))
     return parts if len(parts) > 1 else []
 
@@ -187,9 +185,7 @@ def _anchors(document: Document, prefix: str) -> _Anchors:
 
 
 def _marks(titles: Sequence[str], prefix: str) -> Iterator[str]:
-    """Yield a unique anchor for each title: its words joined by hyphens, followed by a number if the anchor was already
-    used.
-    """
+    """Yield a unique anchor for each title: its words joined by hyphens, and a number if that anchor is taken."""
     seen: dict[str, int] = {}
     for title in titles:
         name = re.sub(r"[^a-z0-9]+", "-", title.lower()).strip("-") or "section"
@@ -198,9 +194,7 @@ def _marks(titles: Sequence[str], prefix: str) -> Iterator[str]:
 
 
 def _policy(script: str, framed: bool) -> str:
-    """Return the content security policy of a page. The page loads nothing and runs only its own script, which is
-    identified by its hash.
-    """
+    """Return the content security policy of a page that loads nothing and runs its own script, known by its hash."""
     if framed:
         return _POLICY + _INTO_FRAMES
     return f"{_POLICY}'sha256-{b64encode(sha256(script.encode()).digest()).decode()}'"

@@ -86,9 +86,7 @@ def answers() -> dict[str, Schema]:
 
 
 def _of_any_form(kind: type) -> Schema:
-    """Return the schema of a result on a pair of any tooth form. It has one alternative for the results of
-    each form.
-    """
+    """Return the schema of a result on a pair of any tooth form, with an alternative for the results of each form."""
     from geartrain.teeth.any_tooth_form import tooth_forms
 
     pair = shape_of(kind)
@@ -101,9 +99,7 @@ def _of_any_form(kind: type) -> Schema:
 
 
 def answer_schema() -> Schema:
-    """Return one JSON Schema (draft 2020-12) of all JSON answers; `#/$defs/NAME` is the schema of the answer with this
-    name.
-    """
+    """Return one JSON Schema (draft 2020-12) of all JSON answers; `#/$defs/NAME` describes the answer NAME."""
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "Answers of geartrain",
@@ -235,9 +231,7 @@ def _described(shape: Schema, meaning: str) -> Schema:
 
 
 def meaning_of(kind: Any, path: str) -> str:
-    """Return the docstring of a field or property, given as `attribute` or `part.attribute`; an empty string if it has
-    no docstring.
-    """
+    """Return the docstring of a field or property, `attribute` or `part.attribute`; "" if it has none."""
     first, _, rest = path.partition(".")
     if rest:
         whole_kind = attribute_kind(kind, first)
@@ -262,9 +256,7 @@ def _object(properties: Mapping[str, Schema], required: Any, kind: type) -> Sche
 
 
 def _summary(what: Any) -> str:
-    """Return the first paragraph of a docstring as one line; an empty string for an object without a docstring in this
-    package.
-    """
+    """Return the first paragraph of a docstring as one line; "" for an object without a docstring in this package."""
     maker = getattr(what, "func", what)  # the function of a cached property
     own = getattr(maker, "__module__", "geartrain").startswith("geartrain")
     text = what.__doc__ if own and (isinstance(what, type | property) or maker is not what) else ""
@@ -320,9 +312,7 @@ class _Names(dict[str, Any]):
 
 @cache
 def _imports(module: ModuleType) -> dict[str, str]:
-    """Return a dictionary that maps each name that a module imports, including imports only for annotations, to the
-    module from which it is imported.
-    """
+    """Return the module from which each name of a module is imported, also for annotations only."""
     nodes = ast.walk(ast.parse(inspect.getsource(module)))
     return {name.name: node.module or "" for node in nodes if isinstance(node, ast.ImportFrom) for name in node.names}
 

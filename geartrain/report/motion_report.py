@@ -185,9 +185,7 @@ def _phase_range(tallies: list[RunningStatistics]) -> PhaseRange | None:
 
 
 def collect_motions(train: GearTrain) -> Iterator[MotionFigures | UnfollowedMotion]:
-    """Yield the motion in every state; yield nothing if the train has neither tooth forms nor pins with declared
-    dimensions.
-    """
+    """Yield the motion in every state; nothing for a train without tooth forms and without pins of known size."""
     if not ripples(train):
         return
     from geartrain.dynamics import MotionRun
@@ -255,9 +253,7 @@ def describe_motion(found: MotionFigures, every_output: bool = False) -> Documen
 
 
 def motion_document(found: Motion | MotionRun) -> Document | None:
-    """Return the output of `geartrain motion` for a run, or for the default run of a motion; None if the motion has no
-    run.
-    """
+    """Return the document of a run, or of the default run of a motion; None if the motion has no run."""
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.dynamics import MotionRun
 
@@ -313,9 +309,7 @@ def moving_sections(
 
 
 def _rigid(meshes: Iterable[GearMesh]) -> str:
-    """Return a sentence that lists, by tooth form, the pairs with a constant speed ratio; an empty string if all speed
-    ratios vary.
-    """
+    """Return a sentence that lists the pairs of constant speed ratio by tooth form; "" if all ratios vary."""
     forms: dict[str, list[str]] = {}
     for mesh in meshes:
         if mesh.rigid:
@@ -415,9 +409,7 @@ def _pairs(run: MotionRun, every_output: bool) -> Section:
 
 
 def _shares(motion: Motion, outputs: Sequence[str]) -> Table:
-    """Return a table of the contribution of each pair to the peak-to-peak deviation of the given outputs [deg
-    or mm].
-    """
+    """Return a table of each pair's contribution to the peak-to-peak deviation of some outputs [deg or mm]."""
     rows = []
     for source in motion._forward.used:
         driver = motion._problem.drivers[source.id]

@@ -114,9 +114,7 @@ def describe_pair(
 
 
 def _design(mesh: GearMesh, outlines: Sequence[WheelOutline]) -> PairDesign | None:
-    """Return the design of conjugate teeth; None for other tooth forms, and for a centre distance at which the ratio
-    varies.
-    """
+    """Return the design of conjugate teeth; None for other tooth forms, and at a distance at which the ratio varies."""
     if not isinstance(mesh, ConjugateMesh) or not mesh.rigid:
         return None
     from geartrain.teeth.conjugate.conjugate_mesh import PairDesign
@@ -144,9 +142,7 @@ def _outline(wheel: WheelOutline) -> Section:
 
 
 def describe_pin(transmission: PinTransmission) -> Document:
-    """Return a document on a pin in a slot, for a driving pin and for a driving slot: mean ratio, amplitude, speeds and
-    friction.
-    """
+    """Return a document on a pin in a slot: mean ratio, amplitude, speeds and friction, for either of them driving."""
     from geartrain.teeth.pair_results import pin_figures
 
     found = pin_figures(transmission)
@@ -186,9 +182,7 @@ def _share(efficiency: float | None) -> str:
 
 
 def triangular_sections(mesh: TriangularMesh, operation: PairOperation | None) -> Iterator[Section]:
-    """Yield the sections on a pair with triangular teeth. If the teeth never touch, yield only the sections on sizes
-    and clearance.
-    """
+    """Yield the sections on a pair of triangular teeth; only sizes and clearance if the teeth never touch."""
     transmission, window = mesh.transmission, mesh.window
     yield _sizes(transmission)
     if window is not None:
@@ -200,9 +194,7 @@ def triangular_sections(mesh: TriangularMesh, operation: PairOperation | None) -
 
 
 def triangular_verdict(mesh: TriangularMesh) -> str:
-    """Return a sentence that states whether the pair can turn. If it cannot, the sentence gives the reason and the
-    remedy.
-    """
+    """Return a sentence that says whether the pair can turn or, if not, gives the reason and the remedy."""
     transmission, found = mesh.transmission, mesh.transmission.verdict
     words = [f"Verdict: {found.kind}: {found.text}."]
     if not found:
@@ -275,9 +267,7 @@ def _path(transmission: TriangularTransmission) -> Section:
 
 
 def _course(mesh: TriangularMesh) -> Section:
-    """Return a section on the speed ratio, instant centre and moment arms, at the ends of contact intervals and between
-    the ends.
-    """
+    """Return a section on speed ratio, instant centre and moment arms at and between the ends of contact intervals."""
     found = contact_course(mesh.transmission, friction=pair_friction(mesh.wheels))
     angles, lengths = (found.alpha1, found.alpha2), (found.speed_ratio, found.instant_centre, found.driver_arm)
     columns = (each.tolist() for each in (*angles, *lengths, found.driven_arm, found.efficiency))
@@ -342,9 +332,7 @@ def _losses(mesh: TriangularMesh) -> Section:
 
 
 def _impacts(transmission: TriangularTransmission, operation: PairOperation | None) -> PairImpacts | None:
-    """Return the impacts under the operating conditions; None if no conditions are given or if the teeth
-    never touch.
-    """
+    """Return the impacts under operating conditions; None without conditions, or if the teeth never touch."""
     from geartrain.dynamics.motion.pair_impacts import find_pair_impacts
 
     return None if operation is None or not transmission.intervals else find_pair_impacts(transmission, operation)

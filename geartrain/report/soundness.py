@@ -64,9 +64,7 @@ class Soundness:
 
 
 def find_soundness(train: GearTrain, file: str, whole: bool = True) -> Soundness:
-    """Check every state of a train that was read from a file, and return the findings. Raise `GearTrainError` if
-    declared teeth cannot be made.
-    """
+    """Check every state of a train read from a file; raise `GearTrainError` if declared teeth cannot be made."""
     answers = list(train.answers())
     failures = [line for answer in answers for line in _failures(train, answer, file)]
     failures += map(str, build_errors(train.build_findings))
@@ -97,9 +95,7 @@ def _without_findings(train: GearTrain, whole: bool) -> str:
 
 
 def _failures(train: GearTrain, answer: Answer, file: str) -> Iterator[str]:
-    """Yield the failures of one state: its verdict if another verdict is expected, or each expectation that is
-    not met.
-    """
+    """Yield the failures of one state: an unexpected verdict, or each expectation that is not met."""
     state = f" state {answer.state}" if answer.state is not None else ""
     if not answer.as_expected:
         wanted = "" if answer.expected == "determined" else f", where `expect` says {answer.expected}"
@@ -118,9 +114,7 @@ def _failures(train: GearTrain, answer: Answer, file: str) -> Iterator[str]:
 
 
 def _neglected(train: GearTrain) -> Iterator[str]:
-    """Yield lines on the effects that computed torques neglect, for each loaded state; yield nothing if teeth cannot
-    turn.
-    """
+    """Yield lines on the effects that torques neglect in each loaded state; nothing if the teeth cannot turn."""
     if train.mechanics.faults:
         return
     for state in train.kinematics.usable_states:

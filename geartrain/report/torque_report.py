@@ -155,9 +155,7 @@ def collect_torques(train: GearTrain, found: Torques) -> TorqueFigures:
 
 
 def _belt_pulls(declared: Train, found: Torques) -> Iterator[tuple[str, float]]:
-    """Yield the name of each belt and its pull at the driven pulley [N], which is the torque divided by half of the
-    pitch diameter.
-    """
+    """Yield the name of each belt and its pull at the driven pulley [N]: twice the torque over the pitch diameter."""
     for belt in declared.couplings:
         if belt.kind != "belt" or any(size.unit is None for size in belt.lengths):
             continue
@@ -194,9 +192,7 @@ def describe_torques(found: TorqueReport) -> Document:
 
 
 def torques_document(found: Torques | TorqueCycle) -> Document | None:
-    """Return the output of `geartrain torques` for one state; None if the train that belongs to the result is not
-    known.
-    """
+    """Return the document of `geartrain torques` for one state; None if the train of the result is not known."""
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.dynamics import Torques
 
@@ -357,9 +353,7 @@ def _loops(flow: PowerFlow, amounts: _Amounts) -> Iterator[str]:
 
 
 def _losses(flow: PowerFlow, amounts: _Amounts, impact_power: Mapping[str, float]) -> Iterator[Table]:
-    """Yield a table of the losses of each pair and bearing, and of their total. Losses of impacts have separate
-    columns.
-    """
+    """Yield a table of the losses of each pair and bearing and of their total, with columns for losses of impacts."""
     if not flow.losses and not impact_power:
         return
     struck = {node: impact_power[node.name] for node in flow.nodes if node.kind == "pair" and node.name in impact_power}
@@ -391,9 +385,7 @@ def _loss_row(flow: PowerFlow, amounts: _Amounts, lost: Fraction, struck: float 
 
 
 def summary_text(torques: Torques) -> str:
-    """Return a text with the efficiency and the losses by cause, or with the reason why the efficiency is not
-    determined.
-    """
+    """Return the efficiency and the losses by cause as text, or why the efficiency is not determined."""
     if not torques.verdict or not torques.power_in:
         return torques.verdict.text
     lost = {"teeth": torques.loss - torques.bearing_loss, "bearings": torques.bearing_loss}
@@ -426,9 +418,7 @@ _MINIMUM = 1e-12  # relative to all losses: smaller amounts are rounding
 
 
 def cycle_sections(found: TorqueCycle) -> Iterator[Section]:
-    """Yield sections on the crank torque over the positions of `found`, on energies, and on the losses of each pair,
-    pin and bearing.
-    """
+    """Yield sections on crank torque over the positions of `found`, energies, and losses by pair, pin and bearing."""
     head = titled(found.state, "torque over a turn")
     lines = [f"Verdict: {found.verdict.kind}: {found.verdict.text}."]
     lines += [f"Not included: {each}: {each.why}." for each in found.neglected]
@@ -520,9 +510,7 @@ def _energies(found: TorqueCycle) -> Table:
 
 
 def energy_table(head: str, amounts: Mapping[str, float], whole: float, digits: int) -> Table:
-    """Return a table of energies and of their fractions of the total energy input `whole`. Amounts as small as rounding
-    errors are omitted.
-    """
+    """Return a table of energies and their fractions of the input `whole`, without those within rounding error."""
     rows = [
         (name, figure(value, digits), _share(value, whole))
         for name, value in amounts.items()

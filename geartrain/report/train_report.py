@@ -60,9 +60,7 @@ _SIDES = ("above", "below", "behind")  # viewing sides that are written without 
 
 
 def describe_train(found: TrainReport) -> Document:
-    """Return the report on a train: outputs, speeds, torques, strength and motion, followed by structure, fundamental
-    circuits, and errata of the published sources.
-    """
+    """Return the report on a train: outputs, speeds, torques, strength and motion, then structure and errata."""
     train, answers = found.train, found.states
     declared = train.declaration
     held = [f"{line[0].upper()}{line[1:]}." for line in train.kinematics.gridlock.lines()]
@@ -156,9 +154,7 @@ def _findings(train: GearTrain) -> Iterator[Section]:
 
 
 def _loaded(found: TrainReport) -> Iterator[Section]:
-    """Yield the sections on teeth, torques, strength and motion. The modules of these sections are imported only if
-    needed.
-    """
+    """Yield the sections on teeth, torques, strength and motion, whose modules are imported only if needed."""
     if found.teeth or found.pins:
         from geartrain.report.gear_pairs import teeth_sections
 
@@ -254,9 +250,7 @@ def _structure(train: GearTrain) -> Iterator[Section]:
 
 
 def _adjacency(train: GearTrain) -> Iterator[Section]:
-    """Yield a section with the adjacency matrix, one letter per cell; yield nothing if the matrix is wider than
-    a line.
-    """
+    """Yield a section with the adjacency matrix, one letter per cell; nothing if it is wider than a line."""
     links = list(train.declaration.links)
     if len(links) > _MOST_LETTERS:
         return
@@ -304,9 +298,7 @@ def _circuits(train: GearTrain) -> Section:
 
 
 def _abreast(declared: Train, circuits: Sequence[Circuit]) -> Table:
-    """Return a table with one column for each fundamental circuit, which contains its links, carrier, tooth counts and
-    ratio.
-    """
+    """Return a table with a column for each fundamental circuit: its links, carrier, tooth counts and ratio."""
     from geartrain.teeth.coupling import coupling_model
 
     wheels = declared.wheels
@@ -390,9 +382,7 @@ def _phasing(closure: MeshPhasing | None) -> Iterator[Section]:
 
 
 def adjacency_table(train: GearTrain) -> Table:
-    """Return a table of the adjacency matrix of links, with R(axis) for turning pairs, and names for gear pairs and
-    couplings.
-    """
+    """Return the adjacency matrix of links: R(axis) for turning pairs, names for gear pairs and couplings."""
     names = list(train.declaration.links)
     cells = adjacency_labels(train.declaration)
     return Table(("", *names), [(name, *row) for name, row in zip(names, cells, strict=True)], wide=True)
@@ -415,9 +405,7 @@ def describe_edges(train: GearTrain) -> Document:
 def describe_shared_page(
     found: TrainReport, pictures: Sequence[Picture] = (), viewer: str = "", notes: Sequence[str] = ()
 ) -> Document:
-    """Return the report on a train as a document for an HTML page, with pictures, viewer, verdict badge and linked
-    sources.
-    """
+    """Return the report on a train for an HTML page, with pictures, viewer, verdict badge and linked sources."""
     document, declared = describe_train(found), found.train.declaration
     badge, sound = _badge(found)
     wheels = tuple(_wheels_with_sources(declared))
@@ -448,9 +436,7 @@ def _badge(found: TrainReport) -> tuple[str, bool]:
 
 
 def _wheels_with_sources(declared: Train) -> Iterator[Section]:
-    """Yield a section with a table of wheels, their sources, status and notes; yield nothing if only tooth counts are
-    declared.
-    """
+    """Yield a table of wheels with sources, status and notes; nothing if only tooth counts are declared."""
     rows = []
     for name, (link, wheel) in declared.wheels.items():
         uncertainty = wheel.teeth if not isinstance(wheel.teeth, int) else None

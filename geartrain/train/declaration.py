@@ -558,18 +558,14 @@ class Train(Declared):
         return in_unit(speed, self.input_unit)
 
     def _is_exact(self, speed: Quantity) -> bool:
-        """Return True if a speed can be expressed exactly in the train's unit; False if radians are converted to turns,
-        or turns to radians.
-        """
+        """Return True if a speed is exact in the train's unit; False if radians are converted to turns or back."""
         return not speed.value or same_kind(
             as_rotation(speed).unit, None if self.unit is not None else self.input_unit or None
         )
 
     @cached_property
     def input_unit(self) -> str:
-        """Unit in which the speeds of inputs are shown: the unit of the first input whose speed is not 0, else of the
-        first input; "" if inputs have no unit.
-        """
+        """Unit of input speeds: that of the first input that is not 0, else of the first input; "" if there is none."""
         groups = [own.inputs for own in self.states.values() if own.inputs is not None]
         # the train's inputs are unused if every state has its own
         if len(groups) == len(self.states) and groups:
@@ -643,9 +639,7 @@ class Train(Declared):
 
     @property
     def travel_unit(self) -> str:
-        """Unit of the speeds of sliding links, such as `mm per tropical year` or `mm/min`; `mm`, for mm per turn, if
-        speeds have no unit.
-        """
+        """Unit of the speeds of sliding links, such as `mm/min`; `mm`, for mm per turn, if speeds have no unit."""
         name = self.unit_name.replace("rpm", "turn/min")
         return re.sub("^turns?", "mm", name) or "mm"
 
@@ -677,16 +671,12 @@ class Train(Declared):
 
 
 def wheel_thickness(train: Train, wheel: Wheel) -> Quantity | None:
-    """Return the thickness of a wheel along its axis: its declared thickness, else its face width, else the thickness
-    or face width of the train; None if none of them is declared.
-    """
+    """Return the thickness of a wheel, else its face width, else thickness or face width of the train; else None."""
     return wheel.thickness or wheel.face_width or train.thickness or train.face_width
 
 
 def face_width(train: Train, wheel: Wheel) -> Quantity | None:
-    """Return the face width of a wheel: its declared face width, else its thickness, else the face width or thickness
-    of the train; None if none of them is declared.
-    """
+    """Return the face width of a wheel, else its thickness, else face width or thickness of the train; else None."""
     return wheel.face_width or wheel.thickness or train.face_width or train.thickness
 
 

@@ -135,7 +135,14 @@ def formatted(path: Path, long: bool = False) -> tuple[str, str]:
 
 
 def _build(root: YamlNode, folder: Path, chain: tuple[Path, ...], stem: str) -> Train:
-    node = _with_parents(root, folder, chain)
+    """Return the train of a declaration, merged with the chain of its parents, beginning with the oldest ancestor."""
+    # short forms are expanded first, because entries are merged key by key
+    line = [written_out(root), *(written_out(parent) for _, parent in _parents(root, folder, chain))]
+    node = line.pop()
+    if line:
+        from geartrain.train.inheritance import merge_parent
+    while line:
+        node = merge_parent(node, line.pop())
     _complete_table_paths(node)
     data = node.plain()
     data.setdefault("name", stem)
@@ -162,22 +169,8 @@ def files_of(path: Path) -> tuple[Path, ...]:
     return path, *(parent for parent, _ in _parents(child, path.parent, (path.resolve(),)))
 
 
-def _with_parents(child: YamlNode, folder: Path, chain: tuple[Path, ...]) -> YamlNode:
-    """Return a declaration merged with the chain of its parents, beginning with the oldest ancestor."""
-    # short forms are expanded first, because entries are merged key by key
-    line = [written_out(child), *(written_out(node) for _, node in _parents(child, folder, chain))]
-    result = line.pop()
-    if line:
-        from geartrain.train.inheritance import merge_parent
-    while line:
-        result = merge_parent(result, line.pop())
-    return result
-
-
 def _parents(node: YamlNode, folder: Path, chain: tuple[Path, ...]) -> Iterator[tuple[Path, YamlNode]]:
-    """Yield the path and the node of each ancestor reached by `extends`. Raises `DeclarationError` for a cycle or a
-    chain that is too long.
-    """
+    """Yield path and node of each ancestor by `extends`; raise `DeclarationError` for a cycle or a long chain."""
     met = dict.fromkeys(chain)
     for at in count():
         if "extends" not in node.mapping:
@@ -273,10 +266,8 @@ def _read(path: Path) -> str:
             Problem("this is a directory", "a declaration is read from a single file", "name a .yaml file in it", place)
         ) from None
     except OSError as error:
-        problem = Problem(
-            "the file cannot be read", error.strerror or str(error), "check its path and permissions", place
-        )
-        raise DeclarationError(problem) from None
+        why, fix = error.strerror or str(error), "check its path and permissions"
+        raise DeclarationError(Problem("the file cannot be read", why, fix, place)) from None
     try:
         # utf-8-sig, because some editors write a byte order mark
         text = raw.decode("utf-8-sig")

@@ -35,9 +35,7 @@ class _Entry:
 
 
 def with_short_forms(text: str) -> str:
-    """Rewrite a declaration in short form: turning pairs are grouped by axis, and gear pairs and belts without other
-    keys are written as `a ~ b`.
-    """
+    """Rewrite a declaration: turning pairs grouped by axis, gear pairs and belts without other keys as `a ~ b`."""
     joints = {key: partial(_short_joints, key=key) for key in JOINTS}
     gears = partial(_pairs, write=_short_pair)
     return _rewritten(text, {**joints, "gears": gears, "couplings": _short_belts})

@@ -157,9 +157,7 @@ Nothing = BeforeValidator(lambda raw: {} if raw is None else raw)
 
 @cache
 def _union_reader(key: str, *names: str) -> TypeAdapter[Any]:
-    """Return the validator of the union of the named tooth forms (key `form`) or couplings (key `kind`). Only the
-    models of these names are imported.
-    """
+    """Return the validator of the named tooth forms (key `form`) or couplings (key `kind`); import no others."""
     model = tooth_form if key == "form" else coupling_model
 
     class Models:
@@ -185,9 +183,7 @@ def read_friction(raw: object) -> Any:
 
 
 def _has_law_keys(keys: Mapping[Any, Any]) -> bool:
-    """Return True if the key `law` is given, possibly misspelt, or if most keys belong to friction laws; False if all
-    keys belong to Coulomb friction.
-    """
+    """Return True if a key is `law`, possibly misspelt, or if most keys are those of friction laws."""
     if any(key == "law" or nearest_names(str(key), ("law",)) for key in keys):
         return True
     if all(key in CoulombFriction.model_fields for key in keys):
@@ -203,18 +199,13 @@ def _serialize_friction(friction: Any) -> Any:
 
 
 def _read_tooth_form(raw: Any) -> Any:
-    """Read a tooth form from a mapping of its keys, or from its name, with default values.
-
-    An unknown name is validated against all forms, so that the error lists their names.
-    """
+    """Read a tooth form from its keys or its name; an unknown name is validated against all forms, to list them."""
     keys = {"form": raw} if isinstance(raw, str) else raw
     return _read_model(keys, "form", form_names)
 
 
 def _read_coupling(raw: Any) -> Any:
-    """Read a coupling from a mapping of its keys. An unknown kind is validated against all kinds, so that the error
-    lists them. A coupling with `ratio` and without `kind` has the kind `ratio`.
-    """
+    """Read a coupling from its keys; a coupling with `ratio` and without `kind` is of the kind `ratio`."""
     if isinstance(raw, dict) and "ratio" in raw and "kind" not in raw:
         raw = {"kind": "ratio", **raw}
     return _read_model(raw, "kind", lambda _: COUPLINGS)

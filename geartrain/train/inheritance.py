@@ -151,9 +151,7 @@ def _merge_lists(old: YamlNode, new: YamlNode, key: str) -> YamlNode:
 
 
 def _apply_remove(root: YamlNode, remove: YamlNode) -> YamlNode:
-    """Return the parent without the parts named by `remove`. A link is removed together with its wheels, joints, pairs
-    and couplings.
-    """
+    """Remove parts from the parent; a link is removed together with its wheels, joints, pairs and couplings."""
     gone: dict[str, list[object]] = {key: list(texts(node)) for key, node in remove.mapping.items()}
     for key in (key for key in JOINTS if key in remove.mapping):
         # joints have no names, and are removed by their two links

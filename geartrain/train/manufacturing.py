@@ -87,9 +87,7 @@ class Material(Declared):
 
     @property
     def hardness_pressure(self) -> float | None:
-        """Vickers hardness expressed as a pressure [Pa]: force divided by the surface area of the indentation; None if
-        it is not declared.
-        """
+        """Vickers hardness as a pressure [Pa]: force divided by the area of the indentation; None if not declared."""
         return None if self.hardness is None else float(self.hardness.value) * _VICKERS
 
 

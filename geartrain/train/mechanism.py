@@ -261,9 +261,7 @@ class Teeth(Declared):
 
     @property
     def allowed(self) -> tuple[int, ...]:
-        """All tooth counts that the evidence allows. It is empty if the tooth count is certain, or if `range` contains
-        more than 10^6 counts.
-        """
+        """All tooth counts that the evidence allows; empty if the count is certain or `range` has over 10^6 counts."""
         if self.choices is not None:
             return self.choices
         # a wider range is not enumerated, because its tuple would need much memory

@@ -132,10 +132,7 @@ class SpringDrive(Declared):
         )
 
     def torque(self, unwound: float) -> float:
-        """Return the torque on the driving link after it has turned by a given angle in the driving direction [N m].
-
-        unwound   angle by which the link has turned [rad]
-        """
+        """Return the torque on the driving link [N m] after it has turned by `unwound` [rad] as it is driven."""
         if (chained := self.chained) is not None:
             return chained.torque(unwound)
         return self.stiffness.si * (tau * float(self.turns.value) - unwound)
@@ -234,9 +231,7 @@ class Drive(Declared):
 
     @property
     def arm(self) -> float | None:
-        """Descent of the weight per radian of its drum [m]: lever arm of the line divided by the number of falls of the
-        line. None for other drives, and for a weight that is a link of the train.
-        """
+        """Descent of the weight per radian of its drum [m]; None for other drives, and for a weight that is a link."""
         return None if self.drum is None else self.drum.si / self.falls
 
     @property
@@ -318,9 +313,7 @@ class Escapement(Declared):
 
     @model_validator(mode="after")
     def _check_pendulum(self) -> Escapement:
-        """Check that the length l of the pendulum agrees with the beat, pi sqrt(l/g), where g is the gravity; a rod
-        with mass makes the beat slightly shorter.
-        """
+        """Check that the pendulum's length l agrees with the beat pi sqrt(l/g); a rod with mass shortens the beat."""
         if self.deadbeat is not None and self.recoil is not None:
             exactly_one(self, "an escapement", ("deadbeat", "recoil"), "kind")
         if self.pendulum is not None:
@@ -479,10 +472,7 @@ class OneWayAction(Result):
         return self.required and not self.holds
 
     def text(self, unit: str = "") -> str:
-        """Return the behaviour as text, such as `F holds (1.48 N m)` or `F overruns at 0.473`.
-
-        unit   unit of speeds
-        """
+        """Return the behaviour as text, with speeds in `unit`: `F holds (1.48 N m)` or `F overruns at 0.473`."""
         if self.holds:
             amount = "" if self.torque is None else f" ({f'{decimal(self.torque, 6)} {self.torque_unit}'.strip()})"
             amount = " without torque" if self.torque == 0 else amount

@@ -194,9 +194,7 @@ def _wheel_pair(raw: Any) -> str:
 
 
 def _without_space(loc: Loc, value: Any) -> str:
-    """Return the first key in a path that was probably written without a space after its colon. Such a key contains a
-    colon, and it has no value or begins with a known key. The result is empty if there is none.
-    """
+    """Return the first key of a path that probably lacks a space after its colon; "" if there is none."""
     for at, step in enumerate(loc):
         start, colon, _ = str(step).partition(":")
         if colon and (value is None or isinstance(value, dict) or start in _keys_at(loc[:at])):
@@ -211,18 +209,16 @@ def unknown_tag(error: Mapping[str, Any]) -> tuple[str, tuple[str, ...]]:
 
 
 def _where(loc: Loc) -> str:
-    return f"`{dotted(_real_steps(loc))}`" if loc else "the declaration"
-
-
-def _real_steps(loc: Loc) -> Loc:
-    """Return the path without the tags that pydantic inserts for unions, which do not occur in the file."""
+    """Return the path of a value, without the tags that pydantic inserts for unions, which do not occur in the file."""
+    if not loc:
+        return "the declaration"
     tags = {"count", "doubt", *COUPLINGS, *form_names(), *_laws()}
 
     def is_inserted(at: int) -> bool:
         after_union = at > 0 and loc[at - 1] in ("teeth", "tooth_form", "friction")
         return loc[at] in tags and (after_union or (at > 1 and loc[at - 2] == "couplings"))
 
-    return tuple(step for at, step in enumerate(loc) if not is_inserted(at))
+    return f"`{dotted(tuple(step for at, step in enumerate(loc) if not is_inserted(at)))}`"
 
 
 def _keys_at(loc: Loc) -> Iterator[str]:
@@ -296,9 +292,7 @@ def written_out(root: YamlNode) -> YamlNode:
 
 
 def _with_belts(root: YamlNode) -> YamlNode:
-    """Return the declaration with the entries of `belts` added to its couplings. Raises `DeclarationError` for entries
-    that are not two wheels separated by a tilde.
-    """
+    """Return the declaration with `belts` added to its couplings; raise an error if an entry is not `a ~ b`."""
     belts = root.mapping.get("belts")
     if belts is None or not belts.items:
         return root

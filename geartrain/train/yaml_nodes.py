@@ -77,9 +77,7 @@ class YamlNode:
 
 @collector_paused()
 def parse_yaml(text: str, name: str) -> YamlNode:
-    """Parse `text` as one YAML document; `name` is the file name in the places of the nodes. Raises `DeclarationError`
-    for invalid YAML.
-    """
+    """Parse one YAML document; the places of its nodes contain the file name `name`. Invalid YAML raises an error."""
     reader = _Reader(name, yaml.parse(text, Loader=_Loader))
     try:
         node = reader.document()
@@ -149,9 +147,7 @@ class _Reader:
         return node
 
     def _node(self, event: Any, depth: int) -> YamlNode:
-        """Convert the value that begins with an event, inside `depth` collections. An alias is replaced by the node to
-        which it refers.
-        """
+        """Convert the value that begins with an event, inside `depth` collections, or return the node of an alias."""
         place = f"{self.name}:{event.start_mark.line + 1}"
         self.values += 1
         if self.values > MOST_VALUES:

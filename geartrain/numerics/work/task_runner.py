@@ -225,9 +225,7 @@ class _Run:
         return self.executor.width if isinstance(self.executor, WorkerPool) else cores()
 
     def _fill(self) -> None:
-        """Submit as many tasks as the limits allow. A task during which a worker died is run without others, so that a
-        task that kills workers is identified.
-        """
+        """Submit as many tasks as the limits allow; a task during which a worker died runs without other tasks."""
         if any(each.deaths for each in self.pending.values()):
             return
         if self.again:

@@ -56,11 +56,7 @@ def nearest_names(name: str, known: Iterable[str], wide: bool = False) -> list[s
 
 
 def suggest(name: str, known: Iterable[str], otherwise: str = "", wide: bool = False) -> str:
-    """Return a suggestion for an unknown name, which is used as the `fix` of a problem.
-
-    The suggestion lists similar known names. If there are none, it is `otherwise` if given, else a list of the known
-    names if there are at most 30, else "correct the name".
-    """
+    """Return a suggestion for an unknown name: similar known names, else `otherwise` or the list of known names."""
     known = tuple(dict.fromkeys(known))
     if close := nearest_names(name, known, wide):
         return f"did you mean {' or '.join(map(repr, close))}?"

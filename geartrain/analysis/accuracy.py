@@ -1,8 +1,6 @@
 """Error and run time of the computation methods for speeds, motion and torques of one train.
 
-Each method is compared with the most accurate method of its stage: exact speeds, motion composed from transmission
-functions, or torques computed at many positions of one revolution. The scripts in docs/scripts/studies/ measure whole
-families of trains.
+Each method is compared with the most accurate method of its stage. docs/scripts/studies/ measures families of trains.
 """
 
 from __future__ import annotations
@@ -50,9 +48,7 @@ class MethodAccuracy(Shown):
     reference: str
     """Reference of the comparison: another method, the method's own error estimate, or the power balance."""
     prepared: float | None = None
-    """Run time of preparations, such as the computation of tooth shapes, which is not included in `seconds` [s]; None
-    if the method needs no preparations.
-    """
+    """Run time of preparations, which `seconds` does not include [s]; None if there are none."""
     ratio: float = 1.0
     """Run time divided by the run time of the fastest method of the stage."""
 
@@ -179,9 +175,7 @@ def _measure_motion(train: GearTrain, state: str | None, positions: int) -> Iter
 
 
 def _measure_torques(train: GearTrain, state: str | None, _: int) -> Iterator[MethodAccuracy]:
-    """Yield the accuracy of the methods for torques: torque balance with losses, and mean torque over a run, computed
-    with different numbers of positions.
-    """
+    """Yield the accuracy of the methods for torques: balance with losses, and means over numbers of positions."""
     if not train.declaration.is_loaded(state):
         raise QuestionError(Problem("no loads are declared"))
     # a new train in each run, because results are cached

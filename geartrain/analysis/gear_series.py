@@ -31,9 +31,7 @@ class PossibleGear(Result):
     ratio: Fraction | None
     """Speed of the input divided by the speed of the output; None if the output is at rest."""
     states: tuple[str, ...]
-    """Names of the declared states in which exactly these shift elements are closed; empty if the gear is not
-    declared.
-    """
+    """Names of the declared states with exactly these elements closed; empty for an undeclared gear."""
 
 
 @dataclass(frozen=True)
@@ -99,9 +97,7 @@ class GearSearch(Tabular, Result):
     combinations: int
     """Number of combinations of `closed` shift elements. All of them were examined."""
     gears: tuple[PossibleGear, ...]
-    """All gears: forward gears, then reverse gears, both in order of decreasing magnitude of the ratio, then gears
-    whose output is at rest.
-    """
+    """Forward gears, reverse gears, both by decreasing magnitude of the ratio, then gears with the output at rest."""
     free: tuple[tuple[str, ...], ...] = ()
     """Combinations of `closed` shift elements that leave some speeds undetermined."""
     locked: tuple[tuple[str, ...], ...] = ()
@@ -113,9 +109,7 @@ class GearSearch(Tabular, Result):
     widest: GearSeries | None = None
     """Gear series with the maximum spread; None if no series satisfies the request."""
     evenest: GearSeries | None = None
-    """Gear series with the minimum standard deviation of the logarithmic steps; None if no series satisfies the
-    request.
-    """
+    """Series with the minimum standard deviation of the logarithmic steps; None without any series."""
 
     def _summary(self) -> str:
         ways = f"{self.combinations} combinations of {self.closed} closed elements"
@@ -123,9 +117,7 @@ class GearSearch(Tabular, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Columns of a table with one row for each gear: closed elements, ratio (None if the output is at rest), exact
-        ratio, and declared states.
-        """
+        """Columns of a table with a row for each gear: closed elements, ratio (None at rest), exact ratio, states."""
         return {
             "closed": [", ".join(gear.engaged) for gear in self.gears],
             "ratio": [None if gear.ratio is None else as_float(gear.ratio) for gear in self.gears],
@@ -203,10 +195,9 @@ def _is_single(one: PossibleGear, other: PossibleGear) -> bool:
 
 
 def _all_gears(train: GearTrain, source: str, link: str) -> GearSearch:
-    """Return all gears that have the minimum number of closed elements, without a search for series.
+    """Return all gears with as many closed elements as determine all speeds.
 
-    This is the number of closed elements that is required to determine all speeds. All such combinations have the same
-    size, because they are the bases of a matroid.
+    All such combinations have the same size, because they are the bases of a matroid.
     """
     declared = train.declaration
     names: dict[frozenset[str], list[str]] = {}
@@ -258,13 +249,9 @@ def _links(gears: Sequence[PossibleGear], low: Fraction, high: Fraction, single:
 
 
 _Found = tuple[int, GearSeries | None, GearSeries | None]
-"""Number of series, series with the maximum spread, and series with the minimum deviation. Both series are None if
-there is no series.
-"""
+"""Number of series, and the series of maximum spread and of minimum deviation, both None without a series."""
 _Way = tuple[float, int, tuple[int, ...]]
-"""Sum of squares or variance of the logarithmic steps, number of double shifts, and indices of the gears of a
-series.
-"""
+"""Sum of squares or variance of the logarithmic steps, double shifts, and indices of the gears of a series."""
 
 
 def _series(gears: Sequence[PossibleGear], links: Links, number: int) -> _Found:

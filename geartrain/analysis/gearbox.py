@@ -42,9 +42,7 @@ class GearState(Result):
     verdict: Verdict
     """Verdict on the speeds. A neutral state is free, and a park state is locked."""
     ratio: Fraction | None
-    """Speed of the input divided by the speed of the output [1]; None if one of the two links is at rest or its speed
-    is undetermined.
-    """
+    """Speed of the input divided by that of the output [1]; None if one is at rest or undetermined."""
     step: Fraction | None
     """Ratio of this state divided by the ratio of the next state [1]. None if this is the last state, if one of the two
     states has no ratio, or if the ratios have opposite signs.
@@ -75,9 +73,7 @@ class GearState(Result):
     one body. None if the torques are not determined.
     """
     one_way: tuple[str, ...] = ()
-    """Names of the one-way clutches that are engaged and transmit a torque. They remain engaged only while the input
-    drives.
-    """
+    """Names of the one-way clutches that transmit a torque, which they do only while the input drives."""
 
     @property
     def applied(self) -> tuple[str, ...]:
@@ -176,9 +172,7 @@ class Gearbox(Tabular, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Columns of a table with one row for each state: closed elements, ratio, step, efficiency, recirculating
-        power, and speeds of the links divided by the speed of `driven_by`.
-        """
+        """Columns of a table with a row for each state: closed elements, ratios, efficiency, power, and link speeds."""
         links = dict.fromkeys(link for each in self.states for link in each.speeds)
         numbers = {
             name: [_optional_float(getattr(each, name)) for each in self.states]
@@ -272,9 +266,7 @@ def _state(train: TrainMechanics, answer: Answer, source: str, link: str) -> Gea
 
 
 def _slip(speeds: Mapping[str, Fraction], clutch: Clutch) -> Fraction | None:
-    """Return the slip speed of a clutch (its first link relative to its second) or of a brake (its link) in the unit of
-    `speeds`; None if it is undetermined.
-    """
+    """Return the slip of a clutch (first relative to second link) or brake; None if it is undetermined."""
     one, other = clutch.locks or (clutch.fixes or "", "")
     if one not in speeds or (other and other not in speeds):
         return None

@@ -39,9 +39,7 @@ class TrainVariants(Tabular, Result):
     outputs: tuple[str, ...]
     """Names of the outputs, in the order of the columns of `speeds` and `errors`."""
     counts: Ints
-    """Tooth counts, one combination per row, shape (n, wheels), where n is the number of combinations; the tooth count
-    of the last wheel varies fastest.
-    """
+    """Tooth counts, shape (combinations, wheels); the count of the last wheel varies fastest."""
     speeds: Floats
     """Speeds of the outputs [unit of the train], shape (n, outputs), where n is the number of combinations. NaN if the
     train is locked or free, or if the tooth counts do not satisfy the condition of a closed loop.

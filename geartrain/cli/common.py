@@ -77,14 +77,12 @@ def load_all(files: list[str]) -> list[GearTrain]:
 
 
 def is_sound(train: GearTrain, state: str | None) -> bool:
-    """Return True if the speeds in the named state (None: the first state) are determined and as expected, and no teeth
-    are faulty.
-    """
+    """Return True if a state (None: the first) has determined and expected speeds, and no teeth are faulty."""
     return bool(train.solve(train.declaration.state_or_first(state))) and not train.mechanics.faults
 
 
 def exit_code(sound: bool, to: Sink) -> int:
-    """Return the exit code of a command; if `sound` is False and the output is a file, print a note on that too."""
+    """Return the exit code of a command; if `sound` is False, also note on stderr that a written train has failures."""
     if not sound and to.path is not None:
         tell("a train is not determined, or not as expected: `geartrain check` lists why (exit code 1)")
     return GOOD if sound else VERDICT

@@ -311,11 +311,7 @@ def _compare(
     files: tuple[Sink, Path | None, ThemeName, bool],
     json: bool,
 ) -> NoReturn:
-    """Compare the loss, stress, heat, flash temperature and tooth depth of several tooth forms with the values of the
-    20 degree involute, then exit.
-
-    All forms are compared at the same tooth counts and the same arcs of approach and recess.
-    """
+    """Compare losses, stresses, heat and depth of several tooth forms with the 20 degree involute, then exit."""
     from geartrain.report.conjugate_pair_page import describe_form_comparison
     from geartrain.teeth.form_comparison import USUAL, compare_forms
 

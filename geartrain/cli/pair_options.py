@@ -94,11 +94,7 @@ def read_assignments(texts: Iterable[str], known: Sequence[str], option: str, fi
 
 
 def read_form(model: type[ToothForm], given: Mapping[str, str]) -> ToothForm:
-    """Create the tooth form from the given parameters, with default values for missing parameters that a declaration
-    must give.
-
-    Raises `GearTrainError` with the location `-p KEY`.
-    """
+    """Create the tooth form from parameters; errors have the location `-p KEY`."""
     fields = model.model_fields
     try:
         return model.declared(model.with_defaults({name: _value(fields[name], each) for name, each in given.items()}))
@@ -241,11 +237,7 @@ BLANK = ("bore", "tolerance", "clearance", "fillet", "rim")
 
 
 def write_profile(mesh: GearMesh, wheel: int, blank: Mapping[str, str], to: Sink) -> list[WheelOutline]:
-    """Write the outline of a wheel and return it in a list. If no file is named, nothing is written, and the list is
-    empty.
-
-    `blank` contains sizes of the wheel as text, keyed by name.
-    """
+    """Write the outline of a wheel with the sizes `blank`, and return it in a list; [] if no file is named."""
     if to.path is None:
         return []
     from geartrain.drawing import outline_text
@@ -277,9 +269,7 @@ class PairFrictionOption:
     law: FrictionLaw | None = None
 
     def number(self, option: str) -> float:
-        """Return the coefficient of friction. For a friction law, raise `GearTrainError` with the name of the `option`
-        that needs a coefficient.
-        """
+        """Return the coefficient of friction; raise an error for a law, because `option` needs a coefficient."""
         if self.law is not None:
             what, fix = f"{option} needs a coefficient of friction", "for example, give --friction 0.1"
             raise option_error("--friction", what, fix, "a friction law is given")

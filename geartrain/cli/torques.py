@@ -196,11 +196,7 @@ def _table(found: TorqueCycle) -> str:
 
 
 def _draw(train: GearTrain, found: Sequence[Torques], over_turn: TorqueCycle | None, picture: Sink) -> None:
-    """Draw the torque over the requested revolutions, or the power flow if no revolutions are requested.
-
-    The power flow is computed for the declared loads, or for a unit of power from input to output if no loads are
-    declared.
-    """
+    """Draw the torque over the requested revolutions or, without them, the power flow."""
     from geartrain.drawing.output_error_plots import torque_cycle_figure
     from geartrain.drawing.power_sankey import power_figure
     from geartrain.dynamics.torques.power_flow import watts_per_unit

@@ -251,8 +251,7 @@ def guarded(run: Callable[[], Any]) -> int:
 def _interrupted() -> int:
     """Return the exit code for Ctrl-C, after clearing CPython's record of the interrupt.
 
-    CPython records an interrupt during the evaluation of a string, as in dataclasses and numba, even if it is caught,
-    and `python -m` is then killed by the signal at exit. The next evaluation of a string clears this record.
+    An interrupt during the evaluation of a string is recorded even if it is caught, and kills `python -m` at exit.
     """
     eval("0")
     return INTERRUPTED

@@ -2,10 +2,6 @@
 
 A sum of n terms with at most r roundings each has an error of at most (r + n) u / (1 - (r + n) u) times the sum of
 the absolute terms (Higham, Accuracy and Stability of Numerical Algorithms, 2nd edition, sections 3.1 and 4.2).
-Callers that need more than these bounds recompute the uncertain points exactly.
-
-Points are not stored here. A function `product` returns the values of a monomial at all points, so that products
-shared between polynomials are multiplied only once.
 """
 
 from __future__ import annotations
@@ -21,9 +17,7 @@ from geartrain.numerics.exact import log10
 from geartrain.numerics.rounding_bounds import SLACK, UNIT_ROUNDOFF
 
 Monomial = tuple[tuple[int, int], ...]
-"""Product of powers of variables, as pairs (variable, power) in ascending order of variables. Powers are positive or
-negative, never 0.
-"""
+"""Product of powers of variables, as pairs (variable, power) in ascending order of variables; no power is 0."""
 
 WholeTerm = tuple[int, tuple[int, ...]]
 """Term with an integer coefficient, and the exponents of all variables."""

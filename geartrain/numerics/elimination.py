@@ -19,9 +19,7 @@ PRIME = (1 << 61) - 1
 """Mersenne prime. The rank modulo it is a lower bound on the rank, and equals it except with probability 1e-18."""
 
 LinearForm = dict[int, Fraction]
-"""Linear form as a mapping from column to coefficient. Columns >= 0 are unknowns. Columns < 0 are symbols, which are
-treated as known.
-"""
+"""Linear form as column -> coefficient; columns >= 0 are unknowns, columns < 0 are symbols with known values."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -226,10 +224,7 @@ def rank_modulo(rows: Iterable[Mapping[int, Fraction]], modulus: int = PRIME) ->
 
 
 def feasible(forms: Sequence[Mapping[int, Fraction]], constant: int = -1) -> bool:
-    """Return True if there are values of the unknowns for which no linear form is negative, by phase 1 of the simplex
-    method.
-
-    Bland's rule, by which the entering and the leaving variables have the lowest possible index, prevents cycling.
+    """Return True if there are values of the unknowns for which no linear form is negative (simplex method, phase 1).
 
     forms      linear forms; columns >= 0 are unknowns of either sign
     constant   column of the constant term

@@ -1,8 +1,6 @@
 """Numbers that are stored as short ratios to other numbers and multiplied out on access.
 
-Along a train, every speed is the speed of a neighbouring link times a ratio of tooth counts. If the factors do not
-cancel, the speed after a thousand links has thousands of digits, and storage of all speeds takes quadratic memory. Each
-number is therefore stored as a short ratio to an earlier one.
+The speed after a thousand links has thousands of digits, and storage of all speeds would take quadratic memory.
 """
 
 from __future__ import annotations

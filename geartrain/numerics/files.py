@@ -1,10 +1,7 @@
 """Files: atomic output of results, tables as CSV and Parquet, and input of points and edges.
 
-A file is written completely or not at all, and overwrites another file only on request. `destination` returns the path
-of the file, or raises an error if it cannot be written. `write_bytes` and `place` write a temporary file next to it,
-flush it to disk, and rename it in one step, so that a reader sees either the old or the new file. `write_folder` does
-the same for many files. Long tables are written in chunks to a file whose name contains `partial` until they are
-complete; an interrupted CSV file can be resumed. All rows of CSV files are formatted here.
+A file is written completely or not at all, and overwrites another file only on request. An interrupted long table
+remains in a file whose name contains `partial`; a CSV file can be resumed.
 """
 
 from __future__ import annotations
@@ -84,11 +81,7 @@ def write_bytes(path: Path, data: bytes, force: bool = False) -> None:
 
 
 def place(temporary: Path, path: Path, force: bool = False) -> None:
-    """Rename a finished temporary file on the same disk to `path`, after the checks of `destination`.
-
-    The permissions of an overwritten file are kept. Raises `GearTrainError` if a check fails, and `OSError` for disk
-    errors.
-    """
+    """Rename a finished temporary file on the same disk to `path`, after the checks of `destination`."""
     real = destination(path, force)
     with temporary.open("rb") as file:
         # before renaming: a power failure could otherwise leave the new name with an empty file
@@ -204,11 +197,9 @@ def check_folder(folder: Path, names: Sequence[str], force: bool = False) -> Non
 
 
 def write_folder(folder: Path, files: Iterable[tuple[str, bytes]], force: bool = False) -> int:
-    """Write named files to a folder and return their number.
+    """Write named files to a folder and return their number; existing files are overwritten only with `force`.
 
-    The files are created in a temporary folder next to the destination and moved when all are complete, so that an
-    error leaves the destination unchanged. Existing files are overwritten only with `force`. Raises `GearTrainError` if
-    a file cannot be written.
+    The files are created in a temporary folder and moved when all are complete, so that an error changes nothing.
     """
     made: list[str] = []
     try:

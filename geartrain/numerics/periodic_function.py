@@ -1,8 +1,6 @@
 """Periodic functions of one variable, given by points, harmonics or functions, with their derivatives and extremes.
 
-Points are interpolated by a periodic cubic spline, by the monotone cubics of Fritsch and Carlson (PCHIP), by straight
-lines, or by steps. Extremes between the points are also found: every smooth interval is sampled more finely than the
-function varies, and each stationary point is found as a bracketed root of the derivative between two samples.
+Extremes between points are found as bracketed roots of the derivative between samples.
 """
 
 from __future__ import annotations

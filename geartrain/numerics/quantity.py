@@ -581,6 +581,4 @@ PairStiffness = Annotated[MeshStiffness, above_zero("give a stiffness above 0, s
 """Stiffness of a tooth pair: torque on the driven wheel per angle, or force per displacement on the line of action."""
 
 PairDamping = Annotated[MeshDamping, not_below_zero("give a damping of 0 or more")]
-"""Damping of a tooth pair: torque on the driven wheel per angular velocity, or force per velocity along the line of
-action.
-"""
+"""Damping of a tooth pair: torque on the driven wheel per angular velocity, or force per velocity of the flanks."""

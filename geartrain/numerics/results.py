@@ -1,10 +1,6 @@
 """Base classes of results: display at the prompt and in notebooks, plain data for JSON, tables and figures.
 
-`Shown` results have a `repr` of one line, print the text of the command that computes them, and are displayed as tables
-in a notebook. `Result` converts fields, or the keys in the `KEYS` of a class, to plain data. Exact numbers become
-strings with all digits, arrays and tuples become lists, and results become objects. None remains None. `Tabular`
-results have columns, which can be converted to a pandas DataFrame, a numpy record array or an HTML table. `Pictured`
-results contain the name of the function that draws them, which is imported when it is called.
+In plain data exact numbers are strings with all digits, arrays and tuples are lists, and results are objects.
 """
 
 from __future__ import annotations
@@ -39,10 +35,7 @@ class Shown:
     __slots__ = ()
 
     PAGE: ClassVar[str] = ""
-    """Name `package.module:function` of the function that describes the result as a document; it may return None.
-
-    The string is empty if no command prints such a result.
-    """
+    """Name `package.module:function` of the function that describes the result as a document; "" without a page."""
     TEXT: ClassVar[str] = ""
     """Name of the function that returns the text of the command, if this is not the text of the document; else ""."""
 
@@ -295,13 +288,9 @@ def _cell(value: object) -> str:
 
 
 def imported_function(module: str, name: str) -> Callable[..., Any]:
-    """Import the function that draws or describes a result, by name.
+    """Import the function or class `name` of a module of `geartrain` that draws or describes a result.
 
-    Drawing modules import computing modules, but not the reverse. So results call drawing code only by name through
-    this function, when they are displayed.
-
-    module   module or package in `geartrain`
-    name     name of the public function or class in it
+    Drawing modules import computing modules, but not the reverse; results call them only when they are displayed.
     """
     found: Callable[..., Any] = getattr(import_module(f"geartrain.{module}"), name)
     return found

@@ -312,11 +312,7 @@ def expectations_met(answers: Iterable[Answer]) -> str:
 
 
 def _as_read(declared: Train, result: OutputResult) -> str:
-    """Return a string with the sense of rotation as seen on the dial, the time of one turn and the time of one
-    division.
-
-    The sense is reversed on a face that points away from the viewing side.
-    """
+    """Return the sense of rotation as seen on the dial, and the times of one turn and of one division, as a string."""
     dial = declared.dials.get(result.output.dial or "")
     if dial is None or not result.speed:
         return ""
@@ -333,11 +329,7 @@ def _as_read(declared: Train, result: OutputResult) -> str:
 
 
 def _span(declared: Train, units: Fraction | float, digits: int = 7) -> str:
-    """Return a string with a time: in years if the train's unit is a year, otherwise in days, hours, minutes or
-    seconds.
-
-    If the train has no unit of time, the string is a number without a unit.
-    """
+    """Return a time as a string: in years if these are the train's unit, else in days, hours, minutes or seconds."""
     if declared.unit_days is None:
         return figure(units, 7)
     if declared.unit_days > _YEAR and units >= 1:

@@ -55,13 +55,9 @@ class VaryingCoupling(Result):
     speed_ratio: tuple[float, float]
     """Minimum and maximum speed ratio. The sign is chosen so that the mean ratio is positive."""
     at_once: bool
-    """True if the driven link moves in instantaneous steps. In that case `speed_ratio` describes the motion between the
-    steps.
-    """
+    """True if the driven link moves in steps, between which `speed_ratio` applies."""
     formula: str
-    """Formula for the driven angle q as a function of the driver's angle S; an empty string if no closed form
-    is known.
-    """
+    """Driven angle q as a function of the driver's angle S; "" if no closed form is known."""
 
 
 def varying_section(couplings: Sequence[VaryingCoupling]) -> Section:

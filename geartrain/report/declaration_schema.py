@@ -40,9 +40,7 @@ _MERGED = (
     "Source",
     "Published",
 )
-"""Parts of a declaration of which a child of `extends` may give only some keys, so that an editor must not require all
-their keys.
-"""
+"""Parts that a child of `extends` may give without all required keys, which an editor must accept."""
 
 
 def schema() -> Schema:

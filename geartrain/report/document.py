@@ -186,9 +186,7 @@ class Picture(Shown):
     caption: str
     """Text below the picture."""
     svg: str
-    """Complete SVG document, which is included unchanged in the page. The function that draws the picture must
-    escape text from users.
-    """
+    """Complete SVG document, included unchanged in the page; text from users must be escaped in it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -361,10 +359,9 @@ def strips(table: Table, width: int) -> Iterator[Table]:
 
 
 def column_widths(table: Table, width: int) -> list[int]:
-    """Return the width of each column in characters. A column is not wider than its longest cell.
+    """Return the width of each column in characters, at most that of its longest cell.
 
-    The columns that need the fewest characters in addition to their longest word are widened first. The sum exceeds
-    `width` only if the longest words do not fit.
+    The sum exceeds `width` only if the longest words do not fit.
     """
     columns = _columns(table)
     full = [max(map(len, column)) for column in columns]

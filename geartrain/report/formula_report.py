@@ -31,9 +31,7 @@ class RatioElasticity(Result):
     wheel: str
     """Name of the wheel whose tooth count is varied."""
     elasticity: ClosedForm
-    """Elasticity (z/f) df/dz of the ratio f with respect to the tooth count z, that is, the relative change of f per
-    relative change of z.
-    """
+    """Elasticity (z/f) df/dz of the ratio f with respect to the tooth count z."""
 
 
 @dataclass(frozen=True)

@@ -25,9 +25,7 @@ WORDS = {"viewer": "Animation", "pictures": "Pictures", "sources": "Sources"}
 _LONG = re.compile(r"(\.\d\d)\d+")  # digits of a decimal number after the second place
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data: blob:; script-src "
 _INTO_FRAMES = "'unsafe-inline' blob: data:; worker-src blob:; connect-src data: blob:"
-"""Sources that the content security policy allows on pages with a viewer. Its frame inherits the policy, and the hashes
-of its scripts are unknown.
-"""
+"""Sources allowed on pages with a viewer, whose frame inherits the policy and has scripts of unknown hash."""
 
 
 @dataclass(frozen=True, slots=True)

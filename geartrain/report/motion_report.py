@@ -67,9 +67,7 @@ class OutputMotion:
     phases: PhaseRange | None
     """Range of the deviation over runs with random tooth phases; None if it was not requested."""
     spectrum: Sequence[SpectrumLine] | None
-    """Spectral lines of the deviation, each at an exact order (cycles per turn of the input); None if they were not
-    requested.
-    """
+    """Spectral lines of the deviation, by order (cycles per turn of the input); None if not requested."""
 
 
 @dataclass(frozen=True)
@@ -104,9 +102,7 @@ class MotionFigures(Result):
     reversing_drivers: Sequence[str]
     """Names of the pairs whose driving wheel temporarily turns against its mean sense of rotation."""
     rigid: Sequence[str]
-    """Names of the pairs whose declared tooth form keeps a constant speed ratio, so that they contribute no
-    transmission error.
-    """
+    """Names of the pairs whose tooth form keeps a constant speed ratio, without transmission error."""
     outputs: Mapping[str, OutputMotion]
     """Deviation, speed and further requested results of each output, keyed by output name."""
     separation: Annotated[Any, WingResult("simulation", "SeparationRates")] | None
@@ -119,9 +115,7 @@ class MotionFigures(Result):
     partial: PartialRun | None
     """Progress of an interrupted run; None for a complete run."""
     advances: Mapping[str, float]
-    """Mean speed of each link that is driven stepwise by one-way clutches, divided by the input speed [1], keyed by
-    link.
-    """
+    """Mean speed of each link that one-way clutches drive stepwise, divided by the input speed [1]."""
 
 
 @dataclass(frozen=True)
@@ -202,10 +196,9 @@ def collect_motions(train: GearTrain) -> Iterator[MotionFigures | UnfollowedMoti
 
 
 def separation_rates(train: GearTrain, state: str | None, without: Sequence[str] = ()) -> Any:
-    """Return the speeds of the input at which teeth first separate in a state (`geartrain.simulation.SeparationRates`).
+    """Return the input speeds at which teeth first separate in a state (`geartrain.simulation.SeparationRates`).
 
-    Return None if no link driven by the input has an inertia, if torques have no units, or if the optional package
-    `simulation` is not installed.
+    None without inertia, without units of torque, or without the optional package `simulation`.
     """
     # reports are part of the core, which imports optional packages only on demand
     if not (train.declaration.has_inertia and has_wing("simulation")):

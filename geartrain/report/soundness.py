@@ -30,9 +30,7 @@ class Soundness:
     file: str
     answers: Sequence[Answer]
     failures: tuple[str, ...]
-    """Lines on undetermined speeds, expectations that are not met, parts that cannot be built, and teeth that cannot
-    turn.
-    """
+    """Lines on undetermined speeds, unmet expectations, parts that cannot be built, and teeth that cannot turn."""
     whole: bool = True
     """True if the findings include the checks of teeth, loads and closure of loops, which need numpy."""
 

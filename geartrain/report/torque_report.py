@@ -90,9 +90,7 @@ class TorqueFigures(Result):
     """True if torques are in N m, False if they are in the unit of the declared loads."""
     flow: PowerFlow
     impact_power: Mapping[str, float]
-    """Power that is dissipated by the impacts of each pair [W], keyed by pair; empty unless inertias and a rate are
-    declared.
-    """
+    """Power that impacts dissipate [W], by pair; empty unless inertias and a rate are declared."""
     belt_pulls: Mapping[str, float]
     """Difference between the tensions of the tight and the slack strand at the driven pulley [N], keyed by row of a
     belt; empty unless diameters and torques have units.

@@ -133,9 +133,7 @@ class TrainReport(TrainAnswers):
     strength: tuple[Annotated[Any, WingResult("simulation", "TrainStrength")], ...]
     """Tooth strength in every state whose loads have units, if materials of wheels are declared."""
     motion: tuple[MotionFigures | UnfollowedMotion, ...]
-    """Motion in every state of a train with tooth forms or pins. An entry contains `error` if the motion cannot be
-    computed.
-    """
+    """Motion in every state with tooth forms or pins; an entry with `error` could not be computed."""
     errata: tuple[Erratum, ...]
     """Declared errors in the published sources."""
 

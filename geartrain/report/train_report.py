@@ -92,9 +92,7 @@ def describe_in_short(train: GearTrain) -> Document:
 
 
 def _details(found: TrainReport) -> Iterator[Section]:
-    """Yield the detail sections: formulas, structure, circuits, phase closure, adjacency matrix with names, errata and
-    sources.
-    """
+    """Yield the detail sections: formulas, structure, circuits, phases, named adjacency matrix, errata, sources."""
     train, declared = found.train, found.train.declaration
     explained = True  # the notation of formulas is explained once
     for answer in found.states:
@@ -122,9 +120,7 @@ def _details(found: TrainReport) -> Iterator[Section]:
 
 
 def _answers(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Section]:
-    """Yield the sections on outputs, targets and speeds of each state. If the train has states, tables of all states
-    come first.
-    """
+    """Yield the sections on outputs, targets and speeds of each state; tables of all states come first."""
     box = None
     if train.declaration.clutches and train.states:
         with suppress(GearTrainError):  # not a valid gearbox
@@ -330,9 +326,7 @@ def _circuits_in_short(train: GearTrain) -> str:
 
 
 def _mobility_lines(found: Mobility, held: Sequence[str] = ()) -> Iterator[str]:
-    """Yield sentences on mobility (from the numbers of joints and from the rank of the equations), redundant circuits,
-    locked links, and links at rest (`held`).
-    """
+    """Yield sentences on mobility by count and by rank, redundant circuits, locked links, and resting links, `held`."""
     minus = f" - {plural(found.couplings, 'coupling')}" if found.couplings else ""
     slides = f" + {plural(found.sliding_pairs, 'sliding pair')}" if found.sliding_pairs else ""
     pairs = f"{plural(found.turning_pairs, 'turning pair')}{slides} - {plural(found.gear_pairs, 'gear pair')}{minus}"

@@ -110,8 +110,7 @@ def write_declaration(train: Train) -> str:
 
 
 def formatted(path: Path, long: bool = False) -> tuple[str, str]:
-    """Return the text of a declaration file, and its text with turning pairs, gear pairs and belts in short (or long)
-    form.
+    """Return the text of a declaration file, and its text with pairs and belts in short (or long) form.
 
     Raises `DeclarationError` if the file cannot be read, or if the new text would change the declaration.
     """

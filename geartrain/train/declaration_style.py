@@ -1,8 +1,7 @@
 """Rewriting of a declaration's turning, sliding and gear pairs and belts in short or in long forms.
 
-Only these sections are rewritten, entry by entry. All other lines are unchanged, and comments stay with their entries.
-An entry with keys that its short form cannot express remains in long form. The section `couplings` is renamed to
-`belts`, or the reverse, only if all couplings of the train are belts around two wheels.
+All other lines are unchanged, and comments stay with their entries. The section `couplings` is renamed to `belts`, or
+the reverse, only if all couplings of the train are belts around two wheels.
 """
 
 from __future__ import annotations

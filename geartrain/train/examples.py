@@ -53,11 +53,7 @@ _OF_NAMES = ("links", "wheels", "axes", "outputs", "states", "dials", "clutches"
 
 
 def example_line(loc: Loc, kind: type) -> str:
-    """Return a line of YAML with an example of the mapping or list at the path `loc`; empty without an example.
-
-    The examples are searched for the last key of `loc` at any level. For a name that users choose, such as the link `a`
-    in `links.a`, any entry of that mapping is an example.
-    """
+    """Return a line of YAML with an example of the mapping or list at the path `loc`; "" without an example."""
     keys = [step for step in loc if isinstance(step, str)]
     if not keys:
         return ""

@@ -20,11 +20,7 @@ _SHORT = {"wheels": "teeth", "sources": "cite"}
 
 
 def merge_parent(parent: YamlNode, child: YamlNode) -> YamlNode:
-    """Return a new node in which a child declaration is merged into its parent.
-
-    Raises `DeclarationError` if `remove` names a part that does not exist, or if a wheel of the parent is declared on
-    another link.
-    """
+    """Return a new node in which a child declaration is merged into its parent, or raise `DeclarationError`."""
     base = {key: node for key, node in parent.mapping.items() if key not in _NOT_INHERITED}
     keys = {key: parent.keys[key] for key in base}
     root = YamlNode(base, child.place, keys)

@@ -341,12 +341,7 @@ class Dial(Graduation):
         return outer - DEPTH
 
     def reach(self, right: float, up: float) -> float:
-        """Return the extent of the engraving in a direction, divided by the radius of the dial. A spiral reaches this
-        radius only at its outer end.
-
-        right   component of the direction to the right of the reader; its length is arbitrary
-        up      component of the direction upwards
-        """
+        """Return how far the engraving extends in a direction (right, up) of any length, in radii of the dial."""
         if self.turns == 1 or self.around is not None:
             return 1.0
         turn = atan2(right if self.counted == "clockwise" else -right, up) / (2 * pi) % 1

@@ -544,9 +544,7 @@ class StateCase(Shown):
     problems: tuple[Problem, ...] = ()
     """Problems that prevent the calculation of speeds in this state; empty if speeds can be calculated."""
     senses: Mapping[tuple[str, ...], int] = field(default_factory=dict)
-    """Sign of the torque that a brake or lock can exert on its last link, by its links; only for brakes and locks that
-    consist of one-way clutches of a single sense.
-    """
+    """Sign of the torque that a brake or lock of one-way clutches with one sense can exert on its last link."""
     one_way: tuple[OneWayAction, ...] = ()
     """One-way clutches that are active in the state, in the order of declaration."""
     notes: tuple[str, ...] = ()

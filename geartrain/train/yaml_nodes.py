@@ -1,8 +1,7 @@
 """YAML 1.2 (core schema) parsed to nodes with line numbers.
 
 Every scalar is kept as a string, so that `1:30`, `010`, `no` and `1.0000` reach the models unchanged; only a plain null
-becomes None. Nesting depth, number of values and expansion of aliases are limited, keys must be unique, and tags are
-rejected. Plain Python data can also be converted to nodes, and a declaration can be written as YAML text.
+becomes None. Nesting depth, number of values and expansion of aliases are limited.
 """
 
 from __future__ import annotations

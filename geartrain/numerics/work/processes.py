@@ -1,8 +1,6 @@
 """Worker processes on this machine.
 
-Processes are spawned, not forked. A fork copies locks that other threads hold (such as those of numpy or of a progress
-bar), and a worker that waits for such a lock waits forever. Spawning works in the same way on all systems. Each worker
-imports its modules once.
+Processes are spawned, not forked: a fork copies locks that other threads hold, on which a worker would wait forever.
 """
 
 from __future__ import annotations
@@ -111,11 +109,7 @@ def _ignore_late_failure(future: Future[Any]) -> None:
 
 @contextmanager
 def _interrupts_blocked() -> Iterator[None]:
-    """Start processes in this context with SIGINT blocked, so that only the parent process handles Ctrl-C.
-
-    A process inherits the blocked signals of its parent. A signal that arrives in this context is delivered to the
-    parent afterwards.
-    """
+    """Start processes in this context with SIGINT blocked, so that only the parent process handles Ctrl-C."""
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return

@@ -175,9 +175,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 @pytest.fixture
 def refused(train_file: Callable[..., Path]) -> Callable[..., GearTrainError]:
-    """Return a function that loads invalid YAML; each problem of the error must have a place, a what, a why and
-    a fix.
-    """
+    """Return a function that loads invalid YAML and requires place, what and fix of each problem."""
 
     def refuse(text: str, *said: str, line: int | None = None, name: str = "train.yaml") -> GearTrainError:
         path = train_file(text, name)

@@ -106,10 +106,7 @@ def find_accuracy(train: GearTrain, state: str | None = None, positions: int = 1
 
 
 def _best_of(task: Callable[[], Any]) -> tuple[float, Any]:
-    """Return the minimum run time of a task over several repetitions [s], and the result of the task.
-
-    The minimum excludes the time that the first repetition takes to import libraries.
-    """
+    """Return the minimum run time of a task [s], without the imports of its first run, and its result."""
     times: list[float] = []
     while not times or sum(times) < _ENOUGH or (len(times) < 2 and sum(times) < _LONG):
         start = time.perf_counter()

@@ -36,9 +36,7 @@ class PossibleGear(Result):
 
 @dataclass(frozen=True)
 class GearSeries(Result):
-    """Series of forward gears in order of decreasing ratio, with the steps between the gears and the spread of the
-    ratios.
-    """
+    """Series of forward gears by decreasing ratio, with the steps between gears and the spread of the ratios."""
 
     KEYS = ("gears", Key("steps", to=as_float), Key("spread", to=as_float), "deviation", "double_shifts")
 
@@ -184,9 +182,7 @@ def find_gears(
 
 
 def _rank(gear: PossibleGear) -> tuple[int, Fraction]:
-    """Return the sort key of a gear. Forward gears come first, then reverse gears, both in order of decreasing
-    magnitude of the ratio, then gears whose output is at rest.
-    """
+    """Return the sort key of a gear: forward, reverse, then resting output; by decreasing magnitude of the ratio."""
     return (2, Fraction(0)) if gear.ratio is None else (int(gear.ratio < 0), -abs(gear.ratio))
 
 
@@ -195,10 +191,7 @@ def _is_single(one: PossibleGear, other: PossibleGear) -> bool:
 
 
 def _all_gears(train: GearTrain, source: str, link: str) -> GearSearch:
-    """Return all gears with as many closed elements as determine all speeds.
-
-    All such combinations have the same size, because they are the bases of a matroid.
-    """
+    """Return all gears; each closes the same number of elements, because they are the bases of a matroid."""
     declared = train.declaration
     names: dict[frozenset[str], list[str]] = {}
     for name, state in declared.states.items():
@@ -255,9 +248,7 @@ _Way = tuple[float, int, tuple[int, ...]]
 
 
 def _series(gears: Sequence[PossibleGear], links: Links, number: int) -> _Found:
-    """Count the series of `number` gears by dynamic programming, and find the series with the maximum spread and the
-    series with the minimum variance of the logarithmic steps. Ties are broken by variance, then by double shifts.
-    """
+    """Return the number of series of `number` gears, the widest one, and the one of minimum variance of log steps."""
     # for a given first and last gear, the mean logarithmic step is fixed, so that the minimum sum of squares gives the
     # minimum variance
     ratios = [each.ratio or Fraction(1) for each in gears]
@@ -276,9 +267,7 @@ def _series(gears: Sequence[PossibleGear], links: Links, number: int) -> _Found:
 
 
 def _series_from(start: int, gears: Sequence[PossibleGear], links: Links, number: int) -> dict[int, tuple[_Way, int]]:
-    """Return, for each last gear, the best series that starts with gear `start`, and the number of such series. The
-    best series has the minimum sum of squared logarithmic steps.
-    """
+    """Return, by last gear, the series from `start` with the minimum sum of squared log steps, and how many exist."""
     logs = [log(each.ratio or 1) for each in gears]
     reach: dict[int, tuple[_Way, int]] = {start: ((0.0, 0, (start,)), 1)}
     for _ in range(number - 1):

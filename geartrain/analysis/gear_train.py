@@ -770,9 +770,7 @@ class GearTrain:
 
     @cached_property
     def kinematics(self) -> TrainKinematics:
-        """Results that do not depend on tooth forms: tree of turning pairs, rotation senses of axes, inputs and brakes
-        of each state, gridlock, floating-point speeds, and sensitivity to tooth counts.
-        """
+        """Results without tooth forms: tree of turning pairs, senses, cases, gridlock, float speeds, sensitivities."""
         return TrainKinematics(self.declaration)
 
     @cached_property

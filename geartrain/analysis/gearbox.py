@@ -44,9 +44,7 @@ class GearState(Result):
     ratio: Fraction | None
     """Speed of the input divided by that of the output [1]; None if one is at rest or undetermined."""
     step: Fraction | None
-    """Ratio of this state divided by the ratio of the next state [1]. None if this is the last state, if one of the two
-    states has no ratio, or if the ratios have opposite signs.
-    """
+    """Ratio of this state divided by that of the next state [1]; None without two ratios of one sign."""
     driven_by: str
     """Name of the link whose speed is the unit of `speeds` and `slips`: the input, or another turning input if the
     input is at rest. If no input turns, this name is empty, and `speeds` and `slips` are in the speed unit of the
@@ -55,23 +53,19 @@ class GearState(Result):
     speeds: Mapping[str, Fraction]
     """Speed of each link divided by the speed of `driven_by`. Links whose speed is undetermined are omitted."""
     slips: Mapping[str, Fraction]
-    """Slip speed of each open clutch or brake, divided by the speed of `driven_by`. The slip of a brake is the speed of
-    its link, and the slip of a clutch is the speed of its first link relative to its second link. Elements whose slip
-    is undetermined are omitted.
+    """Slip of each open brake (speed of its link) or clutch (first link relative to second), divided by the speed of
+    `driven_by`. Undetermined slips are omitted.
     """
     torques: Mapping[str, Fraction | None]
-    """Torque that each closed brake exerts on its link, or each closed clutch on its first link, divided by the torque
-    of the input. The value is None if the torque is statically indeterminate. The mapping is empty if the torques of
-    the train are not determined.
+    """Torque of each closed brake on its link, or clutch on its first link, divided by the torque of the input; None if
+    statically indeterminate. Empty if the torques of the train are not determined.
     """
     efficiency: Fraction | float | None
     """Output power divided by input power; None if the torques are not determined."""
     recirculating: Fraction | None
     """Power that recirculates between gear sets, divided by the input power; None if the torques are not determined."""
     mesh_power: Fraction | None
-    """Maximum power that a pair transmits relative to its carrier, divided by the input power; 0 if all links turn as
-    one body. None if the torques are not determined.
-    """
+    """Maximum power of a pair relative to its carrier, divided by the input power; None if undetermined."""
     one_way: tuple[str, ...] = ()
     """Names of the one-way clutches that transmit a torque, which they do only while the input drives."""
 
@@ -83,9 +77,7 @@ class GearState(Result):
 
 @dataclass(frozen=True)
 class Shift(Result):
-    """Shift from one state of a gearbox to the next state that has a ratio, with the elements that open and the
-    elements that close.
-    """
+    """Shift to the next state that has a ratio, with the elements that open and those that close."""
 
     KEYS = ("before", "after", "released", "applied", "is_double")
 
@@ -121,9 +113,7 @@ class ShiftElement(Result):
     torque_state: str
     """Name of the state in which `torque` occurs; empty if `torque` is None."""
     slip: Fraction | None
-    """Slip speed of maximum magnitude over all states in which the element is open, divided by the speed of the link
-    `driven_by` of that state; None if the slip is undetermined in every state.
-    """
+    """Maximum slip of the open element over all states, divided by the speed of `driven_by`; None if undetermined."""
     slip_state: str
     """Name of the state in which `slip` occurs; empty if `slip` is None."""
 

@@ -151,16 +151,11 @@ class _GraphFacts:
         return tree.axis_seen_from(circuit.carrier, circuit.i), tree.axis_seen_from(circuit.carrier, circuit.j)
 
     def mesh(self, name: str) -> GearMesh | CouplingMesh | None:
-        """Return the gear pair with its tooth geometry and its driving wheel in this state, or the coupling with its
-        dimensions. Return None if the teeth of the pair or the dimensions of the coupling are not declared.
-        """
+        """Return the pair with its teeth in this state, or the coupling with its sizes; None if undeclared."""
         return self._meshes.get(name)
 
     def transmission(self, name: str) -> TransmissionFunction:
-        """Return the transmission function of a gear pair or coupling in this state. Without a declared tooth form or
-        dimensions, the function has a constant ratio, and the driver is the first wheel of the pair or the driving link
-        of the coupling.
-        """
+        """Return the transmission function of a pair or coupling in this state; by default one of constant ratio."""
         from geartrain.teeth.transmission import ExactRatio
 
         if (mesh := self.mesh(name)) is not None:

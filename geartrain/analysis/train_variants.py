@@ -41,13 +41,9 @@ class TrainVariants(Tabular, Result):
     counts: Ints
     """Tooth counts, shape (combinations, wheels); the count of the last wheel varies fastest."""
     speeds: Floats
-    """Speeds of the outputs [unit of the train], shape (n, outputs), where n is the number of combinations. NaN if the
-    train is locked or free, or if the tooth counts do not satisfy the condition of a closed loop.
-    """
+    """Speeds of the outputs [unit of the train], shape (combinations, outputs); NaN if locked, free or not closed."""
     errors: Floats
-    """Upper bounds on the relative errors of the speeds, shape (n, outputs), where n is the number of combinations;
-    infinite if no digit of the speed is certain.
-    """
+    """Upper bounds on the relative errors of the speeds, shape (combinations, outputs); infinite without digits."""
     formulas: Formulas
     """Exact formulas of the output speeds. The method `exact` evaluates them."""
 

@@ -64,10 +64,7 @@ class ProgressBar:
 
 @contextmanager
 def progress(what: str, total: int | None = None, patience: float = 0.0) -> Iterator[ProgressBar]:
-    """Open a progress bar on standard error. If standard error is a terminal, the bar appears after `patience` [s].
-
-    A line above the bar reports the compilation of kernels, which is slow but happens only once.
-    """
+    """Open a progress bar on standard error, visible after `patience` [s]; it also reports compilation of kernels."""
     from rich.console import Console
     from rich.progress import Progress, TimeElapsedColumn
 
@@ -238,9 +235,7 @@ def run_in_time(train: GearTrain, state: str | None, requested: dict[str, Any]) 
 
 @contextmanager
 def interruptible(what: str) -> Iterator[Callable[[float], bool]]:
-    """Open a progress bar and yield a function to be called with each completed fraction of the work. The function
-    returns True after Ctrl-C; a second Ctrl-C raises `KeyboardInterrupt` as usual.
-    """
+    """Yield a function of the completed fraction, which returns True after Ctrl-C; a second Ctrl-C interrupts."""
     interrupted = False
 
     def note(number: int, frame: Any) -> None:

@@ -144,9 +144,7 @@ def _report(
     spectrum: bool,
     every_output: bool,
 ) -> None:
-    """Compute and write the results. After an interruption, write partial results to the second destination
-    in `into`.
-    """
+    """Compute and write the results; after an interruption, write partial results to the second sink of `into`."""
     from geartrain.report.motion_report import collect_motion, describe_motion
 
     # each analysis evaluates all positions once

@@ -56,9 +56,7 @@ def read_quantity(place: str, text: str, dimension: str, plain: bool = False, mi
 
 
 def read_share(text: str, option: str) -> Fraction:
-    """Parse the value of an option as an exact fraction. The value is a number, a percentage, a value in ppm, or the
-    rate of a clock in seconds per day (s/d).
-    """
+    """Parse an option as an exact fraction from a number, a percentage, ppm, or a clock rate in s/d."""
     return read_quantity(option, text, "fraction or clock rate", plain=True).base
 
 
@@ -84,10 +82,7 @@ def input_rate(text: str) -> float:
 
 
 def exact(place: str, text: str, what: str, such_as: str, low: float = -inf, high: float = inf) -> Fraction:
-    """Parse a number such as 3, -1/4 or 2.5 from `low` to `high`, both included.
-
-    `what` names the number in messages, and `such_as` is an example. Raises `GearTrainError` for an invalid number.
-    """
+    """Parse a number from `low` to `high`, both included; errors name it `what` and give the example `such_as`."""
     try:
         found = Figure.parse(text.strip()).value
     except PydanticCustomError:

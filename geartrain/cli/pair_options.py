@@ -131,9 +131,7 @@ def _value(field: FieldInfo, given: str) -> Any:
 
 
 def read_shaft_angle(internal: bool, angle: str | None) -> float | None:
-    """Parse the shaft angle [rad] of bevel wheels. None denotes parallel axes. Raises `GearTrainError` if an angle is
-    given for a ring gear.
-    """
+    """Parse the shaft angle of bevel wheels [rad]; None for parallel axes. An angle for a ring gear is an error."""
     if internal and angle is not None:
         why, fix = "a ring and its pinion have parallel axes", "omit --internal or --shaft-angle"
         raise option_error("--shaft-angle", "a ring gear is given with a shaft angle", fix, why)
@@ -141,10 +139,7 @@ def read_shaft_angle(internal: bool, angle: str | None) -> float | None:
 
 
 def read_helix(helix: str | None, shaft_angle: float | None) -> float:
-    """Parse the helix angle [rad] of a pair on parallel axes. Return 0, for spur wheels, if `helix` is None.
-
-    Raises `GearTrainError` if the angle is not from 0 to less than 90 deg, or if it is given for bevel wheels.
-    """
+    """Parse the helix angle of a pair on parallel axes [rad], from 0 to less than 90 deg; 0 if `helix` is None."""
     angle = 0.0 if helix is None else quantity("--helix", helix, "angle")
     if shaft_angle is not None and angle:
         why = "helical teeth are implemented for parallel axes only"
@@ -193,10 +188,7 @@ class PairRequest:
     """Helix angle of the first wheel [rad]; 0 for spur wheels."""
 
     def mesh(self, **varied: str) -> GearMesh:
-        """Create the gear mesh of the pair, with some parameters replaced by the values in `varied`.
-
-        Raises `GearTrainError` if the pair cannot have teeth of this form.
-        """
+        """Create the gear mesh of the pair, with parameters replaced by those in `varied`, or raise an error."""
         from geartrain.teeth.meshing_wheels import MeshDriver, MeshingWheels
         from geartrain.train import GearPair
 

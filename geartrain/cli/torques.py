@@ -166,10 +166,7 @@ def _friction_trials(
 
 
 def _loaded_state(train: GearTrain, found: Sequence[Torques], option: str) -> Torques:
-    """Return the torques of the requested state, or of the only state with loads.
-
-    Raises `QuestionError` if no state or more than one state has loads.
-    """
+    """Return the torques of the requested state or of the only state with loads; raise an error if there is none."""
     loaded = [each for each in found if each.verdict.kind != "unloaded"] if len(found) > 1 else list(found)
     if not loaded:
         raise option_error(option, "no state has loads", "declare `loads`", "torques follow from loads")

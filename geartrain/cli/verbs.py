@@ -107,10 +107,7 @@ class Verbs(Mapping[str, Command]):
         return command
 
     def _load(self, name: str) -> Any:
-        """Import the function or module of a command.
-
-        Raises `KeyError` if the name is unknown, or if the optional part with this command is not installed.
-        """
+        """Import the function or module of a command; raise `KeyError` if it is unknown or not installed."""
         if name in self._modules:
             module, _, function = self._modules[name].partition(":")
             try:
@@ -189,10 +186,7 @@ def _translated_exits() -> Iterator[None]:
 
 
 def usage_problem(error: Any) -> Problem:
-    """Return the problem that describes a usage error of typer, in the form of all other errors.
-
-    The error is recognised by its attributes, because its class is in click or in typer, depending on the version.
-    """
+    """Return a usage error of typer, recognised by its attributes, as a problem in the form of all other errors."""
     context, param = error.ctx, getattr(error, "param", None)
     see = f"`{f'{context.command_path} ' if context else ''}--help` lists the arguments and options"
     what = str(error.message).rstrip(".").removeprefix("Value error, ")

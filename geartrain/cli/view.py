@@ -127,10 +127,7 @@ def _write_page(scenes: Sequence[Scene], to: Sink, shown: Shown, compare: bool, 
 
 
 def _layout(embed: bool, kiosk: bool, other: str | None) -> Shown:
-    """Return the layout of a page: `embed`, `kiosk`, or `page` by default.
-
-    Raises `QuestionError` if both layouts are given, or if two trains are given for a layout that shows only one.
-    """
+    """Return the layout `embed`, `kiosk` or `page`; raise `QuestionError` for both options, or one with two trains."""
     if embed and kiosk:
         what, why = "--embed and --kiosk are given together", "a page can have only one layout"
         raise option_error("view", what, "omit one of them", why)

@@ -18,10 +18,7 @@ class Block(NamedTuple):
 
 
 def find_blocks(rows: Sequence[Sequence[int]]) -> list[Block] | None:
-    """Return the blocks of the block triangular form of a square system; None if no perfect matching exists.
-
-    Each block follows all blocks that it depends on. `rows` gives the columns with an entry in each row.
-    """
+    """Return the blocks of a square system, each after those on which it depends; None without a perfect matching."""
     row_of = _maximum_matching(dict(enumerate(rows)))
     if len(row_of) < len(rows):
         return None

@@ -39,10 +39,7 @@ class Echelon:
         return len(self.pivots)
 
     def forms(self, budget: int | None = None) -> dict[int, LinearForm]:
-        """Return the unknown of every pivot as a linear form in symbols and free unknowns, by back substitution.
-
-        Many free unknowns lead to long forms. `TooDenseError` is raised after `budget` operations.
-        """
+        """Return each pivot's unknown as a form in symbols and free unknowns; raise `TooDenseError` beyond `budget`."""
         solved: dict[int, LinearForm] = {}
         work = 0
         for column, rest in reversed(self.pivots):  # the rest of the last pivot contains free columns only

@@ -13,10 +13,7 @@ from fractions import Fraction
 
 
 def coprime(numerator: int, denominator: int) -> Fraction:
-    """Return a Fraction from coprime numerator and positive denominator without the gcd of the Fraction constructor.
-
-    The gcd of long integers takes quadratic time, and is not required for products that are already in lowest terms.
-    """
+    """Return a Fraction from coprime numerator and positive denominator, without the gcd of long integers."""
     value = Fraction()
     value._numerator = numerator  # type: ignore[attr-defined]
     value._denominator = denominator  # type: ignore[attr-defined]
@@ -24,10 +21,7 @@ def coprime(numerator: int, denominator: int) -> Fraction:
 
 
 def times(n: int, d: int, a: int, b: int) -> tuple[int, int]:
-    """Return the product of n/d and a/b as (numerator, positive denominator) in lowest terms.
-
-    n/d must be in lowest terms. a and b should have few digits, so that the gcds take little time.
-    """
+    """Return the product of n/d, in lowest terms, and a/b as (numerator, positive denominator) in lowest terms."""
     if b < 0:
         a, b = -a, -b
     common = math.gcd(a, b)

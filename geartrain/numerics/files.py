@@ -52,18 +52,12 @@ def destination(path: Path, force: bool = False) -> Path:
 
 
 def write_text(path: Path, text: str, force: bool = False) -> None:
-    """Write `text` atomically to `path` as UTF-8, following symbolic links.
-
-    An existing file is overwritten only with `force`. Raises `GearTrainError` if the file cannot be written.
-    """
+    """Write `text` atomically as UTF-8, following symbolic links; overwrite an existing file only with `force`."""
     write_bytes(path, text.encode("utf-8"), force)
 
 
 def write_bytes(path: Path, data: bytes, force: bool = False) -> None:
-    """Write `data` atomically to `path`, following symbolic links.
-
-    An existing file is overwritten only with `force`. Raises `GearTrainError` if the file cannot be written.
-    """
+    """Write `data` atomically, following symbolic links; overwrite an existing file only with `force`."""
     real = destination(path, force)
     try:
         # in the same folder, because a rename is atomic only within one file system
@@ -117,10 +111,7 @@ def umask() -> int:
 
 
 def _obstacle(path: Path, real: Path, mode: int, force: bool) -> Problem | None:
-    """Return the problem that prevents writing the file `real`, to which `path` refers; None if it can be written.
-
-    `mode` is the mode of an existing file; 0 if there is none.
-    """
+    """Return what prevents writing `real` (mode 0 if it is missing), to which `path` refers; None if nothing does."""
     if stat.S_ISDIR(mode):
         fix = f"give a file in it: {path / 'NAME'}"
         return Problem("this is a folder", "a result is written to one file", fix, str(path))
@@ -159,10 +150,7 @@ def _invalid_name(path: Path, why: str) -> Problem:
 
 
 def _link(temporary: Path, real: Path, path: Path) -> bool:
-    """Give a file a new name in one step by a hard link; return False if the file system does not support hard links.
-
-    Unlike renaming, this fails if another process has created a file with this name in the meantime.
-    """
+    """Give a file a new name by a hard link, which fails if the name exists; return False without hard links."""
     try:
         os.link(temporary, real)
     except FileExistsError:
@@ -174,10 +162,7 @@ def _link(temporary: Path, real: Path, path: Path) -> bool:
 
 
 def check_folder(folder: Path, names: Sequence[str], force: bool = False) -> None:
-    """Raise `GearTrainError` if files with these names, such as `wheels/b1.svg`, cannot be written to a folder.
-
-    Without `force`, the error is also raised if a file exists.
-    """
+    """Raise `GearTrainError` if the files cannot be written to a folder, or if one exists and `force` is False."""
     place = str(folder)
     if folder.exists() and not folder.is_dir():
         why = "several files are written to one folder"
@@ -426,10 +411,7 @@ def _cell(cell: object) -> object:
 
 
 def read_points(path: Path) -> list[tuple[float, float, float]]:
-    """Read points from a file with three numbers per line, separated by blanks or commas.
-
-    `#` begins a comment. Raises `GearTrainError`, which lists the invalid lines.
-    """
+    """Read points from a file with three numbers per line, separated by blanks or commas; `#` begins a comment."""
 
     def point(words: list[str]) -> tuple[float, float, float]:
         x, y, z = map(float, words)
@@ -439,10 +421,7 @@ def read_points(path: Path) -> list[tuple[float, float, float]]:
 
 
 def read_edges(path: Path) -> list[tuple[str, str]]:
-    """Read edges from a file with two names per line, separated by blanks or commas.
-
-    `#` begins a comment. Raises `GearTrainError`, which lists the invalid lines.
-    """
+    """Read edges from a file with two names per line, separated by blanks or commas; `#` begins a comment."""
 
     def edge(words: list[str]) -> tuple[str, str]:
         first, second = words

@@ -163,9 +163,7 @@ class PeriodicTable(PeriodicPieces):
 
 
 def _cubics(x: Floats, y: Floats, interpolation: Interpolation) -> Floats:
-    """Return the coefficients of the cubics between points, shape (4, pieces), in descending order of powers; the last
-    point is the first one after one period.
-    """
+    """Return the coefficients of the cubics between points, in descending order of powers, shape (4, pieces)."""
     if interpolation == "steps":
         return np.vstack([np.zeros((3, len(x) - 1)), y[:-1]])
     if interpolation == "linear":

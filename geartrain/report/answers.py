@@ -349,19 +349,17 @@ def doubtful_wheels(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Sec
         if not found:
             continue
         text = "Change of speed in ppm, from exact solutions; outputs with equal changes share a row."
-        table = Table(("wheel", "teeth", "allowed", "one fewer", "one more", "outputs"), list(_grouped(found)))
+        groups: dict[tuple[str, str, str], list[Sensitivity]] = {}
+        for item in found:
+            groups.setdefault((item.wheel, _shift(item.less), _shift(item.more)), []).append(item)
+        rows = []
+        for (wheel, less, more), items in groups.items():
+            allowed = items[0].allowed
+            whole = allowed == tuple(range(allowed[0], allowed[-1] + 1))
+            span = f"{allowed[0]}-{allowed[-1]}" if whole else ", ".join(map(str, allowed))
+            rows.append((wheel, str(items[0].teeth), span, less, more, ", ".join(item.output for item in items)))
+        table = Table(("wheel", "teeth", "allowed", "one fewer", "one more", "outputs"), rows)
         yield Section(titled(answer.state, "uncertain tooth counts"), (text,), (table,), detail=True)
-
-
-def _grouped(found: Sequence[Sensitivity]) -> Iterator[tuple[str, ...]]:
-    groups: dict[tuple[str, str, str], list[Sensitivity]] = {}
-    for item in found:
-        groups.setdefault((item.wheel, _shift(item.less), _shift(item.more)), []).append(item)
-    for (wheel, less, more), items in groups.items():
-        allowed = items[0].allowed
-        whole = allowed == tuple(range(allowed[0], allowed[-1] + 1))
-        span = f"{allowed[0]}-{allowed[-1]}" if whole else ", ".join(map(str, allowed))
-        yield wheel, str(items[0].teeth), span, less, more, ", ".join(item.output for item in items)
 
 
 def _shift(value: float | None) -> str:

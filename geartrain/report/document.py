@@ -318,10 +318,7 @@ def ppm(value: float | None) -> str:
 
 
 def cut(rows: Sequence[Sequence[str]], of: int | None = None, most: int = MOST_ROWS) -> list[Sequence[str]]:
-    """Return the first `most` rows of a table. If rows are omitted, an additional last row states their number.
-
-    of   total number of rows, if `rows` does not hold all of them
-    """
+    """Return the first `most` rows, and a row with the number of omitted rows of `of`, by default of `rows`."""
     count = len(rows) if of is None else of
     if count <= most:
         return list(rows)
@@ -384,10 +381,7 @@ _NUMBER = re.compile(r"[+\-−~]?\d[\d ]*(\.\d*)?(e[+-]?\d+)?")
 
 
 def aligned_rows(table: Table) -> list[list[str]]:
-    """Return the rows of a table in which the decimal points of each numeric column are aligned by spaces.
-
-    A column is numeric if each of its cells is a decimal number, empty, or a dash.
-    """
+    """Return the rows of a table, with the decimal points of numeric columns aligned by spaces."""
     if table.wide:
         return [list(row) for row in table.rows]
     columns = [_aligned(column) for column in zip_longest(*table.rows, fillvalue="")]

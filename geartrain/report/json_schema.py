@@ -267,10 +267,7 @@ def _summary(what: Any) -> str:
 
 
 def attribute_kind(kind: Any, path: str) -> Any:
-    """Return the annotation of a field or property, given as `attribute` or `part.attribute`.
-
-    Raises `AttributeError` if the class has no such field or property.
-    """
+    """Return the annotation of a field or property, `attribute` or `part.attribute`; an unknown one raises an error."""
     for name in path.split("."):
         kind = _own_kind(kind, name)
     return kind

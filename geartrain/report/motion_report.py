@@ -277,10 +277,7 @@ def motion_sections(run: MotionRun, every_output: bool = False) -> Iterator[Sect
 def moving_sections(
     train: GearTrain, found: Sequence[MotionFigures | UnfollowedMotion], toothed: bool
 ) -> Iterator[Section]:
-    """Yield a section on the motion in each state of a train that declares tooth forms or pins.
-
-    toothed   True if the train declares tooth forms
-    """
+    """Yield a section on the motion in each state; `toothed` is True for a train with tooth forms."""
     for each in found:
         head = titled(each.state, "motion")
         if isinstance(each, UnfollowedMotion):

@@ -53,9 +53,7 @@ class FormedPair(Result):
 
 @dataclass(frozen=True)
 class TriangularPair(Result):
-    """Pair of wheels with triangular teeth that does not belong to a train, with the effects of impacts under operating
-    conditions.
-    """
+    """Pair of wheels with triangular teeth outside a train, with impacts under operating conditions."""
 
     KEYS = (Key("", "figures"), "course", "impacts", "outlines")
 

@@ -38,10 +38,7 @@ class Soundness:
         return not self.failures
 
     def lines(self, quiet: bool = False) -> Iterator[str]:
-        """Yield the output lines of `geartrain check`.
-
-        quiet   True to omit the remarks on a train without failures
-        """
+        """Yield the output lines of `geartrain check`; if `quiet`, omit the remarks on a train without failures."""
         # remarks may explain a failure, so they are printed with failures
         train, whole = self.train, not quiet or not self
         yield from (f"FAIL {each}" for each in self.failures)
@@ -78,10 +75,7 @@ def _summary(train: GearTrain, answers: Sequence[Answer]) -> str:
 
 
 def _without_findings(train: GearTrain, whole: bool) -> str:
-    """Return a text that names the checks of equal planets and of declared teeth that gave no finding.
-
-    whole   True if the teeth were checked
-    """
+    """Return which checks of equal planets and, if `whole`, of declared teeth gave no finding, as text."""
     declared, rules = train.declaration, {found.rule for found in train.build_findings}
     checked = []
     if not rules & {"A1", "A2", "A3"}:
@@ -141,10 +135,7 @@ def _too_fast(train: GearTrain) -> Iterator[str]:
 
 
 def _off_beat(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
-    """Yield lines on the states in which the escape wheel's speed does not match the declared beat.
-
-    The beat depends on the speed of the escape wheel relative to the link with the pallets.
-    """
+    """Yield lines on the states in which the escape wheel's speed relative to its pallets does not match the beat."""
     declared = train.declaration
     escapement = declared.escapement
     if escapement is None:

@@ -100,9 +100,7 @@ def _pitch(found: GearSphere) -> Iterator[str]:
 
 
 def describe_survey(rows: Iterable[SurveyRow]) -> Document:
-    """Return a document with a table of polyhedra. The table states whether the gears turn, how many meshes must be
-    removed if they do not, and the angles between axes.
-    """
+    """Return a table of polyhedra: whether the gears turn, how many meshes prevent it, and the angles between axes."""
     table = result_table(
         rows,
         *("faces of=solid", "gears", "meshes", ("turns", lambda row: "yes" if row.bipartite else "no")),
@@ -120,9 +118,7 @@ def describe_survey(rows: Iterable[SurveyRow]) -> Document:
 
 
 def describe_suggestions(found: ToothCountSuggestions) -> Document:
-    """Return a document on suggested tooth counts of gears on a sphere, in the order of `found`, and on rejected sets.
-    With the suggested counts, loops close and tooth tips clear each other.
-    """
+    """Return a document on suggested tooth counts, with which loops close and tips clear, and on rejected sets."""
     kinds = list(dict.fromkeys(found.configuration.kinds))
     rows = []
     for each in found:

@@ -92,9 +92,7 @@ class TorqueFigures(Result):
     impact_power: Mapping[str, float]
     """Power that impacts dissipate [W], by pair; empty unless inertias and a rate are declared."""
     belt_pulls: Mapping[str, float]
-    """Difference between the tensions of the tight and the slack strand at the driven pulley [N], keyed by row of a
-    belt; empty unless diameters and torques have units.
-    """
+    """Tight minus slack tension at the driven pulley [N], by row of a belt; empty without units."""
 
     @property
     def losses(self) -> tuple[LossFigures, ...]:
@@ -176,10 +174,7 @@ _SIGNS = (
 
 
 def describe_torques(found: TorqueReport) -> Document:
-    """Return a document on the torques in each state: verdict, efficiency, links, pairs, power flow and losses.
-
-    Sections on the torque over some revolutions and on trials with random friction follow if they were requested.
-    """
+    """Return a document on torques: in each state and, if requested, over some revolutions and in friction trials."""
     sections = [section for each in found.states for section in torque_sections(each)]
     if found.over_turn is not None:
         sections += cycle_sections(found.over_turn)
@@ -372,9 +367,7 @@ def _losses(flow: PowerFlow, amounts: _Amounts, impact_power: Mapping[str, float
 
 
 def _loss_row(flow: PowerFlow, amounts: _Amounts, lost: Fraction, struck: float | None) -> tuple[str, ...]:
-    """Return a table row with a loss, its fractions of the input power and of all losses, the power dissipated by
-    impacts, and the fraction of that power.
-    """
+    """Return a row with a loss, its fractions of input power and of all losses, and impact power with its fraction."""
     parts = (percent_text(lost / whole) if whole else "-" for whole in (flow.power_in, flow.loss))
     if struck is None:
         return (amounts.text(lost), *parts, "", "")
@@ -450,9 +443,7 @@ def _run(found: TorqueCycle) -> str:
 
 
 def _remarks(found: TorqueCycle) -> Iterator[str]:
-    """Yield sentences on the fractions of the revolutions in which the train locks, all energy is lost, or results are
-    ambiguous. Further sentences report efficiency, largest loss, flank changes and recirculating power.
-    """
+    """Yield sentences on locked and ambiguous stretches, efficiency, largest loss, flank changes and recirculation."""
     shares = {
         "no torque balances: the train locks": found.locked_share,
         "loads and the crank both put power in, and all of it is lost": found.held_share,

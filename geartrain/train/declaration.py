@@ -288,9 +288,7 @@ class Train(Declared):
 
     @cached_property
     def tour_parts(self) -> Mapping[str, str]:
-        """Kind of each part that a tour can show (output, link, wheel, dial or coupling), keyed by the name of the
-        part. If several parts have the same name, the first kind in this order is used.
-        """
+        """Kind (output, link, wheel, dial or coupling, in this order) of each part that a tour can show, by name."""
         outputs = chain(self.outputs, *(state.outputs for state in self.states.values()))
         couplings = (coupling.id for coupling in self.couplings)
         kinds = {"coupling": couplings, "dial": self.dials, "wheel": self.wheels, "link": self.links, "output": outputs}

@@ -160,10 +160,7 @@ def _complete_table_paths(node: YamlNode) -> None:
 
 
 def files_of(path: Path) -> tuple[Path, ...]:
-    """Return a YAML file and all files that it extends, directly or indirectly.
-
-    Raises `DeclarationError` if one of the files is missing or cannot be read.
-    """
+    """Return a YAML file and all files that it extends, directly or indirectly."""
     child = parse_yaml(_read(path), str(path))
     return path, *(parent for parent, _ in _parents(child, path.parent, (path.resolve(),)))
 

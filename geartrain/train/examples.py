@@ -17,9 +17,7 @@ from geartrain.train.yaml_nodes import on_one_line, parse_yaml
 
 @cache
 def examples() -> Mapping[str, tuple[str, ...]]:
-    """Return the examples as YAML texts, by the name of the part that they declare, or by the key if parts of several
-    kinds have that key. The reference prints the first example of each.
-    """
+    """Return the examples as YAML texts, by the part that they declare, or by the key of parts of several kinds."""
     text = files("geartrain.train").joinpath("examples.yaml").read_text(encoding="utf-8")
     return {name: tuple(part.split("\n---\n")) for name, part in yaml.safe_load(text).items()}
 

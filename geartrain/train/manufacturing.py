@@ -108,10 +108,7 @@ class ArborSizes(Declared):
 
 @cache
 def material_table() -> Mapping[str, Material]:
-    """Return the materials of the shipped table, by name.
-
-    A material that a train declares takes precedence over a material of the table with the same name.
-    """
+    """Return the materials of the shipped table by name; a declared material of the same name takes precedence."""
     text = files("geartrain.train").joinpath("materials.csv").read_text(encoding="utf-8")
     rows = csv.DictReader(text.splitlines())
     return {row.pop("name"): Material.model_validate(row) for row in rows}

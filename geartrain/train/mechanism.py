@@ -482,9 +482,7 @@ class Link(Declared):
 
     @property
     def friction_radius(self) -> float:
-        """Radius of the friction circle of the link's bearing [m], which is f/sqrt(1 + f^2) times the radius of the
-        pivot with the coefficient of friction f; 0 if the friction of the bearing does not depend on the load.
-        """
+        """Radius of the bearing's friction circle [m]: r f/sqrt(1 + f^2) for a pivot of radius r; 0 without f."""
         if self.bearing is None or not self.bearing.coefficient or not self.bearing.coefficient.value:
             return 0.0
         mu, radius = float(self.bearing.coefficient.value), self.bearing.radius

@@ -76,10 +76,7 @@ class PrintedPeriod(Figure):
         return cls(seconds, last / 10**decimals / 2, text, years, units, decimals)
 
     def in_seconds(self, year: Fraction | None) -> Figure:
-        """Return the time, and half a unit of its last digit as its uncertainty [s].
-
-        year   length of a year [s], which is used only if the time has years
-        """
+        """Return the time, with half a unit of its last digit as uncertainty [s]; `year` is the year's length [s]."""
         length = year or Fraction(0)
         half = length / 10**self.decimals / 2 if self.units == (_YEAR,) else self.half
         return Figure(self.value + self.years * length, half, self.text)
@@ -352,10 +349,7 @@ _BEHIND = ("back", "rear", "behind")  # words for the far side; other dials face
 
 
 def looks_away(face: str | None, seen_from: str | None) -> bool:
-    """Return True if a dial faces away from an observer; `face` is as in `Dial.face`, `seen_from` as in `View.from_`.
-
-    A dial with face None faces the observer.
-    """
+    """Return True if a dial with `Dial.face` faces away from an observer at `View.from_`; False without a face."""
     return face is not None and (face in _BEHIND) != (seen_from in _BEHIND)
 
 
@@ -443,10 +437,7 @@ class Expect(Declared):
     )
 
     def holds(self, speed: Any) -> bool:
-        """Return True if a speed agrees with the expected value within the tolerance.
-
-        speed   exact speed [unit of the train]
-        """
+        """Return True if a speed [unit of the train] agrees with the expected value within the tolerance."""
         return self.value.holds(speed, self.tolerance.value if self.tolerance else None)
 
 

@@ -274,10 +274,7 @@ def has_short_forms(data: Mapping[str, Any]) -> bool:
 
 
 def written_out(root: YamlNode) -> YamlNode:
-    """Return the declaration with all short forms expanded; the new parts have the places of the short forms.
-
-    Raises `DeclarationError` for invalid short forms.
-    """
+    """Return the declaration with expanded short forms, which keep their places; raise an error for invalid ones."""
     joints = {key: root.mapping[key] for key in JOINTS if key in root.mapping}
     gears = root.mapping.get("gears")
     short_joints = {key: each for key, each in joints.items() if isinstance(each.value, dict)}

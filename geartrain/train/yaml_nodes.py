@@ -222,10 +222,7 @@ class _Reader:
 
 
 def node_from_data(data: Any, loc: Loc = (), marks: Marks = dotted) -> YamlNode:
-    """Convert plain data or parts of a declaration to nodes. By default, the place of a node is its path.
-
-    Raises `DeclarationError` for data that are nested too deeply.
-    """
+    """Convert plain data or parts of a declaration to nodes with the places `marks`, by default their paths."""
     place = marks(loc)
     if isinstance(data, BaseModel):
         data = data.model_dump(mode="json", exclude_unset=True, by_alias=True)

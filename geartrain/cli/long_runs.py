@@ -115,11 +115,7 @@ def close_journal(journal: Journal | None, cut: bool) -> None:
 
 @contextmanager
 def long_run(what: str, question: Mapping[str, Any], out: Path | None, options: RunOptions) -> Iterator[Execution]:
-    """Open the execution of one computation, with an executor, a progress bar and, if the folder is writable, a
-    journal.
-
-    The journal is placed next to the output file, and its name contains a hash of the options in `question`.
-    """
+    """Open a computation's execution: executor, progress bar and, if possible, a journal named after `question`."""
     from geartrain.numerics.work import Execution
 
     # in the form in which it is read from a journal, so that both can be compared

@@ -30,11 +30,7 @@ MOST_COUNT = 10**9
 
 
 def quantity(place: str, text: str, dimension: str, plain: bool = False, minimum: Minimum = None) -> float:
-    """Parse a quantity and return it in SI units.
-
-    If `minimum` is "0", the value must be 0 or more; if it is "above 0", the value must be positive. Raises
-    `GearTrainError` for an invalid value.
-    """
+    """Parse a quantity in SI units; `minimum` is "0" for values of 0 or more, and "above 0" for positive values."""
     return read_quantity(place, text, dimension, plain, minimum).si
 
 

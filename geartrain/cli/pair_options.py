@@ -41,9 +41,7 @@ PAIR = ("friction", "z1", "z2")
 def parameters_of(model: type[ToothForm]) -> dict[str, FieldInfo]:
     """Return the fields of a tooth form that describe one pair, keyed by name.
 
-    The field `centre_distance` is omitted for forms whose teeth run only at the design centre distance. Fields for
-    simulations in the time domain, and fields whose values only Python can give (fields without `repr`), are also
-    omitted.
+    Fields for simulations in time, fields without `repr`, and a `centre_distance` that has no effect are omitted.
     """
     hidden = {"form", *model.in_time} | (set() if model.any_distance else {"centre_distance"})
     return {name: field for name, field in model.model_fields.items() if name not in hidden and field.repr}
@@ -115,9 +113,7 @@ def at_parameter(error: GearTrainError, place: str, fix: str = "") -> GearTrainE
 
 
 def _value(field: FieldInfo, given: str) -> Any:
-    """Convert the text of a value in the way a declaration is read. A value in brackets or braces is parsed as YAML, a
-    value with commas becomes a list, and an integer is converted to int if the field allows it.
-    """
+    """Convert the text of a value as in a declaration: brackets and braces are YAML, and commas make a list."""
     if given[:1] in ("[", "{"):
         from geartrain.train.yaml_nodes import parse_yaml
 

@@ -107,10 +107,7 @@ def summary_line(name: str, summary: str) -> str:
 
 
 def fields_summary(result: Any) -> str:
-    """Return the public fields of a dataclass or named tuple as `name=value`, without fields that are None.
-
-    Numbers have 6 digits. Only the length of containers is shown. Mappings that are not yet created are omitted.
-    """
+    """Return public fields as `name=value`: numbers with 6 digits, containers by their length, and no None."""
     own = [each.name for each in fields(result)] if is_dataclass(result) else ()
     return values_summary(result, getattr(result, "_fields", own))
 
@@ -182,10 +179,7 @@ def _brief_items(values: Mapping[Any, Any] | Sequence[Any] | set[Any] | frozense
 
 
 class Tabular(Shown):
-    """Result with columns, which can be exported as a table.
-
-    Notebooks display the first rows, or the HTML page of the result if it has one.
-    """
+    """Result with columns, which can be exported as a table and whose first rows a notebook displays."""
 
     __slots__ = ()
 
@@ -447,10 +441,7 @@ def whole(keys: tuple[str | Key, ...]) -> tuple[Key, ...]:
 
 @cache
 def field_docs(kind: type) -> Mapping[str, str]:
-    """Return the docstrings of the fields of a class and its bases, each on one line, by field.
-
-    Python discards these docstrings, so they are read from the source. Units are in square brackets: `Angle [rad].`
-    """
+    """Return the docstrings of the fields of a class and its bases, by field, each on one line."""
     found: dict[str, str] = {}
     # base classes first, so that a class overrides their docstrings
     for base in reversed(kind.__mro__):

@@ -290,11 +290,7 @@ def only_sign(result: OutputResult) -> str:
 
 
 def expectations_met(answers: Iterable[Answer]) -> str:
-    """Return a text such as `all 3 expectations and 2 published figures hold`, or how many of them fail; an empty
-    string if there are none.
-
-    A target with a tolerance is counted; a target without tolerance is not.
-    """
+    """Return a text such as `all 3 expectations and 2 published figures hold`; "" if nothing is expected."""
     results = [result for answer in answers for result in answer.outputs.values()]
     kinds = {
         "expectation": [each.expect_holds for each in results if each.expect_holds is not None],

@@ -21,19 +21,17 @@ def coupling_sections(train: GearTrain) -> Iterator[Section]:
     """Yield a section on the sizes of couplings and on effects that are not modelled, where there are any."""
     shown = [each for each in train.declaration.couplings if each.about or each.UNKNOWN]
     if shown:
-        lengths = _belt_lengths(train) if any(each.kind == "belt" for each in shown) else {}
+        lengths = {}  # of belts around two pulleys with declared diameters and axis positions
+        if any(each.kind == "belt" for each in shown):
+            from geartrain.kinematics.buildability.belt_drives import pulley_pairs
+
+            for pair in pulley_pairs(train.declaration, train.kinematics.tree, train.circuits):
+                if pair.length is not None:
+                    crossed = ", crossed" if pair.belt.reversed else ""
+                    lengths[pair.belt.name] = f"{pair.length:.9g} mm{crossed}"
         rows = [(each.name, each.kind, each.about, lengths.get(each.name, ""), each.UNKNOWN) for each in shown]
         table = filled_table(("coupling", "kind", "sizes", "length", "not modelled"), rows, 3)
         yield Section("Couplings", (), (replace(table, rows=cut(table.rows)),))
-
-
-def _belt_lengths(train: GearTrain) -> dict[str, str]:
-    """Return the length of each belt around two pulleys with declared diameters and axis positions, by belt name."""
-    from geartrain.kinematics.buildability.belt_drives import pulley_pairs
-
-    pairs = pulley_pairs(train.declaration, train.kinematics.tree, train.circuits)
-    belts = [(pair.belt, pair.length) for pair in pairs if pair.length is not None]
-    return {belt.name: f"{length:.9g} mm{', crossed' if belt.reversed else ''}" for belt, length in belts}
 
 
 @dataclass(frozen=True)

@@ -264,12 +264,9 @@ def titled(state: str | None, words: str) -> str:
 
 
 def without_details(document: Document, requested: Sequence[str] = ()) -> Document:
-    """Return a document without its detail sections.
+    """Return a document without its detail sections, or only the sections whose titles contain a requested word.
 
-    requested   words of section titles; if given, only sections whose titles contain one of these words are kept
-
-    Without requested words, a last section lists the titles that were omitted. Raise `QuestionError` if a requested
-    word is in no title.
+    Without requested words, a last section lists the omitted titles. A word in no title raises `QuestionError`.
     """
     titles = [section.title for section in document.sections]
     for word in requested:
@@ -334,12 +331,9 @@ def gap_of(table: Table) -> int:
 
 
 def strips(table: Table, width: int) -> Iterator[Table]:
-    """Divide a table into strips of columns that fit the width, and yield each strip. Each strip also contains the
-    first column.
+    """Yield the strips of columns, each with the first column, into which a table is divided to fit a width.
 
-    A table that fits is yielded unchanged. A word is broken only if it is wider than the available width.
-
-    width   characters per line
+    A word is broken only if it is wider than `width`, the number of characters per line.
     """
     minimum = [_minimum(column, table.wide) for column in _columns(table)]
     gap, start = gap_of(table), 1

@@ -87,10 +87,7 @@ def to_html(documents: Sequence[Document]) -> str:
 
 
 def to_fragment(documents: Sequence[Document]) -> str:
-    """Return documents as HTML for a notebook, without the style and script of a page. Pictures are omitted.
-
-    Raise `MissingExtraError` if jinja2 is not installed (extra `report`).
-    """
+    """Return documents as HTML for a notebook, without the style, script and pictures of a page."""
     check_pages()
     fragment: str = _template("fragment.html").render(documents=documents)
     return fragment
@@ -143,8 +140,7 @@ def is_web(url: str) -> bool:
 
 
 def inline(svg: str, number: int) -> str:
-    """Return an SVG document as an element of an HTML page. Its ids are made unique by `number`, and its fixed size is
-    removed.
+    """Return an SVG document as an element of a page, with ids made unique by `number` and without a fixed size.
 
     Lengths in paths are cut to two decimals, because no screen or printer resolves a hundredth of a point.
     """

@@ -72,9 +72,7 @@ class OutputMotion:
 
 @dataclass(frozen=True)
 class MotionFigures(Result):
-    """Deviations and speeds, over a run in one state, of the outputs of a train with declared tooth forms or pins.
-    Angles are in rad, and travels of links that slide are in mm.
-    """
+    """Deviations and speeds of the outputs over a run in one state; angles in rad, travels of slides in mm."""
 
     PAGE = "report.motion_report:describe_motion"
 

@@ -69,13 +69,10 @@ class TriangularPair(Result):
 def collect_pair(
     mesh: GearMesh, outlines: Sequence[WheelOutline] = (), operation: PairOperation | None = None
 ) -> PairDesign | TriangularPair | FormedPair:
-    """Return the data on one pair of wheels that does not belong to a train.
+    """Return the data on a pair of wheels outside a train, in a class that depends on its teeth.
 
     outlines    outlines of the wheels that were constructed
     operation   operating conditions, for the impacts of triangular teeth
-
-    The class of the result depends on the teeth: conjugate teeth at their design distance, triangular teeth, or other
-    teeth.
     """
     if not isinstance(mesh, TriangularMesh):
         return _design(mesh, outlines) or FormedPair(mesh, tuple(outlines))
@@ -87,11 +84,7 @@ def collect_pair(
 def describe_pair(
     mesh: GearMesh, outlines: Sequence[WheelOutline] = (), operation: PairOperation | None = None
 ) -> Document:
-    """Return a document on one pair of wheels: verdict, sizes, transmission function, losses and outlines.
-
-    The arguments are those of `collect_pair`. The document gives the permitted range of a friction coefficient or of a
-    clearance factor that is out of range.
-    """
+    """Return a document on one pair of wheels; the arguments are those of `collect_pair`."""
     first, second = mesh.counts
     drives = f"The wheel of {first} drives the wheel of {second}."
     if isinstance(mesh, TriangularMesh):

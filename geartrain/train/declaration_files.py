@@ -110,10 +110,7 @@ def write_declaration(train: Train) -> str:
 
 
 def formatted(path: Path, long: bool = False) -> tuple[str, str]:
-    """Return the text of a declaration file, and its text with pairs and belts in short (or long) form.
-
-    Raises `DeclarationError` if the file cannot be read, or if the new text would change the declaration.
-    """
+    """Return the text of a declaration file, and its text in short (or long) form, checked to have the same meaning."""
     from geartrain.train.declaration_style import with_long_forms, with_short_forms
 
     def declared(text: str) -> dict[str, Any]:

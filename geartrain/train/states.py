@@ -330,11 +330,7 @@ class Escapement(Declared):
         return 1 / (2 * self.teeth * self.beat.base)
 
     def has_wheel(self, link: str, count: int | None) -> bool:
-        """Return True if a wheel is the escape wheel, which requires no gear pair.
-
-        link    link of the wheel
-        count   tooth count of the wheel; None if it is not known
-        """
+        """Return True if the wheel on `link` with `count` teeth (None: unknown) is the escape wheel."""
         return (link, count) == (self.link, self.teeth)
 
 

@@ -330,7 +330,7 @@ class Escapement(Declared):
         return 1 / (2 * self.teeth * self.beat.base)
 
     def has_wheel(self, link: str, count: int | None) -> bool:
-        """Return True if the wheel on `link` with `count` teeth (None: unknown) is the escape wheel."""
+        """Return True if a wheel on `link` with `count` teeth is the escape wheel; False if `count` is None."""
         return (link, count) == (self.link, self.teeth)
 
 

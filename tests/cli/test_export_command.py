@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
 
@@ -12,6 +13,7 @@ from commands import LOCKED, call, without
 from geartrain.errors import GearTrainError, Problem
 
 LIGHT = "svg,graphml,dot,rexs,csv"
+Write = Callable[..., Path]
 
 
 def test_a_folder_holds_all_that_was_requested_for_and_a_list_of_it(tmp_path: Path) -> None:
@@ -66,24 +68,20 @@ def test_a_folder_that_is_a_file_is_no_folder(tmp_path: Path) -> None:
     assert "not a folder" in str(call("export", "planetary-24-18-60", "--to", tmp_path / "x", "--as", LIGHT).exception)
 
 
-def test_a_module_is_refused_where_the_declaration_has_sizes(tmp_path: Path) -> None:
+def test_a_module_is_refused_where_the_declaration_has_sizes(tmp_path: Path, train_file: Write) -> None:
     out = tmp_path / "x.stl"
-    text = (
+    file = train_file(
         "links: {frame: {}, a: {wheels: {p: {teeth: 20, module: 2 mm}}}, b: {wheels: {w: {teeth: 30, module: 2 mm}}}}\n"
         "revolutes: [{pair: [frame, a], axis: A}, {pair: [frame, b], axis: B}]\ngears: [{pair: [p, w]}]\n"
         "inputs: {a: 1}\n"
     )
-    file = tmp_path / "sized.yaml"
-    file.write_text(text, encoding="utf-8")
     done = call("export", file, "-o", out, "--module", "1mm")
     assert "already has sizes" in str(done.exception)
     assert call("export", file, "-o", out).exit_code == 0
 
 
-def test_a_locked_train_is_written_and_the_exit_code_says_so(tmp_path: Path) -> None:
-    file = tmp_path / "locked.yaml"
-    file.write_text(LOCKED, encoding="utf-8")
-    done = call("export", file, "--to", tmp_path / "set", "--as", LIGHT)
+def test_a_locked_train_is_written_and_the_exit_code_says_so(tmp_path: Path, train_file: Write) -> None:
+    done = call("export", train_file(LOCKED), "--to", tmp_path / "set", "--as", LIGHT)
     assert done.exit_code == 1, done.output
     assert (tmp_path / "set" / "wheels" / "x.svg").exists()
 
@@ -111,20 +109,17 @@ def test_without_any_extra_the_rest_is_written_and_what_is_missing_is_said(tmp_p
     assert suffixes == {".svg", ".stl", ".glb", ".graphml", ".dot", ".rexsj", ".csv", ".md"}
 
 
-def test_backlash_in_mm_is_no_error_where_the_module_is_requested_for(tmp_path: Path) -> None:
-    train = tmp_path / "train.yaml"
-    train.write_text(
+def test_backlash_in_mm_is_no_error_where_the_module_is_requested_for(tmp_path: Path, train_file: Write) -> None:
+    train = train_file(
         "extends: planetary-24-18-60\nname: thin\n"
-        "tooth_form: {form: involute, pressure_angle: 25 deg, backlash: 0.1 mm}\n",
-        encoding="utf-8",
+        "tooth_form: {form: involute, pressure_angle: 25 deg, backlash: 0.1 mm}\n"
     )
     done = call("export", train, "--to", tmp_path / "cut", "--as", "svg", "--module", "2mm")
     assert done.exit_code == 0, done.output
     assert "s~p: 0.1 mm" in (tmp_path / "cut" / "README.md").read_text(encoding="utf-8")
 
 
-def test_parts_that_are_not_ready_to_cut_have_exit_code_1(tmp_path: Path) -> None:
-    train = tmp_path / "planets.yaml"
+def test_parts_that_are_not_ready_to_cut_have_exit_code_1(tmp_path: Path, train_file: Write) -> None:
     text = """
 name: planets
 links:
@@ -136,11 +131,10 @@ revolutes: {main: [frame, sun, carrier], P: [carrier, planet]}
 gears: [s ~ p, p ~ r]
 inputs: {sun: 1}
 """
-    train.write_text(text, encoding="utf-8")
-    done = call("export", train, "--to", tmp_path / "fit", "--as", "svg", "--module", "2mm")
+    done = call("export", train_file(text), "--to", tmp_path / "fit", "--as", "svg", "--module", "2mm")
     assert (done.exit_code, "not ready to cut" in done.output) == (0, False), done.output
     # 16 + 45 teeth are not a multiple of 3: one planet can be assembled
-    train.write_text(text.replace("s: 15", "s: 16").replace("p: 15", "p: 14"), encoding="utf-8")
+    train = train_file(text.replace("s: 15", "s: 16").replace("p: 15", "p: 14"))
     done = call("export", train, "--to", tmp_path / "miss", "--as", "svg", "--module", "2mm")
     assert (done.exit_code, "not ready to cut" in done.output) == (1, True), done.output
     assert (tmp_path / "miss" / "README.md").exists()

@@ -172,7 +172,7 @@ def _measure_motion(train: GearTrain, state: str | None, positions: int) -> Iter
 
 
 def _measure_torques(train: GearTrain, state: str | None, _: int) -> Iterator[MethodAccuracy]:
-    """Yield the accuracy of the methods for torques: balance with losses, and means over numbers of positions."""
+    """Yield the accuracy of torques by two methods: balance with losses, and means of runs with few or many samples."""
     if not train.declaration.is_loaded(state):
         raise QuestionError(Problem("no loads are declared"))
     # a new train in each run, because results are cached

@@ -182,7 +182,7 @@ def find_gears(
 
 
 def _rank(gear: PossibleGear) -> tuple[int, Fraction]:
-    """Return the sort key of a gear: forward, reverse, then resting output; by decreasing magnitude of the ratio."""
+    """Return the sort key of a gear: forward gears, then reverse, then resting output; larger ratios first in each."""
     return (2, Fraction(0)) if gear.ratio is None else (int(gear.ratio < 0), -abs(gear.ratio))
 
 
@@ -248,7 +248,7 @@ _Way = tuple[float, int, tuple[int, ...]]
 
 
 def _series(gears: Sequence[PossibleGear], links: Links, number: int) -> _Found:
-    """Return the number of series of `number` gears, the widest one, and the one of minimum variance of log steps."""
+    """Return the number of series of `number` gears, and those of maximum spread and of most uniform steps, or None."""
     # for a given first and last gear, the mean logarithmic step is fixed, so that the minimum sum of squares gives the
     # minimum variance
     ratios = [each.ratio or Fraction(1) for each in gears]
@@ -267,7 +267,7 @@ def _series(gears: Sequence[PossibleGear], links: Links, number: int) -> _Found:
 
 
 def _series_from(start: int, gears: Sequence[PossibleGear], links: Links, number: int) -> dict[int, tuple[_Way, int]]:
-    """Return, by last gear, the series from `start` with the minimum sum of squared log steps, and how many exist."""
+    """Return, by last gear, the series from gear `start` with the most uniform steps, and the number of all series."""
     logs = [log(each.ratio or 1) for each in gears]
     reach: dict[int, tuple[_Way, int]] = {start: ((0.0, 0, (start,)), 1)}
     for _ in range(number - 1):

@@ -320,7 +320,7 @@ class GearTrain:
     # ------------------------------------------------------------------------------------------ speeds and equations
 
     def answers(self) -> Iterator[Answer]:
-        """Yield the solved speeds of every state in the order of declaration; one answer without states."""
+        """Yield the solved speeds of each declared state in order, or of the train if it declares no states."""
         return (self.solve(state) for state in (self.states or (None,)))
 
     @property
@@ -770,7 +770,7 @@ class GearTrain:
 
     @cached_property
     def kinematics(self) -> TrainKinematics:
-        """Results without tooth forms: tree of turning pairs, senses, cases, gridlock, float speeds, sensitivities."""
+        """Results that need no tooth forms: tree of turning pairs, inputs of states, gridlock, and sensitivities."""
         return TrainKinematics(self.declaration)
 
     @cached_property

@@ -256,7 +256,7 @@ def _state(train: TrainMechanics, answer: Answer, source: str, link: str) -> Gea
 
 
 def _slip(speeds: Mapping[str, Fraction], clutch: Clutch) -> Fraction | None:
-    """Return the slip of a clutch (first relative to second link) or brake; None if it is undetermined."""
+    """Return the speed of a clutch's first link minus that of the second, or the speed of a braked link, or None."""
     one, other = clutch.locks or (clutch.fixes or "", "")
     if one not in speeds or (other and other not in speeds):
         return None
@@ -280,7 +280,7 @@ def _torques(load: Torques, source: str, engaged: Mapping[str, tuple[str, ...]])
 
 
 def _circulation(load: Torques) -> Fraction | None:
-    """Return the power that recirculates between gear sets over the input power; None if the input power is 0."""
+    """Return the power that recirculates between gear sets divided by the input power; None if the input power is 0."""
     flow = find_power_flow(load)
     if not flow.power_in:
         return None

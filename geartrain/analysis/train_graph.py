@@ -143,7 +143,7 @@ class _GraphFacts:
         return self._circuits[name].carrier
 
     def ratio(self, name: str) -> Fraction:
-        """Return the speed of the first over that of the second link of a circuit, both relative to the carrier."""
+        """Return the speed of the first link of a circuit divided by that of the second, relative to the carrier."""
         return self._circuits[name].ratio
 
     def axis(self, name: str) -> tuple[str, str]:

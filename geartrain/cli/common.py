@@ -82,7 +82,7 @@ def is_sound(train: GearTrain, state: str | None) -> bool:
 
 
 def exit_code(sound: bool, to: Sink) -> int:
-    """Return the exit code of a command; if `sound` is False, also note on stderr that a written train has failures."""
+    """Return the exit code, 0 or 1 for failures; print a note if an unsound train was written to a file."""
     if not sound and to.path is not None:
         tell("a train is not determined, or not as expected: `geartrain check` lists why (exit code 1)")
     return GOOD if sound else VERDICT
@@ -135,7 +135,7 @@ class Sink:
         return self.path.suffix.lower() if self.path is not None else self.form
 
     def write(self, data: bytes, said: str = "") -> None:
-        """Write a complete result to standard output, or atomically to the file, then print its name and `said`."""
+        """Write a result to standard output, or atomically to the file and then report its name, followed by `said`."""
         if self.path is None:
             # text printed so far must precede the bytes
             sys.stdout.flush()
@@ -255,7 +255,7 @@ def suffix_of(out: Path | None, allowed: Iterable[str], option: str = "-o") -> s
 
 
 def file_name(text: str, ending: str) -> Path:
-    """Return a file name in the current folder: `text` with hyphens for unsuitable characters, and `ending`."""
+    """Return a file name: `text`, in which hyphens replace unsuitable characters, followed by `ending`."""
     # at most 120 characters: file systems limit names to 255 bytes
     stem = re.sub(r"[^\w.+-]+", "-", text).strip("-.")[:120]
     return Path(f"{stem or 'train'}{ending}")

@@ -64,7 +64,7 @@ class ProgressBar:
 
 @contextmanager
 def progress(what: str, total: int | None = None, patience: float = 0.0) -> Iterator[ProgressBar]:
-    """Open a progress bar on standard error, visible after `patience` [s]; it also reports compilation of kernels."""
+    """Show a progress bar on standard error, if the work takes longer than `patience` [s], and notes on compilation."""
     from rich.console import Console
     from rich.progress import Progress, TimeElapsedColumn
 
@@ -231,7 +231,7 @@ def run_in_time(train: GearTrain, state: str | None, requested: dict[str, Any]) 
 
 @contextmanager
 def interruptible(what: str) -> Iterator[Callable[[float], bool]]:
-    """Yield a function of the completed fraction, which returns True after Ctrl-C; a second Ctrl-C interrupts."""
+    """Yield a function that adds a completed fraction and returns True after Ctrl-C; the next Ctrl-C ends the work."""
     interrupted = False
 
     def note(number: int, frame: Any) -> None:

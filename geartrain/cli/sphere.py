@@ -175,7 +175,7 @@ def _graph(file: Path, aim: Any, minimum: int) -> GraphSet:
 
 
 def _teeth(text: str | None) -> dict[str, int] | int | None:
-    """Parse one tooth count for all gears, or one for each kind of gear, such as `5=20,3=12`; None for None."""
+    """Parse one tooth count for all gears, or one for each kind of gear, such as `5=20,3=12`; None without a text."""
     if text is None:
         return None
     try:
@@ -188,7 +188,7 @@ def _teeth(text: str | None) -> dict[str, int] | int | None:
 
 
 def _sphere_radius(configuration: Configuration, text: str) -> float:
-    """Return the radius of the sphere from this radius or from KIND=RADIUS, the pitch radius of one kind of gear."""
+    """Parse the radius of the sphere, or derive it from KIND=RADIUS, the pitch radius of one kind of gear."""
     from geartrain.spherical.gear_sizes import size_gears
 
     kind, wheel, number = text.rpartition("=")

@@ -111,7 +111,7 @@ def umask() -> int:
 
 
 def _obstacle(path: Path, real: Path, mode: int, force: bool) -> Problem | None:
-    """Return what prevents writing `real` (mode 0 if it is missing), to which `path` refers; None if nothing does."""
+    """Return the problem that prevents writing a file, or None. `mode` is the file's mode, 0 if the file is missing."""
     if stat.S_ISDIR(mode):
         fix = f"give a file in it: {path / 'NAME'}"
         return Problem("this is a folder", "a result is written to one file", fix, str(path))

@@ -158,7 +158,7 @@ def turns_in(unit: str) -> Fraction:
 
 
 def same_kind(first: str | None, second: str | None) -> bool:
-    """Return True if one unit is a rational multiple of the other, which radians are only of radians."""
+    """Return True if both units contain radians or neither does, so that their quotient is a rational number."""
     return (first in IRRATIONAL) == (second in IRRATIONAL)
 
 

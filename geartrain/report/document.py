@@ -315,7 +315,7 @@ def ppm(value: float | None) -> str:
 
 
 def cut(rows: Sequence[Sequence[str]], of: int | None = None, most: int = MOST_ROWS) -> list[Sequence[str]]:
-    """Return the first `most` rows, and a row with the number of omitted rows of `of`, by default of `rows`."""
+    """Return the first `most` rows and a row with the number of omitted rows, of `of` rows in all (default: `rows`)."""
     count = len(rows) if of is None else of
     if count <= most:
         return list(rows)

@@ -118,7 +118,7 @@ def _template(name: str) -> Any:
 
 
 def _on_paper(table: Table) -> list[Table]:
-    """Return the strips of columns in which a table wider than a sheet is printed; [] for other tables."""
+    """Return the strips of columns in which a table that is too wide for a sheet is printed; empty if it fits."""
     parts = list(strips(table, _ON_PAPER))
     return parts if len(parts) > 1 else []
 

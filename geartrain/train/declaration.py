@@ -669,12 +669,12 @@ class Train(Declared):
 
 
 def wheel_thickness(train: Train, wheel: Wheel) -> Quantity | None:
-    """Return the thickness of a wheel, else its face width, else thickness or face width of the train; else None."""
+    """Return the first declared value of: thickness and face width of the wheel, then of the train; else None."""
     return wheel.thickness or wheel.face_width or train.thickness or train.face_width
 
 
 def face_width(train: Train, wheel: Wheel) -> Quantity | None:
-    """Return the face width of a wheel, else its thickness, else face width or thickness of the train; else None."""
+    """Return the first declared value of: face width and thickness of the wheel, then of the train; else None."""
     return wheel.face_width or wheel.thickness or train.face_width or train.thickness
 
 

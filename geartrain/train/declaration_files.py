@@ -163,7 +163,7 @@ def files_of(path: Path) -> tuple[Path, ...]:
 
 
 def _parents(node: YamlNode, folder: Path, chain: tuple[Path, ...]) -> Iterator[tuple[Path, YamlNode]]:
-    """Yield path and node of each ancestor by `extends`; raise `DeclarationError` for a cycle or a long chain."""
+    """Yield path and root node of each ancestor; raise `DeclarationError` for a cycle or for too many ancestors."""
     met = dict.fromkeys(chain)
     for at in count():
         if "extends" not in node.mapping:

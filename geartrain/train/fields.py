@@ -157,7 +157,7 @@ Nothing = BeforeValidator(lambda raw: {} if raw is None else raw)
 
 @cache
 def _union_reader(key: str, *names: str) -> TypeAdapter[Any]:
-    """Return the validator of the named tooth forms (key `form`) or couplings (key `kind`); import no others."""
+    """Return the validator of the named tooth forms (key `form`) or couplings (key `kind`), importing only these."""
     model = tooth_form if key == "form" else coupling_model
 
     class Models:
@@ -212,7 +212,7 @@ def _read_coupling(raw: Any) -> Any:
 
 
 def _read_model(keys: Any, key: str, names: Callable[[Any], Iterable[str]]) -> Any:
-    """Read a model that is selected by the value of `key`; `names` returns the known values, given that value."""
+    """Read a model whose class is selected by the value of `key`; `names` returns all values allowed for this key."""
     name = keys.get(key) if isinstance(keys, dict) else getattr(keys, key, None)
     known = tuple(names(name))
     read = _union_reader(key, *([name] if isinstance(name, str) and name in known else known)).validate_python(keys)

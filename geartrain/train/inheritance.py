@@ -20,7 +20,7 @@ _SHORT = {"wheels": "teeth", "sources": "cite"}
 
 
 def merge_parent(parent: YamlNode, child: YamlNode) -> YamlNode:
-    """Return a new node in which a child declaration is merged into its parent, or raise `DeclarationError`."""
+    """Return a declaration merged with its parent: entries with a name replace or extend the parent's entries."""
     base = {key: node for key, node in parent.mapping.items() if key not in _NOT_INHERITED}
     keys = {key: parent.keys[key] for key in base}
     root = YamlNode(base, child.place, keys)

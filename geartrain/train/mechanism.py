@@ -482,7 +482,7 @@ class Link(Declared):
 
     @property
     def friction_radius(self) -> float:
-        """Radius of the bearing's friction circle [m]: r f/sqrt(1 + f^2) for a pivot of radius r; 0 without f."""
+        """Radius of the friction circle [m]: r f/sqrt(1 + f^2) for pivot radius r and friction f; 0 if undeclared."""
         if self.bearing is None or not self.bearing.coefficient or not self.bearing.coefficient.value:
             return 0.0
         mu, radius = float(self.bearing.coefficient.value), self.bearing.radius

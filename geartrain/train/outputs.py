@@ -41,7 +41,7 @@ _EXTRA_DIGITS = 2  # of a computed period, more than the source prints
 
 @dataclass(frozen=True, slots=True)
 class PrintedPeriod(Figure):
-    """Time as printed in a source. `value` and `half`, half a unit of its last digit [s], do not include its years."""
+    """Time as printed in a source. `value` [s] is the time without its years, which are a separate field."""
 
     years: Fraction
     """Number of years in the printed time; 0 if it has none."""
@@ -349,7 +349,7 @@ _BEHIND = ("back", "rear", "behind")  # words for the far side; other dials face
 
 
 def looks_away(face: str | None, seen_from: str | None) -> bool:
-    """Return True if a dial with `Dial.face` faces away from an observer at `View.from_`; False without a face."""
+    """Return True if the given face of the train is not visible from the given side; False if no face is given."""
     return face is not None and (face in _BEHIND) != (seen_from in _BEHIND)
 
 

@@ -92,14 +92,14 @@ def read_date(text: str, calendar: Calendar | None = None) -> CalendarDate:
 
 
 def _split_julian(days: int) -> tuple[int, int]:
-    """Split days since 1 March into whole Julian years, four of 1461 days, and remaining days."""
+    """Return the number of whole Julian years in a number of days since 1 March, and the remaining days."""
     fours, rest = divmod(days, 1461)
     years = min(rest // 365, 3)
     return 4 * fours + years, rest - 365 * years
 
 
 def _split_gregorian(days: int) -> tuple[int, int]:
-    """Split days since 1 March of the year 0 into Gregorian years, 400 of 146097 days, and remaining days."""
+    """Return the whole Gregorian years in a number of days since 1 March of the year 0, and the remaining days."""
     rounds, rest = divmod(days, 146097)
     hundreds = min(rest // 36524, 3)
     year, rest = _split_julian(rest - 36524 * hundreds)

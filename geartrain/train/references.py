@@ -22,7 +22,7 @@ from geartrain.train.states import Drive, State
 
 
 def mixed_inputs(train: Train) -> Iterator[Problem]:
-    """Yield a problem if inputs mix units, or are per time although the train's unit is not a time; 0 needs no unit."""
+    """Yield a problem if inputs with and without units are mixed, or have units that do not fit the train's unit."""
     inputs = [
         ((*loc, "inputs", link), speed)
         for loc, part in train.cases_declared

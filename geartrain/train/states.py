@@ -132,7 +132,7 @@ class SpringDrive(Declared):
         )
 
     def torque(self, unwound: float) -> float:
-        """Return the torque on the driving link [N m] after it has turned by `unwound` [rad] as it is driven."""
+        """Return the torque on the driving link [N m] after this link has turned by `unwound` [rad] since the start."""
         if (chained := self.chained) is not None:
             return chained.torque(unwound)
         return self.stiffness.si * (tau * float(self.turns.value) - unwound)

@@ -36,7 +36,7 @@ class PossibleGear(Result):
 
 @dataclass(frozen=True)
 class GearSeries(Result):
-    """Series of forward gears by decreasing ratio, with the steps between gears and the spread of the ratios."""
+    """Series of forward gears in descending order of ratio, with steps between gears and the spread of the ratios."""
 
     KEYS = ("gears", Key("steps", to=as_float), Key("spread", to=as_float), "deviation", "double_shifts")
 

@@ -264,14 +264,14 @@ def _slip(speeds: Mapping[str, Fraction], clutch: Clutch) -> Fraction | None:
 
 
 def _load(train: TrainMechanics, state: str, source: str, link: str) -> Torques | None:
-    """Return the torques if `source` drives and unit power leaves the train at `link`; None if undetermined."""
+    """Return the torques if the link `source` drives and unit power leaves at `link`; None if they are undetermined."""
     found = solve_driven(train, link, source, state)
     # torques are divided by the input torque, so a torque of 0 counts as undetermined
     return found if found.verdict and found.external.get(source) else None
 
 
 def _torques(load: Torques, source: str, engaged: Mapping[str, tuple[str, ...]]) -> dict[str, Fraction | None]:
-    """Return the torque of each closed element by name; `engaged` gives the links that it connects or brakes."""
+    """Return the torque of each closed element divided by that of `source`, by name; None if elements share links."""
     drive, held = load.external[source], {each.links: each.torques for each in load.held}
     known = {name: held[links] for name, links in engaged.items() if links in held}
     # elements that hold the same links share their torque in an unknown ratio

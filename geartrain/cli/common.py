@@ -77,7 +77,7 @@ def load_all(files: list[str]) -> list[GearTrain]:
 
 
 def is_sound(train: GearTrain, state: str | None) -> bool:
-    """Return True if a state (None: the first) has determined and expected speeds, and no teeth are faulty."""
+    """Return True if the speeds of a state (by default the first) are as expected, and all declared teeth can turn."""
     return bool(train.solve(train.declaration.state_or_first(state))) and not train.mechanics.faults
 
 

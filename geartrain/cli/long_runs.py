@@ -115,7 +115,7 @@ def close_journal(journal: Journal | None, cut: bool) -> None:
 
 @contextmanager
 def long_run(what: str, question: Mapping[str, Any], out: Path | None, options: RunOptions) -> Iterator[Execution]:
-    """Open a computation's execution: executor, progress bar and, if possible, a journal named after `question`."""
+    """Open the execution of a computation, with an executor, a progress bar and, if possible, a journal file."""
     from geartrain.numerics.work import Execution
 
     # in the form in which it is read from a journal, so that both can be compared

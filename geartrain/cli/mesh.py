@@ -403,7 +403,7 @@ def sweep(pair: PairRequest, vary: list[str], picture: Sink, json: bool, to: Sin
 
 
 def _ranges(vary: list[str]) -> tuple[dict[str, list[float]], dict[str, str]]:
-    """Return the values of each varied parameter, and the unit in which they were given, by parameter."""
+    """Return two mappings by parameter: the values to be computed, and the unit in which the range was given."""
     if len(vary) > 2:
         raise option_error("--vary", f"{len(vary)} parameters are given", "give --vary once or twice")
     ranges: dict[str, list[float]] = {}

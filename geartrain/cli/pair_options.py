@@ -113,7 +113,7 @@ def at_parameter(error: GearTrainError, place: str, fix: str = "") -> GearTrainE
 
 
 def _value(field: FieldInfo, given: str) -> Any:
-    """Convert the text of a value as in a declaration: brackets and braces are YAML, and commas make a list."""
+    """Convert the text of a field's value: text in brackets or braces is YAML, and text with commas is a list."""
     if given[:1] in ("[", "{"):
         from geartrain.train.yaml_nodes import parse_yaml
 
@@ -225,7 +225,7 @@ BLANK = ("bore", "tolerance", "clearance", "fillet", "rim")
 
 
 def write_profile(mesh: GearMesh, wheel: int, blank: Mapping[str, str], to: Sink) -> list[WheelOutline]:
-    """Write the outline of a wheel with the sizes `blank`, and return it in a list; [] if no file is named."""
+    """Write the outline of a wheel with the sizes `blank`; return a list of the outline, or [] if no file is named."""
     if to.path is None:
         return []
     from geartrain.drawing import outline_text

@@ -155,7 +155,7 @@ class _ReaderGoneError(Exception):
 
 
 class EndingGroup(TyperGroup):
-    """Group of commands that ends on closed pipes and Ctrl-C itself; typer would exit with the code of a verdict."""
+    """Group of commands that handles closed pipes and Ctrl-C itself; typer would exit with the code of a verdict."""
 
     def make_context(self, *given: Any, **more: Any) -> Any:
         """Parse the command line and return the context. The options `--help` and `--version` exit here."""

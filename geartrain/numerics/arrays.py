@@ -29,9 +29,10 @@ def blocks(count: int) -> Iterator[slice]:
 
 
 def remainder(values: Floats, period: float) -> Floats:
-    """Return values less whole periods, from 0 to `period` up to rounding, in a quarter of the time of `numpy.mod`.
+    """Return the remainders of values divided by a period, from 0 to `period` up to rounding.
 
-    The period is the sum of two numbers, so that the first product is exact for up to 10^8 periods.
+    This takes a quarter of the time of `numpy.mod`. The period is the sum of two numbers, so that the first product is
+    exact for up to 10^8 periods.
     """
     coarse = float(np.float32(period))
     whole = np.floor(values * (1 / period))

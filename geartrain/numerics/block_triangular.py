@@ -18,7 +18,7 @@ class Block(NamedTuple):
 
 
 def find_blocks(rows: Sequence[Sequence[int]]) -> list[Block] | None:
-    """Return the blocks of a square system, each after those on which it depends; None without a perfect matching."""
+    """Return the blocks of a square system in order of dependence; None if there is no perfect matching."""
     row_of = _maximum_matching(dict(enumerate(rows)))
     if len(row_of) < len(rows):
         return None

@@ -54,7 +54,7 @@ class ProbabilityEstimate(Result):
 
 
 def wilson(count: float, of: float) -> tuple[float, float]:
-    """Return the 95 % Wilson score interval for `count` successes in `of` trials; (0, 1) if there were none.
+    """Return the 95 % Wilson score interval for `count` successes in `of` trials; (0, 1) if there are no trials.
 
     For weighted trials, `count` and `of` are effective numbers, which need not be integers.
     """

@@ -21,7 +21,7 @@ def coprime(numerator: int, denominator: int) -> Fraction:
 
 
 def times(n: int, d: int, a: int, b: int) -> tuple[int, int]:
-    """Return the product of n/d, in lowest terms, and a/b as (numerator, positive denominator) in lowest terms."""
+    """Return the product of n/d and a/b as numerator and positive denominator without common factors, as in n and d."""
     if b < 0:
         a, b = -a, -b
     common = math.gcd(a, b)

@@ -340,7 +340,7 @@ def _not_a_number(raw: object) -> PydanticCustomError:
 
 
 def checked(is_valid: Callable[[Any], bool], message: str, fix: str) -> AfterValidator:
-    """Return a validator of numbers or quantities with a message, which contains `{text}`, and a fix."""
+    """Return a validator that rejects invalid numbers or quantities with a message, which can contain `{text}`."""
 
     def check(given: Any) -> Any:
         if not is_valid(given):

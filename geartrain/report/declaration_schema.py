@@ -125,7 +125,7 @@ def _values(models: Schema, shape: Schema, data: Any, name: str) -> Iterator[tup
 
 
 def _fits(body: Schema, data: Any) -> bool:
-    """Return True if a part has all keys of a mapping, and the mapping is of the part's kind, form or law."""
+    """Return True if a part allows all keys of a mapping, and has no other fixed values (`kind`, `form`) than these."""
     keys = body["properties"]
     return isinstance(data, dict) and all(
         key in keys and keys[key].get("const", value) == value for key, value in data.items()
@@ -208,7 +208,7 @@ def _references(shape: Any) -> Iterator[str]:
 
 
 def _chapters(models: Schema, name: str, depth: int, seen: set[str]) -> Iterator[_Chapter]:
-    """Yield the sections of all parts below a part, except of parts that belong to a top-level key."""
+    """Yield the sections of a part's keys, their parts and so on; parts that are already in `seen` are omitted."""
     found = {
         key: tuple(dict.fromkeys(_references(shape))) for key, shape in _body(_part(models, name))["properties"].items()
     }

@@ -398,7 +398,7 @@ def _columns(table: Table) -> list[tuple[str, ...]]:
 
 
 def _minimum(column: Sequence[str], whole: bool) -> int:
-    """Return the minimum width of a column: the length of its longest word, or of its longest cell if not wrapped."""
+    """Return the minimum width of a column: the length of its longest word or, if `whole`, of its longest cell."""
     pieces = column if whole else [word for cell in column for word in cell.split()]
     return max(1, *(len(piece) for piece in pieces), 0)
 

@@ -231,7 +231,7 @@ def _described(shape: Schema, meaning: str) -> Schema:
 
 
 def meaning_of(kind: Any, path: str) -> str:
-    """Return the docstring of a field or property, `attribute` or `part.attribute`; "" if it has none."""
+    """Return the docstring of the field or property at a path, such as `part.attribute`; "" if it has no docstring."""
     first, _, rest = path.partition(".")
     if rest:
         whole_kind = attribute_kind(kind, first)
@@ -267,7 +267,7 @@ def _summary(what: Any) -> str:
 
 
 def attribute_kind(kind: Any, path: str) -> Any:
-    """Return the annotation of a field or property, `attribute` or `part.attribute`; an unknown one raises an error."""
+    """Return the annotation of the field or property at a path, such as `part.attribute`, or raise an error."""
     for name in path.split("."):
         kind = _own_kind(kind, name)
     return kind

@@ -326,7 +326,7 @@ def _circuits_in_short(train: GearTrain) -> str:
 
 
 def _mobility_lines(found: Mobility, held: Sequence[str] = ()) -> Iterator[str]:
-    """Yield sentences on mobility by count and by rank, redundant circuits, locked links, and resting links, `held`."""
+    """Yield sentences on mobility by count and by rank, redundant circuits, locked links, and links at rest, `held`."""
     minus = f" - {plural(found.couplings, 'coupling')}" if found.couplings else ""
     slides = f" + {plural(found.sliding_pairs, 'sliding pair')}" if found.sliding_pairs else ""
     pairs = f"{plural(found.turning_pairs, 'turning pair')}{slides} - {plural(found.gear_pairs, 'gear pair')}{minus}"

@@ -259,7 +259,7 @@ class Graduation(Declared):
 
 
 def _distribute_names(name: str, parts: tuple[tuple[str, int], ...], divisions: object) -> list[tuple[str, int]]:
-    """Return the labels of a scale, each with its share of another total number of divisions."""
+    """Return the labels of a scale, each with its number of divisions if the scale has `divisions` divisions."""
     total, count = sum(span for _, span in parts), _read_whole(divisions)
     shares = [(part, Fraction(span * count, total)) for part, span in parts]
     if any(share.denominator > 1 for _, share in shares):

@@ -222,7 +222,7 @@ class _Reader:
 
 
 def node_from_data(data: Any, loc: Loc = (), marks: Marks = dotted) -> YamlNode:
-    """Convert plain data or parts of a declaration to nodes with the places `marks`, by default their paths."""
+    """Convert plain data or parts of a declaration to nodes; `marks` returns the place of a path in the file."""
     place = marks(loc)
     if isinstance(data, BaseModel):
         data = data.model_dump(mode="json", exclude_unset=True, by_alias=True)

@@ -45,10 +45,9 @@ def dotted(loc: Loc) -> str:
 
 
 def nearest_names(name: str, known: Iterable[str], wide: bool = False) -> list[str]:
-    """Return the known names that are most similar to an unknown name, in order of decreasing similarity.
+    """Return up to two known names that are similar to an unknown name, the most similar first.
 
-    By default up to two names are returned. `wide=True` is meant for long names with several parts, such as names of
-    periods and files: up to three names are returned, and they may be less similar.
+    `wide=True`, for long names with several parts, returns up to three names, which may be less similar.
     """
     from difflib import get_close_matches  # slow to import, and most runs have no unknown name
 
@@ -56,11 +55,7 @@ def nearest_names(name: str, known: Iterable[str], wide: bool = False) -> list[s
 
 
 def suggest(name: str, known: Iterable[str], otherwise: str = "", wide: bool = False) -> str:
-    """Return a suggestion for an unknown name, which is used as the `fix` of a problem.
-
-    The suggestion lists similar known names. If there are none, it is `otherwise` if given, else a list of the known
-    names if there are at most 30, else "correct the name".
-    """
+    """Return a suggestion for an unknown name: similar known names, else `otherwise` or the list of known names."""
     known = tuple(dict.fromkeys(known))
     if close := nearest_names(name, known, wide):
         return f"did you mean {' or '.join(map(repr, close))}?"
@@ -197,11 +192,7 @@ _MEGABYTES = {
 
 
 def install_command(extra: str) -> str:
-    """Return the command that installs the packages of an extra, as listed in the metadata of geartrain.
-
-    The packages are named individually, because `geartrain[EXTRA]` can only be installed if geartrain is in the package
-    index.
-    """
+    """Return the command that installs the packages of an extra, which are named one by one."""
     from importlib.metadata import PackageNotFoundError, requires
 
     try:

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from functools import cache
 from typing import Any
 
+from commands import call
 from jsonschema import Draft202012Validator
 
-from geartrain.report.json_schema import answer_schema
+
+@cache
+def answer_schema() -> Any:
+    """Return the schema that the package prints."""
+    return json.loads(call("inspect", "schema", "--as", "answers").stdout)
 
 
 def closed(schema: Any) -> Any:

@@ -58,9 +58,7 @@ main()
 
 
 def call(*arguments: object) -> Result:
-    """Return the result of a command run in this process; input errors have the text and exit code of the console
-    script.
-    """
+    """Return the result of a command run in this process; input errors have text and exit code as on a console."""
     result = CliRunner().invoke(app, [str(argument) for argument in arguments])
     if isinstance(result.exception, GearTrainError):
         said = "".join(f"error: {problem}\n" for problem in result.exception.problems).encode()

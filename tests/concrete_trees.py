@@ -472,9 +472,7 @@ def with_rings(problem: ReconstructionProblem, seed: int) -> ReconstructionProbl
 
 
 def declared(problem: ReconstructionProblem) -> Train:
-    """Return a small problem as declared evidence. Speeds become targets, so that either sense is accepted where
-    permitted.
-    """
+    """Return a small problem as declared evidence, with speeds as targets, which accept either sense if permitted."""
     arbors = (problem.input, *problem.arbors)
     counts = {
         arbor.name: {

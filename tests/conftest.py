@@ -167,10 +167,15 @@ def train_file(tmp_path: Path) -> Callable[..., Path]:
 
 
 @pytest.fixture
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Return an empty folder, which is the current one."""
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.fixture
 def refused(train_file: Callable[..., Path]) -> Callable[..., GearTrainError]:
-    """Return a function that loads invalid YAML; each problem of the error must have a place, a what, a why and
-    a fix.
-    """
+    """Return a function that loads invalid YAML and requires place, what and fix of each problem."""
 
     def refuse(text: str, *said: str, line: int | None = None, name: str = "train.yaml") -> GearTrainError:
         path = train_file(text, name)

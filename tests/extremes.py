@@ -239,9 +239,7 @@ class Exactly:
         return found
 
     def _solved(self, ratios: Sequence[Any], ahead: Sequence[Any], turning: Any) -> list[Any]:
-        """Return the speeds of all links if each driven side is ahead of its ratio by `ahead`, relative to the
-        carrier.
-        """
+        """Return the speeds of all links if each driven side is ahead by `ahead`, relative to the carrier."""
         train, size = self.train, len(self.train.at)
         rows, right = [], []
         for pair, ratio, more in zip(train.pairs, ratios, ahead, strict=True):
@@ -354,9 +352,7 @@ class Run:
 
 
 def hung(motion: Motion, turns: float, samples: int) -> dict[str, TransmissionErrorCurve]:
-    """Return the motion of every output as the teeth give it, without setting pointers, as the equations below
-    describe.
-    """
+    """Return the motion of every output as the teeth give it, without setting pointers."""
     composition, at = motion._unset, np.arange(samples)
     parts = [composition.at(turns * (each / (samples - 1))) for each in np.split(at, range(30_000, samples, 30_000))]
     error, rate = (np.concatenate([part[column] for part in parts], axis=1) for column in (1, 2))
@@ -452,9 +448,7 @@ def at_rest(turns: float) -> Measured:
 
 
 def pin_of_ratio_one(offset: float, turns: float) -> Measured:
-    """Return a pin and slot on an arm between two pairs of equal wheels: all mean ratios relative to the arm are 1 or
-    -1.
-    """
+    """Return a pin and slot on an arm between two pairs of equal wheels: all ratios relative to the arm are 1 or -1."""
     bases = {ARM: (FRAME, "A"), "sun": (FRAME, "A"), "p": (ARM, "P"), "s": (ARM, "Q"), "out": (FRAME, "A")}
     even = Wheels(50, 50, triangular())
     pairs = (Pair("sun", "p", ARM, even), Pair("p", "s", ARM, Slot(1.0, offset)), Pair("s", "out", ARM, even))
@@ -463,9 +457,7 @@ def pin_of_ratio_one(offset: float, turns: float) -> Measured:
 
 
 def hanging(window: float, last: tuple[int, int]) -> Measured:
-    """Return the residuals of all transmission functions, at many positions, of an arm driven by a wheel that its own
-    planet drives.
-    """
+    """Return the residuals of all transmission functions of an arm driven by a wheel that its own planet drives."""
     form = triangular(window)
     pairs = (
         *suns((40, 20, 18, 44), {}, form).pairs,
@@ -485,9 +477,7 @@ def chain(kinds: Sequence[tuple[int, int]], pairs: int, form: str) -> Train:
 
 
 def twelve(teeth: tuple[int, int], turns: float) -> Measured:
-    """Return the error of the last wheel of twelve pairs of 10 to 1 or 1 to 10, relative to the wheel's maximum
-    error.
-    """
+    """Return the error of the last of twelve pairs of 10 to 1 or 1 to 10, relative to its maximum error."""
     found = run(chain([teeth], 12, triangular()), turns, 97, 7)
     return Measured(found.off["s12"] / float(np.abs(found.found["s12"].error).max()), found.seconds)
 
@@ -496,9 +486,7 @@ KINDS = ((100, 101), (103, 102), (99, 100), (101, 100))
 
 
 def long_chain(pairs: int, places: Sequence[int]) -> Measured:
-    """Return the maximum difference of the error of the last wheel of a long chain, relative to that error; only this
-    wheel is requested.
-    """
+    """Return the maximum relative difference of the error of the last wheel of a long chain, the only one requested."""
     last, train = f"s{pairs}", chain(KINDS, pairs, triangular())
     every = ", ".join(f"{link}: {{}}" for link in train.bases)
     loaded = load(declared(train).replace(f"outputs: {{{every}}}", f"outputs: {{{last}: {{}}}}"))
@@ -518,9 +506,7 @@ def _sizes(loaded: Any) -> list[Any]:
 
 
 def at_the_edge(window: float) -> Measured:
-    """Return Price's train to the Moon, over the common period, with each pair at the same position in its clearance
-    window.
-    """
+    """Return Price's train to the Moon over the common period, with all pairs at one position in their windows."""
     form = triangular(repr(window))
     bases = {"crank": (FRAME, "A"), "sun": (FRAME, "B"), "c": (FRAME, "C"), "d": (FRAME, "D"), "moon": (FRAME, "E")}
     counts, links = ((45, 225), (64, 38), (48, 24), (127, 32)), list(bases)
@@ -570,9 +556,7 @@ def locking(teeth: tuple[int, int]) -> Measured:
 
 
 def pin_near_offset(more: float, turns: float) -> Measured:
-    """Return the error of the slot of a pin at r = (1 + more) e, each turn slightly further past the fastest
-    position.
-    """
+    """Return the error of the slot of a pin at r = (1 + more) e, each turn slightly further past the fastest place."""
     train = Train(
         {"pin": (FRAME, "B"), "slot": (FRAME, "C")}, (Pair("pin", "slot", FRAME, Slot(1 + more, 1.0)),), {"pin": 1}
     )
@@ -623,9 +607,7 @@ def lost_in_circulation(friction: float) -> Measured:
 
 
 def amplified(turns: float) -> Measured:
-    """Return the error of an arm, relative to its maximum, for a pair with real teeth followed by ideal wheels of ratio
-    99.
-    """
+    """Return the relative error of an arm for a pair with real teeth followed by ideal wheels of ratio 99."""
     left_teeth, p, q, r = CIRCULATING
     pairs = (
         Pair("crank", "right", FRAME, Wheels(60, 60, triangular())),
@@ -641,9 +623,7 @@ RADIANS, SHARE, PITCHES = "rad of the output", "relative", "driven pitches"
 
 
 def plain(periods: float) -> float:
-    """Return the rounding error of a mean angle computed as a plain product, which the subtraction of whole periods
-    avoids.
-    """
+    """Return the rounding error of a mean angle as a plain product, which subtracting whole periods avoids."""
     return periods if periods <= 2048 else 0
 
 

@@ -36,9 +36,7 @@ class LinkageError(Exception):
 
 
 class Space:
-    """Rows in reduced echelon form that represent the known relations of the joint rates. The last column is the right
-    side.
-    """
+    """Rows in reduced echelon form, the known relations of the joint rates; the last column is the right side."""
 
     def __init__(self, width: int) -> None:
         self.width = width
@@ -166,9 +164,7 @@ class Motion:
     links: Sequence[str] = field(default_factory=tuple)
 
     def speed(self, of: str, base: str | None = None) -> Fraction | None:
-        """Return the speed of a link about its own axis, absolute or relative to another link; None if it is not
-        determined.
-        """
+        """Return the speed of a link about its own axis, absolute or relative to another link; None if undetermined."""
         row = self.skeleton.spin(base or self.skeleton.frame, of)
         assert row is not None, "no rotation: ask `is_rotation` first"
         return self.space.value(row)
@@ -248,9 +244,7 @@ def circuits(data: Data, skeleton: Skeleton) -> Iterable[Row]:
 
 
 def sides(data: Data, skeleton: Skeleton) -> Iterable[tuple[tuple[str, str], tuple[Row, Row]]]:
-    """Return the links of each gear pair and coupling and, for both sides, the velocity at the contact: two
-    equal rows.
-    """
+    """Return the links of each gear pair and coupling, and the velocity at the contact for both sides: equal rows."""
     wheels = {
         name: (link, {"teeth": wheel} if isinstance(wheel, int) else wheel)
         for link, part in data["links"].items()

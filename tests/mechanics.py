@@ -70,9 +70,7 @@ def contact(pair: Pair, x: Any, phase: str, friction: Any) -> Contact:
 
 
 def power_ratio(pair: Pair, x: Any, phase: str, friction: Any) -> tuple[Any, Any, Any]:
-    """Return output power divided by input power of one contact, the distance of the apex from the flank's line, and
-    tau.
-    """
+    """Return output power divided by input power of one contact, the apex's distance from the flank's line, and tau."""
     found = contact(pair, x, phase, friction)
     into, out = found.moments
     return out * found.tau / into, found.off, found.tau

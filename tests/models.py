@@ -59,9 +59,7 @@ def refusal(text: str) -> str:
 
 
 def torque_figures(train: GearTrain, state: str | None = None) -> Any:
-    """Return the torques of one state with powers in watts, losses, power flow, and the efficiency in both
-    directions.
-    """
+    """Return the torques of one state with powers in watts, losses, power flow and efficiencies both ways."""
     (found,) = collect_torque_report(train, [train.torques(state)]).states
     return found
 

@@ -54,9 +54,7 @@ class Outlines:
         return Places(chosen[0] + whole * 2 * np.pi / self.z2, *chosen[1:])
 
     def _tooth_pair(self, theta: np.ndarray, k: int) -> Places:
-        """Return the driven angle for a tooth of the driver at theta and the k-th driven tooth; -inf where they do not
-        touch.
-        """
+        """Return the driven angle for a driving tooth at theta and the k-th driven tooth; -inf without contact."""
         one, other = self._tip_of_driver(theta), self._tip_of_driven(theta)
         first = one.driven >= other.driven
         found = [np.where(first, *values) for values in zip(one, other, strict=True)]
@@ -76,9 +74,7 @@ class Outlines:
         return Places(u, x, y, *_upwards(along))
 
     def _tip_of_driven(self, theta: np.ndarray) -> Places:
-        """Return the contact of a driven tip with the upper flank of the driver's tooth, where its line leaves the tip
-        circle.
-        """
+        """Return the contact of a driven tip with the driver's upper flank, where its line leaves the tip circle."""
         along = -np.cos(theta - self.b1), -np.sin(theta - self.b1)
         x, y = self.R1 * np.cos(theta) - self.D, self.R1 * np.sin(theta)
         middle = -(x * along[0] + y * along[1])
@@ -90,9 +86,7 @@ class Outlines:
         return Places(np.where(reached, np.arctan2(y, -x), -np.inf), x + self.D, y, *_upwards(along))
 
     def moments(self, t: np.ndarray, friction: float) -> tuple[np.ndarray, np.ndarray]:
-        """Return driven speed divided by driver speed, and driver torque divided by load torque, for the front
-        flanks.
-        """
+        """Return driven speed divided by driver speed, and driver torque divided by load torque, of front flanks."""
         at = self.places(t)
         # velocities of both points along the normal, for unit speeds: the driven wheel turns the other way round
         first = -at.y * at.normal_x + at.x * at.normal_y

@@ -209,9 +209,7 @@ class Mechanism:
 
     @staticmethod
     def _drives(touch: Touch, motion: Mapping[str, Vector3]) -> float:
-        """Return the speed of the first flank along its normal relative to the carrier: positive where the first body
-        pushes.
-        """
+        """Return the speed of the first flank along its normal relative to the carrier: positive if it pushes."""
         seen, bearer = (_velocity(motion[name], touch.point) for name in (touch.first, touch.bearer))
         return (seen[0] - bearer[0]) * touch.normal[0] + (seen[1] - bearer[1]) * touch.normal[1]
 
@@ -228,9 +226,7 @@ class Mechanism:
 
     @staticmethod
     def _row(at: Mapping[str, int], first: str, second: str, point: Vector, force: Vector) -> np.ndarray:
-        """Return force and moment on the second body, the reaction on the first, and their relative speed along the
-        force.
-        """
+        """Return force and moment on the second body, the reaction on the first, and their speed along the force."""
         row = np.zeros(3 * len(at))
         moment = point[0] * force[1] - point[1] * force[0]
         for name, sign in ((second, 1.0), (first, -1.0)):

@@ -41,9 +41,7 @@ class Outline(NamedTuple):
         return np.stack([tips, valleys], axis=1).reshape(-1, 2)
 
     def about(self, e: float, towards: float) -> Outline:
-        """Return the same outline about an axle from which its present centre is at the distance e in direction
-        `towards`.
-        """
+        """Return the outline about an axle from which its centre is at the distance e in direction `towards`."""
         points = self.points + e * np.array([np.cos(towards), np.sin(towards)])
         tips, after = points[::2], points[1::2]
         before = np.roll(after, 1, axis=0)
@@ -92,9 +90,7 @@ class Judge:
         return shapely.intersects(shapely.polygons(one), shapely.polygons(two))
 
     def free(self, t: np.ndarray, centre: np.ndarray, width: float, steps: int = 60) -> tuple[np.ndarray, np.ndarray]:
-        """Return the minimum and maximum free y about `centre`, or about the nearest free position within `width`; else
-        NaN.
-        """
+        """Return the minimum and maximum free y about `centre`, or the nearest free y within `width`; else NaN."""
         offsets = np.linspace(-width, width, 2 * steps + 1)
         open_ = ~self.overlap(np.repeat(t, len(offsets)), (centre[:, None] + offsets).ravel())
         open_ = open_.reshape(len(t), -1)

@@ -91,9 +91,7 @@ def _row(carriers: dict[str, str], graph: nx.Graph, name: str, i: str, j: str, t
 
 
 def echelon(matrix: Matrix, columns: int) -> list[int]:
-    """Apply Gauss-Jordan elimination in place to the first `columns` columns; return the pivot column of each leading
-    row.
-    """
+    """Apply Gauss-Jordan elimination in place to the first `columns` columns; return the pivot columns by row."""
     pivots: list[int] = []
     for column in range(columns):
         lead = next((r for r in range(len(pivots), len(matrix)) if matrix[r][column]), None)

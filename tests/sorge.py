@@ -28,9 +28,7 @@ TINY = mp.mpf(10) ** -30  # of a pitch: ends of smooth stretches are looked at f
 
 @dataclass(frozen=True)
 class Segment:
-    """An interval of alpha_1 driven by one tooth pair, or (with `held`) with the driven wheel at rest at that
-    alpha_2.
-    """
+    """An interval of alpha_1 driven by one tooth pair, or (with `held`) with the driven wheel at rest at alpha_2."""
 
     phase: str
     start: Any
@@ -94,25 +92,19 @@ class Pair:
 
     @cached_property
     def tips(self) -> Any:
-        """alpha_1max + alpha_2max: additional inclination of a flank at the ends of the reach, beyond its half
-        angle.
-        """
+        """alpha_1max + alpha_2max: inclination of a flank at the ends of the reach, beyond its half angle."""
         return self.amax + self.acos((self.D**2 + self.R2**2 - self.R1**2) / (2 * self.D * self.R2))
 
     @cached_property
     def entry(self) -> Any:
-        """Angle at which a tooth pair first touches: at the tips, or earlier if a leaning flank touches the driven tip
-        circle.
-        """
+        """Angle of the first touch: at the tips, or earlier if a leaning flank touches the driven tip circle."""
         if self.b1 + self.tips <= self.m.pi / 2:
             return self.amax
         return max(self.amax, self.asin(min(1, (self.R2 + self.R1 * self.sin_b1) / self.D)) - self.b1)
 
     @cached_property
     def exit(self) -> Any:
-        """Angle at which a tooth pair stops driving: at the tips, or earlier if the driven flank leans so far that tau
-        is 0.
-        """
+        """Angle at which driving ends: at the tips, or earlier if the driven flank leans so far that tau is 0."""
         if self.b2 + self.tips <= self.m.pi / 2:
             return -self.amax
         precise = self if self.m is mp else Pair.of(self)
@@ -123,9 +115,7 @@ class Pair:
 
     @cached_property
     def matching(self) -> Any:
-        """alpha_1m, Eq. (10): both flanks on one line, alpha_1 + beta_1 = beta_2 - alpha_2; infinite if this never
-        occurs.
-        """
+        """alpha_1m, Eq. (10): both flanks on one line, alpha_1 + beta_1 = beta_2 - alpha_2; infinite without one."""
         sine = (self.R1 * self.sin_b1 + self.R2 * self.sin_b2) / self.D
         return self.asin(sine) - self.b1 if sine < 1 else self.m.inf
 
@@ -164,9 +154,7 @@ class Pair:
         return arm / (self.D * m.cos(self.b2 - y) - arm)
 
     def lean(self, x: Any, phase: str | None = None) -> Any:
-        """Return the angle between the flank in contact and the other tooth's axis: beta + a1 + a2, or beta -
-        a1 - a2.
-        """
+        """Return the angle between flank and other tooth's axis: beta + a1 + a2, or beta - a1 - a2."""
         phase = phase or self.phase(x)
         y = self.angle(x, phase)
         return self.b1 + x + y if phase == APPROACH else self.b2 - x - y
@@ -209,9 +197,7 @@ class Pair:
 
     @cached_property
     def envelope(self) -> list[Segment]:
-        """Driving tooth pairs over the pitch of t that ends where a tooth pair enters, in order of time; gaps are
-        omitted.
-        """
+        """Driving tooth pairs over the pitch of t that ends where a pair enters, by time; gaps are omitted."""
         top, tiny = self.entry, TINY * self.p1
         cuts = {(top - end) % self.p1 for end in (self.exit, self.matching) if self.exit <= end <= top}
         marks = sorted({mp.mpf(0), self.p1, *cuts})
@@ -350,9 +336,7 @@ class Pair:
         ]
 
     def mean_efficiency(self, friction: Any) -> tuple[Any, Any]:
-        """Return means over the driver's angle in contact to 25 digits: of eta (Eq. 34), and tau over the mean of
-        tau/eta.
-        """
+        """Return means over the driver's angle to 25 digits: of eta (Eq. 34), and tau over the mean of tau/eta."""
         eta = tau = inverse = width = mp.mpf(0)
         for s in self.path:
             if s.held is not None:
@@ -497,9 +481,7 @@ def entry_margin(pair: Pair) -> float:
 
 
 def exit_margin(pair: Pair) -> float:
-    """Return the distance of another tooth pair below the driven wheel where a pair leaves; below 0, contact is
-    lost.
-    """
+    """Return the distance of another tooth pair below the driven wheel at an exit; below 0, contact is lost."""
     return float(angles(pair, np.array([pair.exit]))[0]) - others(pair, pair.exit)
 
 

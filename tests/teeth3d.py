@@ -65,9 +65,7 @@ def pitch_point(first: Wheel, second: Wheel) -> Vector:
 
 @cache
 def circle(wheel: Wheel, mate: Wheel) -> tuple[Vector, Vector, Vector]:
-    """Return the circle of teeth through the pitch point: its centre, the arm to its mark, and the arm a quarter turn
-    ahead.
-    """
+    """Return the circle of teeth through the pitch point: centre, arm to its mark, and arm a quarter turn ahead."""
     k = wheel.axis / np.linalg.norm(wheel.axis)
     point, _ = touch(wheel, mate)
     foot = wheel.centre + k * ((point - wheel.centre) @ k)

@@ -1,8 +1,6 @@
 """Error and run time of the computation methods for speeds, motion and torques of one train.
 
-Each method is compared with the most accurate method of its stage: exact speeds, motion composed from transmission
-functions, or torques computed at many positions of one revolution. The scripts in docs/scripts/studies/ measure whole
-families of trains.
+Each method is compared with the most accurate method of its stage. docs/scripts/studies/ measures families of trains.
 """
 
 from __future__ import annotations
@@ -50,9 +48,7 @@ class MethodAccuracy(Shown):
     reference: str
     """Reference of the comparison: another method, the method's own error estimate, or the power balance."""
     prepared: float | None = None
-    """Run time of preparations, such as the computation of tooth shapes, which is not included in `seconds` [s]; None
-    if the method needs no preparations.
-    """
+    """Run time of preparations, which `seconds` does not include [s]; None if there are none."""
     ratio: float = 1.0
     """Run time divided by the run time of the fastest method of the stage."""
 
@@ -110,10 +106,7 @@ def find_accuracy(train: GearTrain, state: str | None = None, positions: int = 1
 
 
 def _best_of(task: Callable[[], Any]) -> tuple[float, Any]:
-    """Return the minimum run time of a task over several repetitions [s], and the result of the task.
-
-    The minimum excludes the time that the first repetition takes to import libraries.
-    """
+    """Return the minimum run time of a task [s], without the imports of its first run, and its result."""
     times: list[float] = []
     while not times or sum(times) < _ENOUGH or (len(times) < 2 and sum(times) < _LONG):
         start = time.perf_counter()
@@ -123,9 +116,7 @@ def _best_of(task: Callable[[], Any]) -> tuple[float, Any]:
 
 
 def _measure_speeds(train: GearTrain, state: str | None, _: int) -> Iterator[MethodAccuracy]:
-    """Yield the accuracy of the methods for speeds: exact elimination, if `solve` uses it by default, and
-    floating-point elimination.
-    """
+    """Yield the accuracy of the methods for speeds: exact elimination, where it is the default, and floats."""
     usual = train.solve(state)
     if not usual.verdict:
         raise QuestionError(Problem(usual.verdict.text))
@@ -148,9 +139,7 @@ def _measure_speeds(train: GearTrain, state: str | None, _: int) -> Iterator[Met
 
 
 def _measure_motion(train: GearTrain, state: str | None, positions: int) -> Iterator[MethodAccuracy]:
-    """Yield the accuracy of the methods for motion: composition of transmission functions and first-order
-    superposition.
-    """
+    """Yield the accuracy of the methods for motion: composed transmission functions, and first-order superposition."""
     if not train.mechanics.meshes_in(state) and not train.mechanics.couplings:
         raise QuestionError(Problem(_NO_FORM))
     import numpy as np
@@ -183,9 +172,7 @@ def _measure_motion(train: GearTrain, state: str | None, positions: int) -> Iter
 
 
 def _measure_torques(train: GearTrain, state: str | None, _: int) -> Iterator[MethodAccuracy]:
-    """Yield the accuracy of the methods for torques: torque balance with losses, and mean torque over a run, computed
-    with different numbers of positions.
-    """
+    """Yield the accuracy of torques by two methods: balance with losses, and means of runs with few or many samples."""
     if not train.declaration.is_loaded(state):
         raise QuestionError(Problem("no loads are declared"))
     # a new train in each run, because results are cached

@@ -8,7 +8,7 @@ from fractions import Fraction
 from itertools import combinations, pairwise
 from math import comb, log
 from statistics import pstdev
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from geartrain.analysis.gear_train import GearTrain
 from geartrain.analysis.gearbox import gearbox_ends
@@ -16,9 +16,6 @@ from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.results import Key, Result, Tabular
 from geartrain.train import State
-
-if TYPE_CHECKING:
-    pass
 
 MOST_COMBINATIONS = 20_000  # sets of closed elements, each of which is solved exactly
 _JOINER = "+"  # between the names of closed elements in the name of a state
@@ -34,16 +31,12 @@ class PossibleGear(Result):
     ratio: Fraction | None
     """Speed of the input divided by the speed of the output; None if the output is at rest."""
     states: tuple[str, ...]
-    """Names of the declared states in which exactly these shift elements are closed; empty if the gear is not
-    declared.
-    """
+    """Names of the declared states with exactly these elements closed; empty for an undeclared gear."""
 
 
 @dataclass(frozen=True)
 class GearSeries(Result):
-    """Series of forward gears in order of decreasing ratio, with the steps between the gears and the spread of the
-    ratios.
-    """
+    """Series of forward gears in descending order of ratio, with steps between gears and the spread of the ratios."""
 
     KEYS = ("gears", Key("steps", to=as_float), Key("spread", to=as_float), "deviation", "double_shifts")
 
@@ -72,9 +65,7 @@ class GearSeries(Result):
 
     @property
     def double_shifts(self) -> int:
-        """Number of shifts between consecutive gears in which more than one element opens or more than one element
-        closes.
-        """
+        """Number of shifts between neighbouring gears at which two or more elements open, or two or more close."""
         return sum(not _is_single(a, b) for a, b in pairwise(self.gears))
 
 
@@ -104,9 +95,7 @@ class GearSearch(Tabular, Result):
     combinations: int
     """Number of combinations of `closed` shift elements. All of them were examined."""
     gears: tuple[PossibleGear, ...]
-    """All gears: forward gears, then reverse gears, both in order of decreasing magnitude of the ratio, then gears
-    whose output is at rest.
-    """
+    """Forward gears, reverse gears, both by decreasing magnitude of the ratio, then gears with the output at rest."""
     free: tuple[tuple[str, ...], ...] = ()
     """Combinations of `closed` shift elements that leave some speeds undetermined."""
     locked: tuple[tuple[str, ...], ...] = ()
@@ -118,9 +107,7 @@ class GearSearch(Tabular, Result):
     widest: GearSeries | None = None
     """Gear series with the maximum spread; None if no series satisfies the request."""
     evenest: GearSeries | None = None
-    """Gear series with the minimum standard deviation of the logarithmic steps; None if no series satisfies the
-    request.
-    """
+    """Series with the minimum standard deviation of the logarithmic steps; None without any series."""
 
     def _summary(self) -> str:
         ways = f"{self.combinations} combinations of {self.closed} closed elements"
@@ -128,9 +115,7 @@ class GearSearch(Tabular, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Columns of a table with one row for each gear: closed elements, ratio (None if the output is at rest), exact
-        ratio, and declared states.
-        """
+        """Columns of a table with a row for each gear: closed elements, ratio (None at rest), exact ratio, states."""
         return {
             "closed": [", ".join(gear.engaged) for gear in self.gears],
             "ratio": [None if gear.ratio is None else as_float(gear.ratio) for gear in self.gears],
@@ -197,9 +182,7 @@ def find_gears(
 
 
 def _rank(gear: PossibleGear) -> tuple[int, Fraction]:
-    """Return the sort key of a gear. Forward gears come first, then reverse gears, both in order of decreasing
-    magnitude of the ratio, then gears whose output is at rest.
-    """
+    """Return the sort key of a gear: forward gears, then reverse, then resting output; larger ratios first in each."""
     return (2, Fraction(0)) if gear.ratio is None else (int(gear.ratio < 0), -abs(gear.ratio))
 
 
@@ -208,11 +191,7 @@ def _is_single(one: PossibleGear, other: PossibleGear) -> bool:
 
 
 def _all_gears(train: GearTrain, source: str, link: str) -> GearSearch:
-    """Return all gears that have the minimum number of closed elements, without a search for series.
-
-    This is the number of closed elements that is required to determine all speeds. All such combinations have the same
-    size, because they are the bases of a matroid.
-    """
+    """Return all gears; each closes the same number of elements, because they are the bases of a matroid."""
     declared = train.declaration
     names: dict[frozenset[str], list[str]] = {}
     for name, state in declared.states.items():
@@ -263,23 +242,15 @@ def _links(gears: Sequence[PossibleGear], low: Fraction, high: Fraction, single:
 
 
 _Found = tuple[int, GearSeries | None, GearSeries | None]
-"""Number of series, series with the maximum spread, and series with the minimum deviation. Both series are None if
-there is no series.
-"""
+"""Number of series, and the series of maximum spread and of minimum deviation, both None without a series."""
 _Way = tuple[float, int, tuple[int, ...]]
-"""Sum of squares or variance of the logarithmic steps, number of double shifts, and indices of the gears of a
-series.
-"""
+"""Sum of squares or variance of the logarithmic steps, double shifts, and indices of the gears of a series."""
 
 
 def _series(gears: Sequence[PossibleGear], links: Links, number: int) -> _Found:
-    """Count the series of `number` gears by dynamic programming, and find the series with the maximum spread and the
-    series with the minimum variance of the logarithmic steps.
-
-    If the first and the last gear are given, the mean logarithmic step is fixed, so the series with the minimum sum of
-    squares also has the minimum variance. Ties in spread are broken by variance, and ties in variance by the number of
-    double shifts.
-    """
+    """Return the number of series of `number` gears, and those of maximum spread and of most uniform steps, or None."""
+    # for a given first and last gear, the mean logarithmic step is fixed, so that the minimum sum of squares gives the
+    # minimum variance
     ratios = [each.ratio or Fraction(1) for each in gears]
     count, found = 0, list[tuple[Fraction, _Way]]()
     for start, first in enumerate(ratios):
@@ -296,9 +267,7 @@ def _series(gears: Sequence[PossibleGear], links: Links, number: int) -> _Found:
 
 
 def _series_from(start: int, gears: Sequence[PossibleGear], links: Links, number: int) -> dict[int, tuple[_Way, int]]:
-    """Return, for each last gear, the best series that starts with gear `start`, and the number of such series. The
-    best series has the minimum sum of squared logarithmic steps.
-    """
+    """Return, by last gear, the series from gear `start` with the most uniform steps, and the number of all series."""
     logs = [log(each.ratio or 1) for each in gears]
     reach: dict[int, tuple[_Way, int]] = {start: ((0.0, 0, (start,)), 1)}
     for _ in range(number - 1):

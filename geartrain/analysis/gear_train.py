@@ -320,16 +320,12 @@ class GearTrain:
     # ------------------------------------------------------------------------------------------ speeds and equations
 
     def answers(self) -> Iterator[Answer]:
-        """Yield the solved speeds of every state in the order of declaration. If the train has no states, yield one
-        answer.
-        """
+        """Yield the solved speeds of each declared state in order, or of the train if it declares no states."""
         return (self.solve(state) for state in (self.states or (None,)))
 
     @property
     def mobility(self) -> Mobility:
-        """Mobility of the train by the counting formula and by exact rank, with redundant and locking loops
-        (docs/theory.md, 6).
-        """
+        """Mobility of the train by counting and by exact rank, with redundant and locking loops (docs/theory.md, 6)."""
         return self.kinematics.mobility
 
     def equations(self, state: str | None = None) -> WillisSystem:
@@ -446,18 +442,14 @@ class GearTrain:
 
     @cached_property
     def build_findings(self) -> tuple[BuildFinding, ...]:
-        """Findings of the buildability check: parts that cannot be built or whose design is inadvisable
-        (docs/buildability.md).
-        """
+        """Findings on parts that cannot be built or whose design is inadvisable (docs/buildability.md)."""
         from geartrain.dynamics.train_check import find_build_findings
 
         return find_build_findings(self.mechanics)
 
     @cached_property
     def closure(self) -> MeshPhasing:
-        """Assembly condition of the train: phases of the teeth in every loop of pairs at the declared axis positions,
-        and mounting angles of the wheels.
-        """
+        """Assembly condition: phases of the teeth in every loop at the declared axes, and mounting angles of wheels."""
         from geartrain.kinematics.phasing import find_phasing
 
         backlash = {mesh.name: mesh.backlash for mesh in self.mechanics.teeth}
@@ -766,9 +758,7 @@ class GearTrain:
 
     @property
     def unfolded(self) -> GearTrain:
-        """Train in which each equal planet (`copies`) is declared as a separate link; the same object if the train has
-        no such planets.
-        """
+        """Train that declares each of several equal planets (`copies`) by itself; the same object if it has none."""
         # not cached if it is the train itself, which would be a reference cycle
         return self._unfolded if has_copies(self.declaration) else self
 
@@ -780,9 +770,7 @@ class GearTrain:
 
     @cached_property
     def kinematics(self) -> TrainKinematics:
-        """Results that do not depend on tooth forms: tree of turning pairs, rotation senses of axes, inputs and brakes
-        of each state, gridlock, floating-point speeds, and sensitivity to tooth counts.
-        """
+        """Results that need no tooth forms: tree of turning pairs, inputs of states, gridlock, and sensitivities."""
         return TrainKinematics(self.declaration)
 
     @cached_property
@@ -796,14 +784,12 @@ class GearTrain:
         declared = self.declaration
         links, wheels = len(declared.links), len(declared.wheels)
         size = f"{links} links, {wheels} wheels" + (f", {len(self.states)} states" if self.states else "")
-        return f"<GearTrain {self.name}: {size}; {self._verdicts()}>"
-
-    def _verdicts(self) -> str:
         try:
-            return " or ".join(dict.fromkeys(answer.verdict.kind for answer in self.answers()))
+            verdicts = " or ".join(dict.fromkeys(answer.verdict.kind for answer in self.answers()))
         # repr must not raise, even for a declaration that cannot be solved
         except GearTrainError as error:
-            return error.problems[0].what
+            verdicts = error.problems[0].what
+        return f"<GearTrain {self.name}: {size}; {verdicts}>"
 
     def _repr_html_(self) -> str:
         page = imported_function("report.train_report", "describe_in_short")(self)

@@ -42,13 +42,9 @@ class GearState(Result):
     verdict: Verdict
     """Verdict on the speeds. A neutral state is free, and a park state is locked."""
     ratio: Fraction | None
-    """Speed of the input divided by the speed of the output [1]; None if one of the two links is at rest or its speed
-    is undetermined.
-    """
+    """Speed of the input divided by that of the output [1]; None if one is at rest or undetermined."""
     step: Fraction | None
-    """Ratio of this state divided by the ratio of the next state [1]. None if this is the last state, if one of the two
-    states has no ratio, or if the ratios have opposite signs.
-    """
+    """Ratio of this state divided by that of the next state [1]; None without two ratios of one sign."""
     driven_by: str
     """Name of the link whose speed is the unit of `speeds` and `slips`: the input, or another turning input if the
     input is at rest. If no input turns, this name is empty, and `speeds` and `slips` are in the speed unit of the
@@ -57,27 +53,21 @@ class GearState(Result):
     speeds: Mapping[str, Fraction]
     """Speed of each link divided by the speed of `driven_by`. Links whose speed is undetermined are omitted."""
     slips: Mapping[str, Fraction]
-    """Slip speed of each open clutch or brake, divided by the speed of `driven_by`. The slip of a brake is the speed of
-    its link, and the slip of a clutch is the speed of its first link relative to its second link. Elements whose slip
-    is undetermined are omitted.
+    """Slip of each open brake (speed of its link) or clutch (first link relative to second), divided by the speed of
+    `driven_by`. Undetermined slips are omitted.
     """
     torques: Mapping[str, Fraction | None]
-    """Torque that each closed brake exerts on its link, or each closed clutch on its first link, divided by the torque
-    of the input. The value is None if the torque is statically indeterminate. The mapping is empty if the torques of
-    the train are not determined.
+    """Torque of each closed brake on its link, or clutch on its first link, divided by the torque of the input; None if
+    statically indeterminate. Empty if the torques of the train are not determined.
     """
     efficiency: Fraction | float | None
     """Output power divided by input power; None if the torques are not determined."""
     recirculating: Fraction | None
     """Power that recirculates between gear sets, divided by the input power; None if the torques are not determined."""
     mesh_power: Fraction | None
-    """Maximum power that a pair transmits relative to its carrier, divided by the input power; 0 if all links turn as
-    one body. None if the torques are not determined.
-    """
+    """Maximum power of a pair relative to its carrier, divided by the input power; None if undetermined."""
     one_way: tuple[str, ...] = ()
-    """Names of the one-way clutches that are engaged and transmit a torque. They remain engaged only while the input
-    drives.
-    """
+    """Names of the one-way clutches that transmit a torque, which they do only while the input drives."""
 
     @property
     def applied(self) -> tuple[str, ...]:
@@ -87,9 +77,7 @@ class GearState(Result):
 
 @dataclass(frozen=True)
 class Shift(Result):
-    """Shift from one state of a gearbox to the next state that has a ratio, with the elements that open and the
-    elements that close.
-    """
+    """Shift to the next state that has a ratio, with the elements that open and those that close."""
 
     KEYS = ("before", "after", "released", "applied", "is_double")
 
@@ -125,9 +113,7 @@ class ShiftElement(Result):
     torque_state: str
     """Name of the state in which `torque` occurs; empty if `torque` is None."""
     slip: Fraction | None
-    """Slip speed of maximum magnitude over all states in which the element is open, divided by the speed of the link
-    `driven_by` of that state; None if the slip is undetermined in every state.
-    """
+    """Maximum slip of the open element over all states, divided by the speed of `driven_by`; None if undetermined."""
     slip_state: str
     """Name of the state in which `slip` occurs; empty if `slip` is None."""
 
@@ -176,9 +162,7 @@ class Gearbox(Tabular, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Columns of a table with one row for each state: closed elements, ratio, step, efficiency, recirculating
-        power, and speeds of the links divided by the speed of `driven_by`.
-        """
+        """Columns of a table with a row for each state: closed elements, ratios, efficiency, power, and link speeds."""
         links = dict.fromkeys(link for each in self.states for link in each.speeds)
         numbers = {
             name: [_optional_float(getattr(each, name)) for each in self.states]
@@ -208,16 +192,17 @@ def find_gearbox(train: TrainMechanics, output: str | None = None) -> Gearbox:
     source, link = gearbox_ends(train.declaration, output)
     answers = [train.kinematics.solve(name) for name in train.declaration.states]
     found = [_state(train, answer, source, link) for answer in answers]
-    states = (_with_step(one, other) for one, other in zip(found, [*found[1:], None], strict=True))
+    # a step from a forward to a reverse gear would be negative, and without meaning
+    for at, (one, other) in enumerate(pairwise(found)):
+        if one.ratio is not None and other.ratio is not None and one.ratio * other.ratio > 0:
+            found[at] = replace(one, step=one.ratio / other.ratio)
     elements, shifts = tuple(_elements(train, found)), tuple(_shifts(found))
     own = train.declaration
-    return Gearbox(own.name, own.title, source, link, tuple(states), elements, shifts)
+    return Gearbox(own.name, own.title, source, link, tuple(found), elements, shifts)
 
 
 def gearbox_ends(declared: Train, output: str | None) -> tuple[str, str]:
-    """Return the names of the input link and the output link. `QuestionError` is raised if the train is not a
-    gearbox.
-    """
+    """Return the names of the input link and the output link; raise `QuestionError` if the train is not a gearbox."""
     if not declared.clutches or not declared.states:
         what = f"'{declared.name}' is not a gearbox"
         why = "a gearbox declares `clutches`, and `states` that engage them"
@@ -271,9 +256,7 @@ def _state(train: TrainMechanics, answer: Answer, source: str, link: str) -> Gea
 
 
 def _slip(speeds: Mapping[str, Fraction], clutch: Clutch) -> Fraction | None:
-    """Return the slip speed of a clutch (its first link relative to its second) or of a brake (its link) in the unit of
-    `speeds`; None if it is undetermined.
-    """
+    """Return the speed of a clutch's first link minus that of the second, or the speed of a braked link, or None."""
     one, other = clutch.locks or (clutch.fixes or "", "")
     if one not in speeds or (other and other not in speeds):
         return None
@@ -281,18 +264,14 @@ def _slip(speeds: Mapping[str, Fraction], clutch: Clutch) -> Fraction | None:
 
 
 def _load(train: TrainMechanics, state: str, source: str, link: str) -> Torques | None:
-    """Return the torques for the case that the input `source` drives and unit power leaves the train at the output
-    `link`; None if the torques are undetermined.
-    """
+    """Return the torques if the link `source` drives and unit power leaves at `link`; None if they are undetermined."""
     found = solve_driven(train, link, source, state)
     # torques are divided by the input torque, so a torque of 0 counts as undetermined
     return found if found.verdict and found.external.get(source) else None
 
 
 def _torques(load: Torques, source: str, engaged: Mapping[str, tuple[str, ...]]) -> dict[str, Fraction | None]:
-    """Return the torque of each closed element, keyed by element name. `engaged` maps the name of each element to the
-    names of the links that it connects or brakes.
-    """
+    """Return the torque of each closed element divided by that of `source`, by name; None if elements share links."""
     drive, held = load.external[source], {each.links: each.torques for each in load.held}
     known = {name: held[links] for name, links in engaged.items() if links in held}
     # elements that hold the same links share their torque in an unknown ratio
@@ -301,9 +280,7 @@ def _torques(load: Torques, source: str, engaged: Mapping[str, tuple[str, ...]])
 
 
 def _circulation(load: Torques) -> Fraction | None:
-    """Return the power that recirculates between gear sets, divided by the input power; None if the input power is
-    0.
-    """
+    """Return the power that recirculates between gear sets divided by the input power; None if the input power is 0."""
     flow = find_power_flow(load)
     if not flow.power_in:
         return None
@@ -333,13 +310,6 @@ def _between_sets(load: Torques, flow: PowerFlow) -> list[PowerStream]:
         net[ends] = net.get(ends, Fraction(0)) + stream.power - net.pop(ends[::-1], Fraction(0))
     directed = ((ends, power) if power > 0 else (ends[::-1], -power) for ends, power in net.items() if power)
     return [PowerStream(source, target, power) for (source, target), power in directed]
-
-
-def _with_step(state: GearState, following: GearState | None) -> GearState:
-    # a step from a forward to a reverse gear would be negative, and without meaning
-    if following is None or state.ratio is None or following.ratio is None or state.ratio * following.ratio < 0:
-        return state
-    return replace(state, step=state.ratio / following.ratio)
 
 
 def _shifts(states: Sequence[GearState]) -> Iterator[Shift]:

@@ -36,9 +36,7 @@ def _refuse(*_: object, **__: object) -> NoReturn:
 
 
 class _Attributes(LazyDict):
-    """Attributes of a node or edge of the graph. Attributes that describe the train are read-only; users can set other
-    attributes.
-    """
+    """Attributes of a node or edge of the graph; those that describe the train are read-only."""
 
     __slots__ = ()
     clear = popitem = _refuse
@@ -114,9 +112,7 @@ def build_train_graph(train: TrainMechanics, state: str | None = None) -> Graph:
 
 
 def _frozen(graph: Graph) -> Graph:
-    """Return the graph with its nodes, its edges and their declared attributes made read-only. Users can still add
-    other attributes.
-    """
+    """Return the graph with nodes, edges and declared attributes read-only; users can add other attributes."""
     before = {"frozen", *vars(graph)}
     nx.freeze(graph)
     for name in vars(graph).keys() - before:  # methods replaced by nx.freeze
@@ -134,9 +130,7 @@ class _GraphFacts:
         self._train, self._state = train, state
 
     def reference(self, link: str) -> str | None:
-        """Return the link that carries the axis of `link`, so that the rotation of `link` is measured relative to it;
-        None for the frame.
-        """
+        """Return the link that carries the axis of `link`, to which its rotation is relative; None for the frame."""
         return self._train.tree.top.get(link)
 
     def speed(self, link: str) -> SpeedValue | None:
@@ -149,9 +143,7 @@ class _GraphFacts:
         return self._circuits[name].carrier
 
     def ratio(self, name: str) -> Fraction:
-        """Return the speed of the first link of a circuit divided by the speed of its second link, both relative to the
-        carrier.
-        """
+        """Return the speed of the first link of a circuit divided by that of the second, relative to the carrier."""
         return self._circuits[name].ratio
 
     def axis(self, name: str) -> tuple[str, str]:
@@ -159,16 +151,11 @@ class _GraphFacts:
         return tree.axis_seen_from(circuit.carrier, circuit.i), tree.axis_seen_from(circuit.carrier, circuit.j)
 
     def mesh(self, name: str) -> GearMesh | CouplingMesh | None:
-        """Return the gear pair with its tooth geometry and its driving wheel in this state, or the coupling with its
-        dimensions. Return None if the teeth of the pair or the dimensions of the coupling are not declared.
-        """
+        """Return the pair with its teeth in this state, or the coupling with its sizes; None if undeclared."""
         return self._meshes.get(name)
 
     def transmission(self, name: str) -> TransmissionFunction:
-        """Return the transmission function of a gear pair or coupling in this state. Without a declared tooth form or
-        dimensions, the function has a constant ratio, and the driver is the first wheel of the pair or the driving link
-        of the coupling.
-        """
+        """Return the transmission function of a pair or coupling in this state; by default one of constant ratio."""
         from geartrain.teeth.transmission import ExactRatio
 
         if (mesh := self.mesh(name)) is not None:
@@ -179,9 +166,7 @@ class _GraphFacts:
         return ExactRatio(abs(Fraction(driver, driven)), 2 * pi / (abs(driver) if circuit.kind == "gear" else 1))
 
     def efficiency(self, name: str) -> tuple[Fraction | float, Fraction | float]:
-        """Return the basic efficiency of a pair when the first link of its circuit drives, and its basic efficiency
-        when the second link drives.
-        """
+        """Return the basic efficiencies of a pair if the first and if the second link of its circuit drives."""
         from geartrain.dynamics.torques.mean_efficiencies import find_mean_efficiencies
 
         found = find_mean_efficiencies(self._losses, self._circuits[name])
@@ -202,9 +187,7 @@ class _GraphFacts:
 
     @cached_property
     def _losses(self) -> LoadCase:
-        """Load case in which all carriers are fixed, so that the losses of a pair do not depend on the speeds of the
-        train.
-        """
+        """Load case with all carriers fixed, in which the losses of a pair do not depend on the train's speeds."""
         from geartrain.dynamics.torques.load_case import LoadCase
 
         own = self._train

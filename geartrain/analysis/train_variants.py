@@ -39,17 +39,11 @@ class TrainVariants(Tabular, Result):
     outputs: tuple[str, ...]
     """Names of the outputs, in the order of the columns of `speeds` and `errors`."""
     counts: Ints
-    """Tooth counts, one combination per row, shape (n, wheels), where n is the number of combinations; the tooth count
-    of the last wheel varies fastest.
-    """
+    """Tooth counts, shape (combinations, wheels); the count of the last wheel varies fastest."""
     speeds: Floats
-    """Speeds of the outputs [unit of the train], shape (n, outputs), where n is the number of combinations. NaN if the
-    train is locked or free, or if the tooth counts do not satisfy the condition of a closed loop.
-    """
+    """Speeds of the outputs [unit of the train], shape (combinations, outputs); NaN if locked, free or not closed."""
     errors: Floats
-    """Upper bounds on the relative errors of the speeds, shape (n, outputs), where n is the number of combinations;
-    infinite if no digit of the speed is certain.
-    """
+    """Upper bounds on the relative errors of the speeds, shape (combinations, outputs); infinite without digits."""
     formulas: Formulas
     """Exact formulas of the output speeds. The method `exact` evaluates them."""
 

@@ -102,9 +102,11 @@ def _root(
     pass
 
 
-def _start_lightly() -> None:
-    """Reduce the start-up time of short commands: collect garbage less often, and do not search for
-    pydantic plugins.
+def main(name: str = "geartrain") -> None:
+    """Run the command line and exit. The exit code is 2 for invalid input, which is reported on standard error, and 3
+    for internal errors.
+
+    name   program name shown in usage messages and help
     """
     # modules and models are about 100,000 long-lived objects: a collection after every 700 new ones takes a tenth of
     # the time of a short command, and the final collection at exit takes a quarter
@@ -112,13 +114,4 @@ def _start_lightly() -> None:
     atexit.register(gc.freeze)
     # pydantic would otherwise read the entry points of every installed package
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
-
-
-def main(name: str = "geartrain") -> None:
-    """Run the command line and exit. The exit code is 2 for invalid input, which is reported on standard error, and 3
-    for internal errors.
-
-    name   program name shown in usage messages and help
-    """
-    _start_lightly()
     sys.exit(guarded(partial(app, prog_name=name)))

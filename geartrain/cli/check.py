@@ -19,21 +19,18 @@ def run(
 
     Example: `geartrain check freeth-2021 train.yaml`.
     """
-    worst = GOOD
-    for file in files:
-        worst = max(worst, _check(file, quiet))
-    raise typer.Exit(worst)
-
-
-def _check(file: str, quiet: bool) -> int:
     from geartrain.analysis.gear_train import load
     from geartrain.report.soundness import find_soundness
 
-    try:
-        found = find_soundness(load(file), file)
-    except GearTrainError as error:
-        complain(error)
-        return NOT_USABLE
-    for line in found.lines(quiet):
-        emit(line)
-    return GOOD if found else VERDICT
+    worst = GOOD
+    for file in files:
+        try:
+            found = find_soundness(load(file), file)
+        except GearTrainError as error:
+            complain(error)
+            worst = NOT_USABLE
+            continue
+        for line in found.lines(quiet):
+            emit(line)
+        worst = max(worst, GOOD if found else VERDICT)
+    raise typer.Exit(worst)

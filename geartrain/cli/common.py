@@ -77,25 +77,19 @@ def load_all(files: list[str]) -> list[GearTrain]:
 
 
 def is_sound(train: GearTrain, state: str | None) -> bool:
-    """Return True if the speeds in the named state (None: the first state) are determined and as expected, and no teeth
-    are faulty.
-    """
+    """Return True if the speeds of a state (by default the first) are as expected, and all declared teeth can turn."""
     return bool(train.solve(train.declaration.state_or_first(state))) and not train.mechanics.faults
 
 
 def exit_code(sound: bool, to: Sink) -> int:
-    """Return the exit code of a command. If `sound` is False and the output is a file, also print a note on standard
-    error that a train is not as expected.
-    """
+    """Return the exit code, 0 or 1 for failures; print a note if an unsound train was written to a file."""
     if not sound and to.path is not None:
         tell("a train is not determined, or not as expected: `geartrain check` lists why (exit code 1)")
     return GOOD if sound else VERDICT
 
 
 def chosen_states(train: GearTrain, state: str | None) -> tuple[str | None, ...]:
-    """Return the named state, or all states with computable speeds if `state` is None. Each omitted state is reported
-    on standard error.
-    """
+    """Return the named state, or all states with computable speeds if it is None; report omitted states on stderr."""
     if state is not None:
         return (state,)
     for case in train.kinematics.cases.values():
@@ -141,9 +135,7 @@ class Sink:
         return self.path.suffix.lower() if self.path is not None else self.form
 
     def write(self, data: bytes, said: str = "") -> None:
-        """Write a complete result to standard output, or atomically to the file. After writing a file, print its name,
-        followed by `said`, on standard error.
-        """
+        """Write a result to standard output, or atomically to the file and then report its name, followed by `said`."""
         if self.path is None:
             # text printed so far must precede the bytes
             sys.stdout.flush()
@@ -220,9 +212,7 @@ def emit(text: str, out: Sink = STANDARD) -> None:
 
 
 def show(documents: Sequence[Document], out: Sink, suffix: str | None = None) -> None:
-    """Write documents to an HTML or Markdown file, or print them at the width of the terminal (80 columns if the output
-    is piped).
-    """
+    """Write documents to an HTML or Markdown file, or print them at the terminal's width (80 columns in a pipe)."""
     from geartrain.report.text import to_markdown, to_terminal, to_text
 
     if (out.suffix if suffix is None else suffix) == ".html":
@@ -242,9 +232,7 @@ def show(documents: Sequence[Document], out: Sink, suffix: str | None = None) ->
 
 
 def give(out: Sink, json: bool, data: Callable[[], Any], documents: Callable[[], Sequence[Document]]) -> None:
-    """Write a result as JSON if the --json option or the file suffix requests it; otherwise write it as documents. Only
-    the requested format is computed.
-    """
+    """Write a result as JSON if --json or the suffix requests it, else as documents; only one of them is computed."""
     if json or out.suffix == ".json":
         emit(as_json(data()), out)
     else:
@@ -259,9 +247,7 @@ def draw(figure: Any, out: Sink) -> None:
 
 
 def suffix_of(out: Path | None, allowed: Iterable[str], option: str = "-o") -> str:
-    """Return the suffix of an output file, or an empty string if there is none. Raise an error if the suffix is not
-    allowed.
-    """
+    """Return the suffix of an output file, or "" if it has none; raise an error if it is not allowed."""
     suffix = out.suffix.lower() if out else ""
     if suffix and allowed and suffix not in allowed:
         raise option_error(option, f"'{suffix}' is not an output format of this option", f"use {', '.join(allowed)}")
@@ -269,9 +255,7 @@ def suffix_of(out: Path | None, allowed: Iterable[str], option: str = "-o") -> s
 
 
 def file_name(text: str, ending: str) -> Path:
-    """Return a path in the current folder: `text`, with unsuitable characters replaced by hyphens, followed by
-    `ending`.
-    """
+    """Return a file name: `text`, in which hyphens replace unsuitable characters, followed by `ending`."""
     # at most 120 characters: file systems limit names to 255 bytes
     stem = re.sub(r"[^\w.+-]+", "-", text).strip("-.")[:120]
     return Path(f"{stem or 'train'}{ending}")

@@ -10,19 +10,7 @@ from typing import Annotated
 
 import typer
 
-from geartrain.cli.common import (
-    GOOD,
-    NOT_USABLE,
-    VERDICT,
-    Force,
-    Out,
-    Sink,
-    complain,
-    emit,
-    option_error,
-    sink,
-    tell,
-)
+from geartrain.cli.common import GOOD, NOT_USABLE, VERDICT, Force, Out, Sink, complain, emit, option_error, sink, tell
 from geartrain.errors import GearTrainError, check_choice
 from geartrain.wings import wing
 

@@ -28,10 +28,7 @@ def run(
     steps: Annotated[
         tuple[float, float],
         typer.Option("--ratio-steps", help="Minimum and maximum ratio step between successive gears of a series."),
-    ] = (
-        1.05,
-        2.0,
-    ),
+    ] = (1.05, 2.0),
     single: Annotated[
         bool, typer.Option("--single", help="Allow only shifts in which one element opens and one closes.")
     ] = False,

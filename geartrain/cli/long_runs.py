@@ -23,6 +23,7 @@ import typer
 from geartrain.cli.common import Names, tell
 from geartrain.cli.option_values import MOST_COUNT, exact, input_rate, whole
 from geartrain.cli.option_values import restitution as read_restitution
+from geartrain.errors import QuestionError
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -57,18 +58,13 @@ class ProgressBar:
         self._shown.update(self._task, advance=steps, visible=time.monotonic() >= self._from)
 
     def reach(self, done: int, total: int) -> None:
-        """Set the number of completed steps and the total number of steps. The bar is hidden if the total is 1
-        or less.
-        """
+        """Set the number of completed steps and the total number of steps; a bar for one step is hidden."""
         self._shown.update(self._task, completed=done, total=total or None, visible=total > 1)
 
 
 @contextmanager
 def progress(what: str, total: int | None = None, patience: float = 0.0) -> Iterator[ProgressBar]:
-    """Open a progress bar on standard error. If standard error is a terminal, the bar appears after `patience` [s].
-
-    A line above the bar reports the compilation of kernels, which is slow but happens only once.
-    """
+    """Show a progress bar on standard error, if the work takes longer than `patience` [s], and notes on compilation."""
     from rich.console import Console
     from rich.progress import Progress, TimeElapsedColumn
 
@@ -107,9 +103,7 @@ class RunOptions:
 
 
 def close_journal(journal: Journal | None, cut: bool) -> None:
-    """Remove the journal of a complete computation. If the computation was interrupted (`cut`), print how to
-    resume it.
-    """
+    """Remove the journal of a complete computation; if it was interrupted (`cut`), print how to resume it."""
     if not cut:
         if journal is not None:
             journal.finish()
@@ -121,11 +115,7 @@ def close_journal(journal: Journal | None, cut: bool) -> None:
 
 @contextmanager
 def long_run(what: str, question: Mapping[str, Any], out: Path | None, options: RunOptions) -> Iterator[Execution]:
-    """Open the execution of one computation, with an executor, a progress bar and, if the folder is writable, a
-    journal.
-
-    The journal is placed next to the output file, and its name contains a hash of the options in `question`.
-    """
+    """Open the execution of a computation, with an executor, a progress bar and, if possible, a journal file."""
     from geartrain.numerics.work import Execution
 
     # in the form in which it is read from a journal, so that both can be compared
@@ -144,14 +134,17 @@ def long_run(what: str, question: Mapping[str, Any], out: Path | None, options: 
 @contextmanager
 def _journal(path: Path, question: Mapping[str, Any], resume: bool) -> Iterator[Journal | None]:
     """Open the journal file at `path`, and yield the journal, or None if the folder is not writable."""
-    from geartrain.numerics.work import Journal
+    from geartrain.numerics.work import Journal, another_question
 
     # a run works without a journal, but it cannot be resumed then
     if not resume and not os.access(path.parent, os.W_OK):
         yield None
         return
     if resume and not path.exists():
-        _check_others(path, question)
+        # journals of the same command with other options
+        others = sorted(path.parent.glob(f"{path.name.partition('-')[0]}-*.partial.jsonl"))
+        if problems := [another_question(other, question) for other in others]:
+            raise QuestionError(problems)
         tell(f"nothing to resume: {path} does not exist; starting a new run")
     with Journal(path, question, resume=resume) as journal:
         try:
@@ -159,16 +152,6 @@ def _journal(path: Path, question: Mapping[str, Any], resume: bool) -> Iterator[
         finally:
             if not journal.closed and not len(journal):  # an empty journal is not kept
                 journal.finish()
-
-
-def _check_others(path: Path, question: Mapping[str, Any]) -> None:
-    """Raise `QuestionError` if the folder contains journals of the same command with other options."""
-    from geartrain.errors import QuestionError
-    from geartrain.numerics.work import another_question
-
-    others = sorted(path.parent.glob(f"{path.name.partition('-')[0]}-*.partial.jsonl"))
-    if problems := [another_question(other, question) for other in others]:
-        raise QuestionError(problems)
 
 
 # ------------------------------------------------------------------------------------------------------- motion in time
@@ -248,31 +231,23 @@ def run_in_time(train: GearTrain, state: str | None, requested: dict[str, Any]) 
 
 @contextmanager
 def interruptible(what: str) -> Iterator[Callable[[float], bool]]:
-    """Open a progress bar and yield a function to be called with each completed fraction of the work. The function
-    returns True after Ctrl-C.
-    """
-    with progress(what, _WHOLE, patience=2.0) as bar, _interrupts() as came:
+    """Yield a function that adds a completed fraction and returns True after Ctrl-C; the next Ctrl-C ends the work."""
+    interrupted = False
+
+    def note(number: int, frame: Any) -> None:
+        nonlocal interrupted
+        signal.signal(signal.SIGINT, before)
+        interrupted = True
+
+    with progress(what, _WHOLE, patience=2.0) as bar:
 
         def on_done(share: float) -> bool:
             bar.advance(round(share * _WHOLE))
-            return bool(came)
+            return interrupted
 
-        yield on_done
-
-
-@contextmanager
-def _interrupts() -> Iterator[list[int]]:
-    """Yield a list that is empty until the user presses Ctrl-C. A second Ctrl-C raises `KeyboardInterrupt` as usual."""
-    came: list[int] = []
-
-    def note(number: int, frame: Any) -> None:
-        # the second Ctrl-C interrupts immediately
-        signal.signal(signal.SIGINT, before)
-        came.append(number)
-
-    before = signal.getsignal(signal.SIGINT)
-    signal.signal(signal.SIGINT, note)
-    try:
-        yield came
-    finally:
-        signal.signal(signal.SIGINT, before)
+        before = signal.getsignal(signal.SIGINT)
+        signal.signal(signal.SIGINT, note)
+        try:
+            yield on_done
+        finally:
+            signal.signal(signal.SIGINT, before)

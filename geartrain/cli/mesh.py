@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 from inspect import signature
-from math import prod
+from math import isfinite, nan, prod
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 
@@ -257,12 +258,9 @@ def run(
     if vary:
         for option, given in {"--at": at, "--profile": profile}.items():
             if given is not None:
-                raise option_error(
-                    option,
-                    f"{option} and --vary are given together",
-                    f"omit {option} or --vary",
-                    f"--vary evaluates several pairs, but {option} applies to a single pair",
-                )
+                what, fix = f"{option} and --vary are given together", f"omit {option} or --vary"
+                why = f"--vary evaluates several pairs, but {option} applies to a single pair"
+                raise option_error(option, what, fix, why)
         sweep(pair, vary, picture, json, to)
         return
     mesh, operation = pair.mesh(), None
@@ -313,11 +311,7 @@ def _compare(
     files: tuple[Sink, Path | None, ThemeName, bool],
     json: bool,
 ) -> NoReturn:
-    """Compare the loss, stress, heat, flash temperature and tooth depth of several tooth forms with the values of the
-    20 degree involute, then exit.
-
-    All forms are compared at the same tooth counts and the same arcs of approach and recess.
-    """
+    """Compare losses, stresses, heat and depth of several tooth forms with the 20 degree involute, then exit."""
     from geartrain.report.conjugate_pair_page import describe_form_comparison
     from geartrain.teeth.form_comparison import USUAL, compare_forms
 
@@ -364,9 +358,7 @@ VARIED = (*parameters_of(Triangular), *PAIR)
 
 
 def read_operation(inertia: str | None, rate: str | None, load: str | None) -> PairOperation:
-    """Return the operating conditions of a pair, parsed from the inertia and load of the driven wheel and the speed of
-    the driving wheel.
-    """
+    """Return the operation of a pair: inertia and load of the driven wheel, and speed of the driving wheel."""
     from geartrain.dynamics.motion.pair_impacts import PairOperation
     from geartrain.numerics.quantity import RADIANS_PER_TURN
 
@@ -378,12 +370,9 @@ def read_operation(inertia: str | None, rate: str | None, load: str | None) -> P
 
 
 def sweep(pair: PairRequest, vary: list[str], picture: Sink, json: bool, to: Sink) -> None:
-    """Run a parameter sweep, and write its results as a table. If a file is named for a picture, also write
-    a picture.
-    """
+    """Run a parameter sweep, and write its table and, if a file is named for a picture, the picture."""
     from geartrain.numerics.files import csv_text
     from geartrain.teeth.triangular.parameter_sweep import sweep as run_sweep
-    from geartrain.teeth.triangular.triangular_mesh import TriangularMesh
 
     ranges, units = _ranges(vary)
     read_pair_friction(pair.friction).number("--vary")
@@ -414,9 +403,7 @@ def sweep(pair: PairRequest, vary: list[str], picture: Sink, json: bool, to: Sin
 
 
 def _ranges(vary: list[str]) -> tuple[dict[str, list[float]], dict[str, str]]:
-    """Return two mappings, keyed by parameter: the values of each varied parameter, and the unit in which they were
-    given.
-    """
+    """Return two mappings by parameter: the values to be computed, and the unit in which the range was given."""
     if len(vary) > 2:
         raise option_error("--vary", f"{len(vary)} parameters are given", "give --vary once or twice")
     ranges: dict[str, list[float]] = {}
@@ -440,18 +427,14 @@ def _ranges(vary: list[str]) -> tuple[dict[str, list[float]], dict[str, str]]:
 
 def _number(text: str) -> tuple[float, str]:
     """Return the number at the start of a text, and the unit that follows the number."""
-    import math
-    import re
-
     match = re.fullmatch(r"([+-]?[\d.]+(?:[eE][+-]?\d+)?)\s*([A-Za-z°].*)?", text)
     try:
-        value = float(match[1]) if match else math.nan
+        value = float(match[1]) if match else nan
     except ValueError:
-        value = math.nan
-    if match is None or not math.isfinite(value):
-        raise option_error(
-            "--vary", f"'{text}' is not a number", "write a number such as 1.01, or a quantity such as 30deg"
-        )
+        value = nan
+    if match is None or not isfinite(value):
+        fix = "write a number such as 1.01, or a quantity such as 30deg"
+        raise option_error("--vary", f"'{text}' is not a number", fix)
     return value, match[2] or ""
 
 

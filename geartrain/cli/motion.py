@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from functools import partial
+from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -18,7 +17,6 @@ from geartrain.cli.common import (
     Names,
     Out,
     Seed,
-    Sink,
     StateName,
     Without,
     check_distinct_outputs,
@@ -86,11 +84,12 @@ def run(
     """
     from geartrain.analysis.gear_train import load
     from geartrain.dynamics import MotionRun
+    from geartrain.numerics.files import partial_name
 
     to = sink(out, force, (".md", ".html", ".json", ".csv"))
     picture = picture_sink(plot, force, theme)
-    # where the results of an interrupted run are written, checked together with the others
-    cut = _partial(to)
+    # where the results of an interrupted run are written, checked together with the others; CSV tables have their own
+    cut = STANDARD if to.path is None or to.suffix == ".csv" else sink(partial_name(to.path), to.force)
     check_distinct_outputs(to, cut, picture)
     if resume and (to.suffix != ".csv" or to.path is None):
         raise option_error(
@@ -109,12 +108,17 @@ def run(
         for rows in _rows(requested, 0):
             emit("\n".join(rows))
     else:
-        from geartrain.report.motion_report import separation_rates
+        from geartrain.report.motion_report import collect_motion, describe_motion, separation_rates
 
+        stopped = _run_analyses(requested, phases, seed, spectrum)
         # speeds of separation are known for perfect teeth only
-        separation = (lambda: None) if measured else partial(separation_rates, train, state, without or ())
-        of = train.name, state, separation
-        _report(requested, json, (to, cut), of, phases, seed, spectrum, bool(wide or outputs))
+        separation = None if stopped or measured else separation_rates(train, state, without or ())
+        found = collect_motion(requested, train.name, state, separation)
+        give(cut if stopped else to, json, lambda: found, lambda: [describe_motion(found, bool(wide or outputs))])
+        if stopped:
+            stop = f"stopped after {requested.done} of {requested.samples} positions"
+            tell(f"{stop}; the results are for these positions")
+            raise typer.Exit(INTERRUPTED)
     if plot is not None:
         from geartrain.drawing.output_error_plots import motion_figure
 
@@ -133,35 +137,10 @@ def _turns(text: str, motion: Motion) -> float:
     return float(motion.period)
 
 
-def _partial(to: Sink) -> Sink:
-    """Return the destination of partial results after an interruption. CSV tables are excluded, because they have a
-    partial file of their own.
-    """
-    if to.path is None or to.suffix == ".csv":
-        return STANDARD
-    from geartrain.numerics.files import partial_name
-
-    return sink(partial_name(to.path), to.force)
-
-
-def _report(
-    requested: MotionRun,
-    json: bool,
-    into: tuple[Sink, Sink],
-    of: tuple[str, str | None, Callable[[], Any]],
-    phases: int,
-    seed: int,
-    spectrum: bool,
-    every_output: bool,
-) -> None:
-    """Compute and write the results. After an interruption, write partial results to the second destination
-    in `into`.
-    """
-    from geartrain.report.motion_report import collect_motion, describe_motion
-
+def _run_analyses(requested: MotionRun, phases: int, seed: int, spectrum: bool) -> bool:
+    """Compute the results of a run; return True if Ctrl-C stopped it, with results for the positions before."""
     # each analysis evaluates all positions once
     work = requested.samples * (1 + phases + spectrum)
-    stopped = False
     with progress("motion", work) as bar:
         try:
             requested.run(bar.advance)
@@ -172,14 +151,8 @@ def _report(
             # an interrupt before the first results ends the command
             if not requested.done:
                 raise
-            stopped = True
-    to = into[stopped]
-    name, state, separation = of
-    found = collect_motion(requested, name, state, None if stopped else separation())
-    give(to, json, lambda: found, lambda: [describe_motion(found, every_output)])
-    if stopped:
-        tell(f"stopped after {requested.done} of {requested.samples} positions; the results are for these positions")
-        raise typer.Exit(INTERRUPTED)
+            return True
+    return False
 
 
 def _write_table(requested: MotionRun, out: Path, resume: bool, force: bool) -> None:

@@ -14,7 +14,7 @@ import typer
 from pydantic_core import PydanticCustomError
 
 from geartrain.cli.common import option_error
-from geartrain.errors import GearTrainError, Problem
+from geartrain.errors import GearTrainError
 from geartrain.numerics.quantity import Figure, Quantity
 from geartrain.scene.palette import ThemeName
 
@@ -30,11 +30,7 @@ MOST_COUNT = 10**9
 
 
 def quantity(place: str, text: str, dimension: str, plain: bool = False, minimum: Minimum = None) -> float:
-    """Parse a quantity and return it in SI units.
-
-    If `minimum` is "0", the value must be 0 or more; if it is "above 0", the value must be positive. Raises
-    `GearTrainError` for an invalid value.
-    """
+    """Parse a quantity in SI units; `minimum` is "0" for values of 0 or more, and "above 0" for positive values."""
     return read_quantity(place, text, dimension, plain, minimum).si
 
 
@@ -43,7 +39,8 @@ def read_quantity(place: str, text: str, dimension: str, plain: bool = False, mi
     try:
         found = Quantity.parse(text, dimension, plain)
     except PydanticCustomError as error:
-        raise value_error(error, place) from None
+        context = error.context or {}
+        raise option_error(place, error.message(), str(context.get("fix", "")), str(context.get("why", ""))) from None
     if found.value and not dimension.startswith("fraction") and not 1 / _MOST < abs(found.si) < _MOST:
         fix = f"give a magnitude between {1 / _MOST:g} and {_MOST:g} in SI units"
         raise option_error(place, f"{text} is out of range", fix, "its square would overflow or underflow")
@@ -55,9 +52,7 @@ def read_quantity(place: str, text: str, dimension: str, plain: bool = False, mi
 
 
 def read_share(text: str, option: str) -> Fraction:
-    """Parse the value of an option as an exact fraction. The value is a number, a percentage, a value in ppm, or the
-    rate of a clock in seconds per day (s/d).
-    """
+    """Parse an option as an exact fraction from a number, a percentage, ppm, or a clock rate in s/d."""
     return read_quantity(option, text, "fraction or clock rate", plain=True).base
 
 
@@ -83,10 +78,7 @@ def input_rate(text: str) -> float:
 
 
 def exact(place: str, text: str, what: str, such_as: str, low: float = -inf, high: float = inf) -> Fraction:
-    """Parse a number such as 3, -1/4 or 2.5 from `low` to `high`, both included.
-
-    `what` names the number in messages, and `such_as` is an example. Raises `GearTrainError` for an invalid number.
-    """
+    """Parse a number from `low` to `high`, both included; errors name it `what` and give the example `such_as`."""
     try:
         found = Figure.parse(text.strip()).value
     except PydanticCustomError:
@@ -99,15 +91,12 @@ def exact(place: str, text: str, what: str, such_as: str, low: float = -inf, hig
     return found
 
 
-def decimal(place: str, text: str, what: str, such_as: str, low: float = 0.0, high: float = _MOST) -> float:
-    """Parse a number from `low` to `high` as a float. Raise `GearTrainError` for other text, and for a number whose
-    square would underflow.
-    """
-    found = float(exact(place, text, what, such_as, low, high))
+def decimal(place: str, text: str, what: str, such_as: str, low: float = 0.0) -> float:
+    """Parse a number from `low` to 1e30 as a float; reject other text and numbers whose square would underflow."""
+    found = float(exact(place, text, what, such_as, low, _MOST))
     if found and abs(found) < 1 / _MOST:
-        raise option_error(
-            place, f"'{text}' is not a valid {what}", f"give a value such as {such_as}", "its square would underflow"
-        )
+        fix = f"give a value such as {such_as}"
+        raise option_error(place, f"'{text}' is not a valid {what}", fix, "its square would underflow")
     return found
 
 
@@ -118,23 +107,15 @@ def turns(place: str, text: str) -> Fraction:
     return exact(place, text, "number of turns", "4 or -1/2", -MOST_TURNS, MOST_TURNS)
 
 
-def whole(place: str, text: str, what: str, such_as: str, low: int = 0, high: int = MOST_COUNT) -> int:
-    """Parse an integer from `low` to `high`, both included. Raises `GearTrainError` for other values."""
-    found = exact(place, text, what, such_as, low, high)
+def whole(place: str, text: str, what: str, such_as: str, low: int = 0) -> int:
+    """Parse an integer from `low` to 10^9, both included. Raises `GearTrainError` for other values."""
+    found = exact(place, text, what, such_as, low, MOST_COUNT)
     if found.denominator != 1:
         fix = f"give an integer, such as {such_as}"
         raise option_error(place, f"'{text}' is not a valid {what}", fix, "it is not an integer")
     return int(found)
 
 
-def value_error(error: PydanticCustomError, place: str) -> GearTrainError:
-    """Convert a pydantic error raised by a number parser to an error message for users."""
-    context = error.context or {}
-    return GearTrainError(Problem(error.message(), str(context.get("why", "")), str(context.get("fix", "")), place))
-
-
 def at_option(error: GearTrainError, place: str) -> GearTrainError:
-    """Return a copy of the error in which `place`, the option that caused the error, is the location of every problem
-    without a location.
-    """
+    """Return the error with `place`, the option that caused it, as the location of problems without a location."""
     return GearTrainError(replace(each, place=each.place or place.replace("_", "-")) for each in error.problems)

@@ -23,8 +23,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.wheel_pair import WheelPair
     from geartrain.teeth.friction_law import FrictionLaw
     from geartrain.teeth.gear_mesh import GearMesh
-    from geartrain.teeth.meshing_wheels import MeshingWheels
-    from geartrain.teeth.outlines.wheel_outline import BlankSizes, WheelOutline
+    from geartrain.teeth.outlines.wheel_outline import WheelOutline
     from geartrain.teeth.tooth_form import ToothForm
 
     Mesh = TypeVar("Mesh", bound=GearMesh)
@@ -42,9 +41,7 @@ PAIR = ("friction", "z1", "z2")
 def parameters_of(model: type[ToothForm]) -> dict[str, FieldInfo]:
     """Return the fields of a tooth form that describe one pair, keyed by name.
 
-    The field `centre_distance` is omitted for forms whose teeth run only at the design centre distance. Fields for
-    simulations in the time domain, and fields whose values only Python can give (fields without `repr`), are also
-    omitted.
+    Fields for simulations in time, fields without `repr`, and a `centre_distance` that has no effect are omitted.
     """
     hidden = {"form", *model.in_time} | (set() if model.any_distance else {"centre_distance"})
     return {name: field for name, field in model.model_fields.items() if name not in hidden and field.repr}
@@ -79,9 +76,7 @@ def _words(annotation: Any) -> list[str]:
 
 
 def read_assignments(texts: Iterable[str], known: Sequence[str], option: str, fix: str = "") -> dict[str, str]:
-    """Parse KEY=VALUE options into a mapping from key to value. Raises `QuestionError` if a key is unknown or given
-    twice.
-    """
+    """Parse KEY=VALUE options into a mapping; raise `QuestionError` if a key is unknown or given twice."""
     found: dict[str, str] = {}
     for text in texts:
         name, equals, value = map(str.strip, text.partition("="))
@@ -97,11 +92,7 @@ def read_assignments(texts: Iterable[str], known: Sequence[str], option: str, fi
 
 
 def read_form(model: type[ToothForm], given: Mapping[str, str]) -> ToothForm:
-    """Create the tooth form from the given parameters, with default values for missing parameters that a declaration
-    must give.
-
-    Raises `GearTrainError` with the location `-p KEY`.
-    """
+    """Create the tooth form from parameters; errors have the location `-p KEY`."""
     fields = model.model_fields
     try:
         return model.declared(model.with_defaults({name: _value(fields[name], each) for name, each in given.items()}))
@@ -122,9 +113,7 @@ def at_parameter(error: GearTrainError, place: str, fix: str = "") -> GearTrainE
 
 
 def _value(field: FieldInfo, given: str) -> Any:
-    """Convert the text of a value in the way a declaration is read. A value in brackets or braces is parsed as YAML, a
-    value with commas becomes a list, and an integer is converted to int if the field allows it.
-    """
+    """Convert the text of a field's value: text in brackets or braces is YAML, and text with commas is a list."""
     if given[:1] in ("[", "{"):
         from geartrain.train.yaml_nodes import parse_yaml
 
@@ -138,9 +127,7 @@ def _value(field: FieldInfo, given: str) -> Any:
 
 
 def read_shaft_angle(internal: bool, angle: str | None) -> float | None:
-    """Parse the shaft angle [rad] of bevel wheels. None denotes parallel axes. Raises `GearTrainError` if an angle is
-    given for a ring gear.
-    """
+    """Parse the shaft angle of bevel wheels [rad]; None for parallel axes. An angle for a ring gear is an error."""
     if internal and angle is not None:
         why, fix = "a ring and its pinion have parallel axes", "omit --internal or --shaft-angle"
         raise option_error("--shaft-angle", "a ring gear is given with a shaft angle", fix, why)
@@ -148,10 +135,7 @@ def read_shaft_angle(internal: bool, angle: str | None) -> float | None:
 
 
 def read_helix(helix: str | None, shaft_angle: float | None) -> float:
-    """Parse the helix angle [rad] of a pair on parallel axes. Return 0, for spur wheels, if `helix` is None.
-
-    Raises `GearTrainError` if the angle is not from 0 to less than 90 deg, or if it is given for bevel wheels.
-    """
+    """Parse the helix angle of a pair on parallel axes [rad], from 0 to less than 90 deg; 0 if `helix` is None."""
     angle = 0.0 if helix is None else quantity("--helix", helix, "angle")
     if shaft_angle is not None and angle:
         why = "helical teeth are implemented for parallel axes only"
@@ -164,16 +148,12 @@ def read_helix(helix: str | None, shaft_angle: float | None) -> float:
 
 
 def read_module(module: str | None) -> float | None:
-    """Parse the module [m]; return None if `module` is None. Raises `GearTrainError` if the value is not a positive
-    length.
-    """
+    """Parse the module [m]; None if it is not given. A value that is not a positive length raises an error."""
     return None if module is None else quantity("--module", module, "length", minimum="above 0")
 
 
 def read_wheels(teeth: tuple[int, int], internal: bool, angle: str | None) -> WheelPair:
-    """Create a pair of wheels without dimensions, for conjugate teeth. Raises `GearTrainError` if the wheels cannot
-    mesh.
-    """
+    """Create a pair of wheels without dimensions; raise `GearTrainError` if the wheels cannot mesh."""
     from geartrain.teeth.conjugate.wheel_pair import WheelPair
 
     wheels = WheelPair(*teeth, internal, read_shaft_angle(internal, angle))
@@ -193,7 +173,7 @@ class PairRequest:
     own: Mapping[str, str]
     """Parameters of the tooth form as text, keyed by parameter name."""
     module: float | None = None
-    """Module of the pair [m]; None if no module is given."""
+    """Normal module of the pair [m]; None if no module is given."""
     friction: str = "0"
     driver: int = 1
     rate: str | None = None
@@ -204,17 +184,21 @@ class PairRequest:
     """Helix angle of the first wheel [rad]; 0 for spur wheels."""
 
     def mesh(self, **varied: str) -> GearMesh:
-        """Create the gear mesh of the pair, with some parameters replaced by the values in `varied`.
-
-        Raises `GearTrainError` if the pair cannot have teeth of this form.
-        """
-        from geartrain.teeth.meshing_wheels import MeshDriver
+        """Create the gear mesh of the pair, with parameters replaced by those in `varied`, or raise an error."""
+        from geartrain.teeth.meshing_wheels import MeshDriver, MeshingWheels
+        from geartrain.train import GearPair
 
         # tooth counts in a sweep are floats
         z1, z2 = (round(float(varied.get(name, z))) for name, z in zip(("z1", "z2"), self.teeth, strict=True))
         rub = read_pair_friction(varied.get("friction", self.friction))
         ring = self.internal or self.model.ringed
-        wheels = two_wheels((z1, z2), rub.coefficient, self.module, ring, self.shaft_angle, self.helix)
+        kind = "helical" if self.helix else "spur" if self.shaft_angle is None else "bevel"
+        # the transverse module is the normal module divided by the cosine of the helix angle
+        distance = None if self.module is None else self.module / cos(self.helix) * (z1 + z2) / 2
+        # external helical wheels have opposite hands, a ring has the hand of its pinion
+        helices = (self.helix, self.helix if ring else -self.helix)
+        pair, kinds, rings = GearPair(pair=("wheel 1", "wheel 2")), (kind, kind), (False, ring)
+        wheels = MeshingWheels(pair, "", (z1, z2), kinds, rings, rub.coefficient, distance, helix=helices)
         form = self.form({name: value for name, value in varied.items() if name not in PAIR})
         try:
             mesh = form.mesh(wheels, lambda: self.shaft_angle)
@@ -226,36 +210,11 @@ class PairRequest:
             raise at_parameter(error, f"-p {placed[0]}" if placed and min(z1, z2) >= FEWEST else COUNTS) from None
 
     def form(self, varied: Mapping[str, str]) -> ToothForm:
-        """Create the tooth form with some parameters replaced. A varied clearance parameter replaces all given
-        clearance parameters.
-        """
+        """Create the tooth form with some parameters replaced; a varied clearance replaces all given clearances."""
         replaced = {*CLEARANCES} if {*varied} & {*CLEARANCES} else set()
         return read_form(
             self.model, {name: text for name, text in self.own.items() if name not in replaced} | dict(varied)
         )
-
-
-def two_wheels(
-    teeth: tuple[int, int],
-    friction: float,
-    module: float | None,
-    internal: bool = False,
-    shaft_angle: float | None = None,
-    helix: float = 0.0,
-) -> MeshingWheels:
-    """Create the wheels of a pair that does not belong to a train. `module` is the normal module [m], and `helix` is
-    the helix angle of the first wheel [rad].
-    """
-    from geartrain.teeth.meshing_wheels import MeshingWheels
-    from geartrain.train import GearPair
-
-    kind = "helical" if helix else "spur" if shaft_angle is None else "bevel"
-    # the transverse module is the normal module divided by the cosine of the helix angle
-    distance = None if module is None else module / cos(helix) * sum(teeth) / 2
-    pair = GearPair(pair=("wheel 1", "wheel 2"))
-    # external helical wheels have opposite hands, a ring has the hand of its pinion
-    lean = (helix, helix if internal else -helix)
-    return MeshingWheels(pair, "", teeth, (kind, kind), (False, internal), friction, distance, helix=lean)
 
 
 # --------------------------------------------------------------------------------------------------- outline of a wheel
@@ -266,30 +225,20 @@ BLANK = ("bore", "tolerance", "clearance", "fillet", "rim")
 
 
 def write_profile(mesh: GearMesh, wheel: int, blank: Mapping[str, str], to: Sink) -> list[WheelOutline]:
-    """Write the outline of a wheel and return it in a list. If no file is named, nothing is written, and the list is
-    empty.
-
-    `blank` contains sizes of the wheel as text, keyed by name.
-    """
+    """Write the outline of a wheel with the sizes `blank`; return a list of the outline, or [] if no file is named."""
     if to.path is None:
         return []
     from geartrain.drawing import outline_text
-
-    made = mesh.wheel_outline(wheel, _blank_sizes(mesh.wheels.module, blank))
-    emit(outline_text(made, to.suffix), to)
-    return [made]
-
-
-def _blank_sizes(module: float | None, sizes: Mapping[str, str]) -> BlankSizes:
-    """Parse the sizes of a wheel blank, which are given as text in `sizes`; `module` is in m."""
     from geartrain.teeth.outlines.wheel_outline import BlankSizes
 
-    if module is None:
+    if (module := mesh.wheels.module) is None:
         fix, why = "for example, give --module 2mm", "an outline is written to scale"
         raise option_error("--module", "the module is missing", fix, why)
-    texts = {"tolerance": FINE, **sizes}
-    lengths = {name: 1000 * quantity(f"--blank {name}", text, "length") for name, text in texts.items()}
-    return BlankSizes(1000 * module, **lengths)
+    sizes = {"tolerance": FINE, **blank}
+    lengths = {name: 1000 * quantity(f"--blank {name}", text, "length") for name, text in sizes.items()}
+    made = mesh.wheel_outline(wheel, BlankSizes(1000 * module, **lengths))
+    emit(outline_text(made, to.suffix), to)
+    return [made]
 
 
 FINE = "0.001mm"
@@ -308,18 +257,14 @@ class PairFrictionOption:
     law: FrictionLaw | None = None
 
     def number(self, option: str) -> float:
-        """Return the coefficient of friction. For a friction law, raise `GearTrainError` with the name of the `option`
-        that needs a coefficient.
-        """
+        """Return the coefficient of friction; raise an error for a law, because `option` needs a coefficient."""
         if self.law is not None:
             what, fix = f"{option} needs a coefficient of friction", "for example, give --friction 0.1"
             raise option_error("--friction", what, fix, "a friction law is given")
         return self.coefficient
 
     def of(self, mesh: Mesh, rate: str | None) -> Mesh:
-        """Return a copy of the mesh with this friction. Raise `GearTrainError` if a friction law needs a speed or a
-        module that is not known.
-        """
+        """Return the mesh with this friction; raise an error if a law needs a speed or module that is not known."""
         if self.law is None:
             return mesh
         radius = mesh.pitch_radius
@@ -338,9 +283,7 @@ class PairFrictionOption:
 
 
 def read_pair_friction(text: str) -> PairFrictionOption:
-    """Parse a coefficient of friction, or a friction law with its parameters. Raise `GearTrainError` if the text is
-    invalid.
-    """
+    """Parse a coefficient of friction or a friction law with its parameters; raise an error for other text."""
     name = text.split(",")[0].strip()
     if "=" not in text and name not in ("buckingham", "dokos", "stribeck", "table"):
         return PairFrictionOption(read_coefficient(text))

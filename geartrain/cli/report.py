@@ -95,18 +95,14 @@ def _pictures(train: GearTrain) -> tuple[list[Picture], list[str]]:
     for kind in kinds:
         caption = {"plan": "The plan, to scale", "dials": "The dials"}[kind]
         try:
-            drawn.append(Picture(caption, _svg(train, kind)))
+            from geartrain.drawing import picture, render
+
+            drawn.append(Picture(caption, render(picture(train, kind), ".svg").decode("utf-8")))
         except MissingExtraError as missing:
             return [], [f"This page has no pictures: {missing.problems[0].what}; {missing.problems[0].fix}."]
         except GearTrainError as error:
             notes.append(f"{caption} could not be drawn: {error.problems[0].what}.")
     return drawn, notes
-
-
-def _svg(train: GearTrain, kind: Literal["plan", "dials"]) -> str:
-    from geartrain.drawing import picture, render
-
-    return render(picture(train, kind), ".svg").decode("utf-8")
 
 
 def compare(

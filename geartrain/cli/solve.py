@@ -6,27 +6,14 @@ from typing import Annotated, Literal
 
 import typer
 
-from geartrain.cli.common import (
-    GOOD,
-    VERDICT,
-    File,
-    Force,
-    Json,
-    Out,
-    StateName,
-    as_json,
-    emit,
-    sink,
-)
-
-OutputName = Annotated[
-    str | None, typer.Option("--of", help="Output or link; only the part of the train that drives it is solved.")
-]
+from geartrain.cli.common import GOOD, VERDICT, File, Force, Json, Out, StateName, as_json, emit, sink
 
 
 def solve(
     file: File,
-    output: OutputName = None,
+    output: Annotated[
+        str | None, typer.Option("--of", help="Output or link; only the part of the train that drives it is solved.")
+    ] = None,
     state: StateName = None,
     json: Json = False,
     out: Out = None,

@@ -100,17 +100,19 @@ def run(
     to = sink(out, force, (".md", ".html", ".json", *_YAML))
     picture = picture_sink(plot, force, theme)
     check_distinct_outputs(to, picture)
-    if survey or suggest:
-        _check_listed(to, picture)
+    # a list of results has no single sphere
+    if (survey or suggest) and to.suffix in _YAML:
+        raise option_error("-o", "a list of results cannot be written as a train", "use .md, .html or .json")
+    if (survey or suggest) and picture.path is not None:
+        raise option_error("--plot", "a list of results cannot be drawn", "omit --plot, or --suggest and --survey")
     if survey:
         _survey(json, to)
         return
     if solid is None and graph is None:
         raise option_error("SOLID", "no gears are given", "give a solid, --graph or --survey")
     if solid is not None and graph is not None:
-        raise option_error(
-            "SOLID", "a solid and --graph are given", "omit one of them", "both set the positions of the gears"
-        )
+        what, why = "a solid and --graph are given", "both set the positions of the gears"
+        raise option_error("SOLID", what, "omit one of them", why)
     made = _graph(graph, aim, minimum) if graph else None
     configuration = made.configuration if made else _solid(solid or "", gears, teeth, drop or [], exact)
     if suggest:
@@ -129,14 +131,6 @@ def run(
 
         draw(sphere_figure(*found.pose()), picture)
     raise typer.Exit(GOOD if found.moves and (found.closure is None or found.closure) else VERDICT)
-
-
-def _check_listed(to: Sink, picture: Sink) -> None:
-    """Raise an error for -o x.yaml and --plot if a list is requested, because these options need a single sphere."""
-    if to.suffix in _YAML:
-        raise option_error("-o", "a list of results cannot be written as a train", "use .md, .html or .json")
-    if picture.path is not None:
-        raise option_error("--plot", "a list of results cannot be drawn", "omit --plot, or --suggest and --survey")
 
 
 def _survey(json: bool, to: Sink) -> None:
@@ -181,9 +175,7 @@ def _graph(file: Path, aim: Any, minimum: int) -> GraphSet:
 
 
 def _teeth(text: str | None) -> dict[str, int] | int | None:
-    """Parse the tooth count of each kind of gear, such as `5=20,3=12`, or one tooth count for all gears. Return None if
-    `text` is None.
-    """
+    """Parse one tooth count for all gears, or one for each kind of gear, such as `5=20,3=12`; None without a text."""
     if text is None:
         return None
     try:
@@ -196,9 +188,7 @@ def _teeth(text: str | None) -> dict[str, int] | int | None:
 
 
 def _sphere_radius(configuration: Configuration, text: str) -> float:
-    """Return the radius of the sphere. The text contains either this radius, or KIND=RADIUS, the pitch radius of one
-    kind of gear.
-    """
+    """Parse the radius of the sphere, or derive it from KIND=RADIUS, the pitch radius of one kind of gear."""
     from geartrain.spherical.gear_sizes import size_gears
 
     kind, wheel, number = text.rpartition("=")

@@ -111,8 +111,8 @@ def run(
         sound = bool(over_turn.verdict)
     tried = None
     if trials is not None and over_turn is not None and over_turn.turns is not None:
-        options = RunOptions(workers, resume)
-        tried = _friction_trials(train, over_turn, (samples, link), (trials, seed), out, options)
+        plan = wing("workshop").FrictionPlan(train.declaration, over_turn.span, samples, over_turn.state, link)
+        tried = _friction_trials(plan, trials, seed, out, RunOptions(workers, resume))
     if plot is not None:
         _draw(train, found, over_turn, picture)
     if tabled and over_turn is not None:
@@ -126,9 +126,7 @@ def run(
 
 
 def _over_turn(train: GearTrain, found: Sequence[Torques], turns: str, samples: int, link: str | None) -> TorqueCycle:
-    """Return the torque over the requested revolutions, computed in the requested state or in the only state with
-    loads.
-    """
+    """Return the torque over the requested revolutions in the requested state, or in the only state with loads."""
     state = _loaded_state(train, found, "--turns").state
     if turns == "period":
         from geartrain.dynamics.turn.train_turn import find_torque_period
@@ -144,23 +142,11 @@ def _over_turn(train: GearTrain, found: Sequence[Torques], turns: str, samples: 
         return train.torques(state, turns=span, samples=samples, of=link, on_done=bar.advance)
 
 
-def _friction_trials(
-    train: GearTrain,
-    over_turn: TorqueCycle,
-    run: tuple[int, str | None],
-    drawn: tuple[int, int],
-    out: Path | None,
-    options: RunOptions,
-) -> Any:
-    """Repeat the torque analysis over the requested revolutions in trials with random friction.
-
-    run     number of samples, and the link whose torque is computed
-    drawn   number of trials, and random seed
-    """
-    wing("workshop.monte_carlo.trial_run").check_trials(drawn[0])
-    plan = wing("workshop").FrictionPlan(train.declaration, over_turn.span, run[0], over_turn.state, run[1])
-    with long_run("torques", plan.question(*drawn), out, options) as given:
-        found = wing("workshop").try_frictions(plan, *drawn, given)
+def _friction_trials(plan: Any, trials: int, seed: int, out: Path | None, options: RunOptions) -> Any:
+    """Compute the torques over the revolutions of a plan in trials with random friction."""
+    wing("workshop.monte_carlo.trial_run").check_trials(trials)
+    with long_run("torques", plan.question(trials, seed), out, options) as given:
+        found = wing("workshop").try_frictions(plan, trials, seed, given)
         close_journal(given.journal, cut=not found.complete)
     if not found.complete:
         tell(f"stopped after {found.done} of {found.wanted} trials; the results are for these trials")
@@ -168,10 +154,7 @@ def _friction_trials(
 
 
 def _loaded_state(train: GearTrain, found: Sequence[Torques], option: str) -> Torques:
-    """Return the torques of the requested state, or of the only state with loads.
-
-    Raises `QuestionError` if no state or more than one state has loads.
-    """
+    """Return the torques of the requested state or of the only state with loads; raise an error if there is none."""
     loaded = [each for each in found if each.verdict.kind != "unloaded"] if len(found) > 1 else list(found)
     if not loaded:
         raise option_error(option, "no state has loads", "declare `loads`", "torques follow from loads")
@@ -198,11 +181,7 @@ def _table(found: TorqueCycle) -> str:
 
 
 def _draw(train: GearTrain, found: Sequence[Torques], over_turn: TorqueCycle | None, picture: Sink) -> None:
-    """Draw the torque over the requested revolutions, or the power flow if no revolutions are requested.
-
-    The power flow is computed for the declared loads, or for a unit of power from input to output if no loads are
-    declared.
-    """
+    """Draw the torque over the requested revolutions or, without them, the power flow."""
     from geartrain.drawing.output_error_plots import torque_cycle_figure
     from geartrain.drawing.power_sankey import power_figure
     from geartrain.dynamics.torques.power_flow import watts_per_unit

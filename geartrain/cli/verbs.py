@@ -107,10 +107,7 @@ class Verbs(Mapping[str, Command]):
         return command
 
     def _load(self, name: str) -> Any:
-        """Import the function or module of a command.
-
-        Raises `KeyError` if the name is unknown, or if the optional part with this command is not installed.
-        """
+        """Import the function or module of a command; raise `KeyError` if it is unknown or not installed."""
         if name in self._modules:
             module, _, function = self._modules[name].partition(":")
             try:
@@ -133,9 +130,7 @@ class LazyGroup(TyperGroup):
         self.commands = self.verbs  # type: ignore[assignment]
 
     def resolve_command(self, ctx: Any, args: list[str]) -> tuple[str | None, Any, list[str]]:
-        """Return the command that is named in `args`, as click requires. Raises `QuestionError` if the name
-        is unknown.
-        """
+        """Return the command that is named in `args`, as click requires; raise `QuestionError` for unknown names."""
         name = args[0]
         # shell completion parses incomplete lines (resilient), which must not raise errors
         if name not in self.verbs and not name.startswith("-") and not ctx.resilient_parsing:
@@ -160,9 +155,7 @@ class _ReaderGoneError(Exception):
 
 
 class EndingGroup(TyperGroup):
-    """Group of commands that handles closed pipes and Ctrl-C itself, because typer would exit with the exit code of a
-    verdict.
-    """
+    """Group of commands that handles closed pipes and Ctrl-C itself; typer would exit with the code of a verdict."""
 
     def make_context(self, *given: Any, **more: Any) -> Any:
         """Parse the command line and return the context. The options `--help` and `--version` exit here."""
@@ -193,21 +186,14 @@ def _translated_exits() -> Iterator[None]:
 
 
 def usage_problem(error: Any) -> Problem:
-    """Return the problem that describes a usage error of typer, in the form of all other errors.
-
-    The error is recognised by its attributes, because its class is in click or in typer, depending on the version.
-    """
+    """Return a usage error of typer, recognised by its attributes, as a problem in the form of all other errors."""
     context, param = error.ctx, getattr(error, "param", None)
     see = f"`{f'{context.command_path} ' if context else ''}--help` lists the arguments and options"
     what = str(error.message).rstrip(".").removeprefix("Value error, ")
     if (name := getattr(error, "option_name", None)) is not None:
         if not what.startswith("No such option"):
-            return Problem(
-                "the value of this option is missing" if "requires" in what else "this option takes no value",
-                "",
-                see,
-                name,
-            )
+            kind = "the value of this option is missing" if "requires" in what else "this option takes no value"
+            return Problem(kind, "", see, name)
         known = [each for one in context.command.params for each in one.opts if each.startswith("--")]
         close = nearest_names(name.lstrip("-"), [each.lstrip("-") for each in known])
         fix = f"did you mean --{' or --'.join(close)}?" if close else see
@@ -247,13 +233,8 @@ def guarded(run: Callable[[], Any]) -> int:
     except Exception as error:
         # an error without a file name is one of standard output
         if isinstance(error, OSError) and error.filename is None and error.errno in _DISK:
-            what = Problem(
-                "the result cannot be written",
-                str(error),
-                "free disk space, or write to another disk",
-                "standard output",
-            )
-            complain(GearTrainError(what))
+            fix = "free disk space, or write to another disk"
+            complain(GearTrainError(Problem("the result cannot be written", str(error), fix, "standard output")))
             _discard_output()
             return NOT_USABLE
         _report_internal_error(error)
@@ -264,8 +245,7 @@ def guarded(run: Callable[[], Any]) -> int:
 def _interrupted() -> int:
     """Return the exit code for Ctrl-C, after clearing CPython's record of the interrupt.
 
-    CPython records an interrupt during the evaluation of a string, as in dataclasses and numba, even if it is caught,
-    and `python -m` is then killed by the signal at exit. The next evaluation of a string clears this record.
+    An interrupt during the evaluation of a string is recorded even if it is caught, and kills `python -m` at exit.
     """
     eval("0")
     return INTERRUPTED
@@ -298,9 +278,7 @@ def _report_internal_error(error: Exception) -> None:
 
 
 def _write_traceback(text: str) -> str:
-    """Write a traceback and the command line to a new file. Return the name of the file, or an empty string if it
-    cannot be created.
-    """
+    """Write a traceback and the command line to a new file; return its name, or "" if it cannot be created."""
     import platform
     from importlib.metadata import version
 

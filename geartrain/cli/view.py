@@ -95,10 +95,15 @@ def view(
     shown = _layout(embed, kiosk, other)
     trains = load_all([file] if other is None else [file, other])
     to = _page_sink(out or file_name("-".join(train.name for train in trains), ".html"), force)
-    # a simulation, and a page with two trains, show one state
-    first = dynamics or other is not None
-    taken = [(train, each) for train in trains for each in _states(train, state, first)]
-    runs = [_simulated(train, each, request) if dynamics else None for train, each in taken]
+    taken: list[tuple[GearTrain, str | None]] = []
+    for train in trains:
+        states = train.states or (None,) if state is None else (state,)
+        # a simulation, and a page with two trains, show one state
+        taken += [(train, each) for each in (states[:1] if dynamics or other is not None else states)]
+    runs: list[TimeRun | None] = [None] * len(taken)
+    if dynamics:  # of one train, with as many samples as a page can contain
+        samples = _MOST_ANGLES // len(trains[0].declaration.links)
+        runs = [run_in_time(*each, request.arguments() | {"samples": samples}) for each in taken]
     whole = shown == "page"
     scenes = [build_scene(train, each, run=run, formulas=whole) for (train, each), run in zip(taken, runs, strict=True)]
     _write_page(scenes, to, shown, other is not None, not discs)
@@ -122,10 +127,7 @@ def _write_page(scenes: Sequence[Scene], to: Sink, shown: Shown, compare: bool, 
 
 
 def _layout(embed: bool, kiosk: bool, other: str | None) -> Shown:
-    """Return the layout of a page: `embed`, `kiosk`, or `page` by default.
-
-    Raises `QuestionError` if both layouts are given, or if two trains are given for a layout that shows only one.
-    """
+    """Return the layout `embed`, `kiosk` or `page`; raise `QuestionError` for both, or for one with two trains."""
     if embed and kiosk:
         what, why = "--embed and --kiosk are given together", "a page can have only one layout"
         raise option_error("view", what, "omit one of them", why)
@@ -137,9 +139,7 @@ def _layout(embed: bool, kiosk: bool, other: str | None) -> Shown:
 
 
 def _check_request(request: TimeRequest, dynamics: bool, other: str | None) -> None:
-    """Raise `QuestionError` if options of --dynamics are given without --dynamics, or if --dynamics is given for two
-    trains.
-    """
+    """Raise `QuestionError` for options of --dynamics without --dynamics, and for --dynamics with two trains."""
     if not dynamics and request != TimeRequest():
         what = "options of --dynamics are given without --dynamics"
         why = "without --dynamics the page shows the kinematics only"
@@ -149,26 +149,8 @@ def _check_request(request: TimeRequest, dynamics: bool, other: str | None) -> N
         raise option_error(other, "two trains are given with --dynamics", "write a page for each train", why)
 
 
-def _simulated(train: GearTrain, state: str | None, request: TimeRequest) -> TimeRun:
-    """Run the simulation in the time domain that a page shows, with as many samples as a page can contain."""
-    samples = _MOST_ANGLES // len(train.declaration.links)
-    return run_in_time(train, state, request.arguments() | {"samples": samples})
-
-
-def _states(train: GearTrain, state: str | None, first: bool) -> Sequence[str | None]:
-    """Return the states to be shown: the state `state` if it is not None, or the first state if `first` is True, or all
-    states.
-    """
-    if state is not None:
-        return (state,)
-    names = train.states or (None,)
-    return names[:1] if first else names
-
-
 def _page_sink(path: Path, force: bool) -> Sink:
-    """Return the destination of a page. Raises `QuestionError` if browsers do not open files with this suffix as a
-    page.
-    """
+    """Return the destination of a page; raise `QuestionError` for a suffix that browsers do not open as a page."""
     if is_standard(path) or path.suffix.lower() in (".html", ".htm") or path.is_dir():
         return sink(path, force)
     why = f"'{path.suffix}' is not a suffix of an HTML page" if path.suffix else "its name has no suffix"
@@ -223,7 +205,7 @@ def _pages(path: Path) -> LivePages:
 
 
 def _files(path: Path) -> tuple[Path, ...]:
-    """Return the file and all files that it extends. If the file cannot be read, return only its own path."""
+    """Return a declaration file and all files that it extends; only the file itself if it cannot be read."""
     from geartrain.train.declaration_files import files_of
 
     try:

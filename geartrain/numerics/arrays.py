@@ -16,10 +16,7 @@ Indices = NDArray[np.intp]
 
 
 def packed(values: NDArray[Any], kind: Literal["<f8", "<f4", "<u4"] = "<f8") -> str:
-    """Return an array as base64 text of little-endian numbers, row by row.
-
-    The conversion is lossless, and the text has about a third of the length of decimal numbers.
-    """
+    """Return an array, row by row, as lossless base64 text of little-endian numbers."""
     return b64encode(values.astype(kind).tobytes()).decode("ascii")
 
 
@@ -32,9 +29,10 @@ def blocks(count: int) -> Iterator[slice]:
 
 
 def remainder(values: Floats, period: float) -> Floats:
-    """Return values less whole periods, from 0 to `period` up to rounding, in a quarter of the time of `numpy.mod`.
+    """Return the remainders of values divided by a period, from 0 to `period` up to rounding.
 
-    The period is the sum of two numbers, so that the first product is exact for up to 10^8 periods.
+    This takes a quarter of the time of `numpy.mod`. The period is the sum of two numbers, so that the first product is
+    exact for up to 10^8 periods.
     """
     coarse = float(np.float32(period))
     whole = np.floor(values * (1 / period))

@@ -1,12 +1,7 @@
-"""Block triangular form of a sparse system from its sparsity pattern, by Dulmage-Mendelsohn decomposition.
+"""Block triangular form of a sparse system, by the decomposition of Dulmage and Mendelsohn (1958).
 
-A maximum matching pairs rows with columns. In a square system each column then depends on the other columns of its row,
-and the strongly connected components of that graph are the diagonal blocks. Any other system is divided into three
-parts by alternating paths from unmatched rows and columns (Dulmage and Mendelsohn 1958): an overdetermined, a square
-and an underdetermined part. Each part depends only on the parts before it.
-
-The algorithms are implemented here so that commands that use them need not load numpy or networkx. They are iterative,
-because a train can be deeper than Python's recursion limit.
+The algorithms are iterative, because a train can be deeper than Python's recursion limit, and need neither numpy nor
+networkx, so that commands that solve exactly start fast.
 """
 
 from __future__ import annotations
@@ -23,13 +18,7 @@ class Block(NamedTuple):
 
 
 def find_blocks(rows: Sequence[Sequence[int]]) -> list[Block] | None:
-    """Return the blocks of the block triangular form of a square system; None if no perfect matching exists.
-
-    Each block follows all blocks that it depends on. Run time is linear for trees, and proportional to rows times
-    entries in the worst case.
-
-    rows   indices of the columns with an entry, for each row
-    """
+    """Return the blocks of a square system in order of dependence; None if there is no perfect matching."""
     row_of = _maximum_matching(dict(enumerate(rows)))
     if len(row_of) < len(rows):
         return None
@@ -111,10 +100,7 @@ def _square_blocks(rows: Mapping[int, Collection[int]], known: Collection[int]) 
 
 
 def _maximum_matching(rows: Mapping[int, Collection[int]]) -> dict[int, int]:
-    """Return a maximum bipartite matching as a mapping from column to row, found by augmenting paths.
-
-    Each round visits every column at most once.
-    """
+    """Return a maximum bipartite matching as a mapping from column to row, found by augmenting paths."""
     row_of: dict[int, int] = {}
     free = list(rows)
     while True:
@@ -149,9 +135,7 @@ def _augment_from(rows: Mapping[int, Collection[int]], root: int, row_of: dict[i
 
 
 def _reachable(starts: list[int], across: Mapping[int, Collection[int]], back: Mapping[int, int]) -> set[int]:
-    """Return all vertices on the same side as `starts` (rows or columns) that can be reached from them by alternating
-    paths.
-    """
+    """Return the rows (or columns) that alternating paths reach from the rows (or columns) `starts`."""
     found, queue = set(starts), list(starts)
     for here in queue:
         for there in across[here]:

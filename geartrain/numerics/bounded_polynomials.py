@@ -2,10 +2,6 @@
 
 A sum of n terms with at most r roundings each has an error of at most (r + n) u / (1 - (r + n) u) times the sum of
 the absolute terms (Higham, Accuracy and Stability of Numerical Algorithms, 2nd edition, sections 3.1 and 4.2).
-Callers that need more than these bounds recompute the uncertain points exactly.
-
-Points are not stored here. A function `product` returns the values of a monomial at all points, so that products
-shared between polynomials are multiplied only once.
 """
 
 from __future__ import annotations
@@ -21,9 +17,7 @@ from geartrain.numerics.exact import log10
 from geartrain.numerics.rounding_bounds import SLACK, UNIT_ROUNDOFF
 
 Monomial = tuple[tuple[int, int], ...]
-"""Product of powers of variables, as pairs (variable, power) in ascending order of variables. Powers are positive or
-negative, never 0.
-"""
+"""Product of powers of variables, as pairs (variable, power) in ascending order of variables; no power is 0."""
 
 WholeTerm = tuple[int, tuple[int, ...]]
 """Term with an integer coefficient, and the exponents of all variables."""
@@ -33,11 +27,6 @@ Product = Callable[[Monomial], Floats]
 
 _SAFE = 250
 """Limit of the decimal exponents of terms: no product underflows or overflows in float64 between 10^-250 and 10^250."""
-
-
-def monomial_of(exponents: Iterable[int]) -> Monomial:
-    """Return the monomial that has the given exponents of all variables."""
-    return tuple((variable, power) for variable, power in enumerate(exponents) if power)
 
 
 def products_of(columns: Sequence[Floats]) -> Product:
@@ -56,16 +45,6 @@ def sum_and_size(terms: Iterable[Floats], shape: tuple[int, ...] = ()) -> tuple[
     if not each:
         return np.zeros(shape), np.zeros(shape)
     return reduce(np.add, each), reduce(np.add, map(np.abs, each))
-
-
-def sum_roundings(monomials: Sequence[Monomial], roundings: Sequence[int]) -> int:
-    """Return an upper bound on the number of roundings of a sum of monomials, in one term and in the summation.
-
-    roundings   number of roundings in the value of each variable
-    """
-    # a power p of a variable with n roundings has p + p n roundings; a coefficient adds two
-    each = (sum(abs(power) * (roundings[variable] + 1) for variable, power in monomial) for monomial in monomials)
-    return max(each, default=0) + len(monomials) + 2
 
 
 def in_range(terms: Iterable[tuple[Fraction | int, Iterable[int]]], largest: Sequence[float]) -> bool:
@@ -105,8 +84,11 @@ def _bounded_sum(
     terms: Sequence[WholeTerm], scale: int, roundings: Sequence[int], product: Product
 ) -> tuple[Floats, Floats]:
     """Return the values of a polynomial divided by `scale`, and bounds on their absolute errors."""
-    monomials = [monomial_of(exponents) for _, exponents in terms]
+    monomials = [tuple((at, power) for at, power in enumerate(exponents) if power) for _, exponents in terms]
     # the exact quotient of two integers is rounded once
     factors = [float(Fraction(coefficient, scale)) for coefficient, _ in terms]
     value, size = sum_and_size(one * product(each) for one, each in zip(factors, monomials, strict=True))
-    return value, SLACK * sum_roundings(monomials, roundings) * UNIT_ROUNDOFF * size
+    # a power p of a variable with n roundings has p + p n roundings; a coefficient adds two
+    each = (sum(abs(power) * (roundings[at] + 1) for at, power in monomial) for monomial in monomials)
+    count = max(each, default=0) + len(monomials) + 2
+    return value, SLACK * count * UNIT_ROUNDOFF * size

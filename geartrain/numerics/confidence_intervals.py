@@ -17,12 +17,9 @@ if TYPE_CHECKING:
 
 
 CONFIDENCE = 0.95
+DEVIATIONS = NormalDist().inv_cdf((1 + CONFIDENCE) / 2)
+"""Number of standard deviations within which a normal variable is with probability 95 %."""
 PERCENTILES = (2.5, 25.0, 50.0, 75.0, 97.5)  # 95 % range, quartiles and median
-
-
-def deviations(confidence: float = CONFIDENCE) -> float:
-    """Return the number of standard deviations within which a normal variable is with probability `confidence`."""
-    return NormalDist().inv_cdf((1 + confidence) / 2)
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,13 +54,13 @@ class ProbabilityEstimate(Result):
 
 
 def wilson(count: float, of: float) -> tuple[float, float]:
-    """Return the 95 % Wilson score interval for `count` successes in `of` trials; (0, 1) if there were none.
+    """Return the 95 % Wilson score interval for `count` successes in `of` trials; (0, 1) if there are no trials.
 
     For weighted trials, `count` and `of` are effective numbers, which need not be integers.
     """
     if not of:
         return 0.0, 1.0
-    z = deviations()
+    z = DEVIATIONS
     # E. B. Wilson, J. Am. Stat. Assoc. 22 (1927): the p with |p' - p| <= z sqrt(p (1 - p) / n)
     p, square = count / of, z * z / of
     middle, half = p + square / 2, z * sqrt(max(p * (1 - p), 0.0) / of + square / (4 * of))
@@ -104,7 +101,7 @@ def mean_of(values: Floats) -> IntervalEstimate:
     n = len(values)
     if n < 2:
         return IntervalEstimate(float(values[0]) if n else nan, -inf, inf)
-    mean, half = float(values.mean()), deviations() * float(values.std(ddof=1)) / sqrt(n)
+    mean, half = float(values.mean()), DEVIATIONS * float(values.std(ddof=1)) / sqrt(n)
     return IntervalEstimate(mean, mean - half, mean + half)
 
 
@@ -116,7 +113,7 @@ def deviation_of(values: Floats) -> IntervalEstimate:
     Anal. 50 (2006) 775-782: ln(c s^2) +- z c sqrt((g - (n - 3)/n) / (n - 1)), where s is the standard deviation, g the
     kurtosis about a trimmed mean, z = 1.96 and c = n / (n - z).
     """
-    n, z = len(values), deviations()
+    n, z = len(values), DEVIATIONS
     if n < 5:
         return IntervalEstimate(float(values.std(ddof=1)) if n > 1 else nan, 0.0, inf)
     off = values - values.mean()
@@ -145,11 +142,9 @@ def percentile_of(ordered: Floats, percent: float) -> IntervalEstimate:
 
 @cache
 def _counts_below(n: int, p: float) -> tuple[int, int]:
-    """Return the shortest range that contains the number of values below quantile p, out of n, with probability 95 % or
-    more.
+    """Return the shortest range that contains the number of n values below their quantile p with probability 95 %.
 
-    The count is binomial (H. A. David, H. N. Nagaraja, Order Statistics, 3rd ed., 2003, section 7.1). The numbers 0 and
-    n correspond to an interval with an open end, and are only included if 95 % cannot be reached otherwise.
+    The number is binomial (David and Nagaraja, Order Statistics, 3rd ed., 2003, section 7.1).
     """
     from scipy.special import bdtr
 
@@ -161,7 +156,7 @@ def _counts_below(n: int, p: float) -> tuple[int, int]:
     found = np.flatnonzero(high < len(counts))
     low, high = counts[found], counts[high[found]]
     probability = up_to[high - counts[0]] - less[found]
-    # the last key has priority: closed intervals, then short ones, then the most probable
+    # the last key has priority: closed intervals (0 and n leave an end open), then short ones, then the most probable
     best = np.lexsort((-probability, high - low, (low == 0) | (high == n)))[0]
     return int(low[best]), int(high[best])
 

@@ -128,10 +128,7 @@ class FrozenFields:
 
 @contextmanager
 def collector_paused() -> Iterator[None]:
-    """Suppress garbage collection while many long-lived objects are created.
-
-    Each pass of the collector visits all existing objects, so that linear work would take quadratic time.
-    """
+    """Suppress garbage collection, each pass of which visits all objects, while many long-lived ones are created."""
     running = gc.isenabled()
     gc.disable()
     try:

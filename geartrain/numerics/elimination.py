@@ -19,9 +19,7 @@ PRIME = (1 << 61) - 1
 """Mersenne prime. The rank modulo it is a lower bound on the rank, and equals it except with probability 1e-18."""
 
 LinearForm = dict[int, Fraction]
-"""Linear form as a mapping from column to coefficient. Columns >= 0 are unknowns. Columns < 0 are symbols, which are
-treated as known.
-"""
+"""Linear form as column -> coefficient; columns >= 0 are unknowns, columns < 0 are symbols with known values."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,10 +39,7 @@ class Echelon:
         return len(self.pivots)
 
     def forms(self, budget: int | None = None) -> dict[int, LinearForm]:
-        """Return the unknown of every pivot as a linear form in symbols and free unknowns, by back substitution.
-
-        Many free unknowns lead to long forms. `TooDenseError` is raised after `budget` operations.
-        """
+        """Return each pivot's unknown as a form in symbols and free unknowns; raise `TooDenseError` beyond `budget`."""
         solved: dict[int, LinearForm] = {}
         work = 0
         for column, rest in reversed(self.pivots):  # the rest of the last pivot contains free columns only
@@ -68,10 +63,7 @@ class TooDenseError(Exception):
 
 
 def add_into(row: dict[int, Any], other: Mapping[int, Any], factor: Any) -> None:
-    """Add factor * other to a row in place, and remove entries that cancel.
-
-    Entries are numbers or polynomials, all of one type.
-    """
+    """Add factor * other to a row in place, and remove entries that cancel; entries are numbers or polynomials."""
     for column, coefficient in other.items():
         value = row[column] + factor * coefficient if column in row else factor * coefficient
         if value:
@@ -217,7 +209,7 @@ def eliminate_units(
 
 
 def residues(row: Mapping[int, Fraction], modulus: int = PRIME) -> LinearForm:
-    """Return a multiple of a rational row whose coefficients are integers, reduced modulo a prime."""
+    """Return a multiple of a rational row that has integer coefficients, reduced modulo a prime."""
     # one factor for the whole row does not change the rank, and avoids inverting denominators modulo the prime
     scale = math.lcm(*(value.denominator for value in row.values()))
     return {c: residue for c, value in row.items() if (residue := int(value * scale) % modulus)}  # type: ignore[misc]
@@ -229,10 +221,7 @@ def rank_modulo(rows: Iterable[Mapping[int, Fraction]], modulus: int = PRIME) ->
 
 
 def feasible(forms: Sequence[Mapping[int, Fraction]], constant: int = -1) -> bool:
-    """Return True if there are values of the unknowns for which no linear form is negative, by phase 1 of the simplex
-    method.
-
-    Bland's rule, by which the entering and the leaving variables have the lowest possible index, prevents cycling.
+    """Return True if there are values of the unknowns for which no linear form is negative (simplex method, phase 1).
 
     forms      linear forms; columns >= 0 are unknowns of either sign
     constant   column of the constant term

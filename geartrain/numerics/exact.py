@@ -13,10 +13,7 @@ from fractions import Fraction
 
 
 def coprime(numerator: int, denominator: int) -> Fraction:
-    """Return a Fraction from coprime numerator and positive denominator without the gcd of the Fraction constructor.
-
-    The gcd of long integers takes quadratic time, and is not required for products that are already in lowest terms.
-    """
+    """Return a Fraction from coprime numerator and positive denominator, without the gcd of long integers."""
     value = Fraction()
     value._numerator = numerator  # type: ignore[attr-defined]
     value._denominator = denominator  # type: ignore[attr-defined]
@@ -24,10 +21,7 @@ def coprime(numerator: int, denominator: int) -> Fraction:
 
 
 def times(n: int, d: int, a: int, b: int) -> tuple[int, int]:
-    """Return the product of n/d and a/b as (numerator, positive denominator) in lowest terms.
-
-    n/d must be in lowest terms. a and b should have few digits, so that the gcds take little time.
-    """
+    """Return the product of n/d and a/b as numerator and positive denominator without common factors, as in n and d."""
     if b < 0:
         a, b = -a, -b
     common = math.gcd(a, b)
@@ -140,13 +134,13 @@ def read_fraction(text: str) -> Fraction:
     return coprime(int(Decimal(top)), int(Decimal(bottom or "1")))
 
 
-def abridged_text(value: Fraction | int, most: int = 40) -> str:
-    """Format a number with all digits if they fit in `most` characters, else give only the number of digits.
+def abridged_text(value: Fraction | int) -> str:
+    """Format a number with all digits if they fit in 40 characters, else give only the number of digits.
 
     >>> abridged_text(Fraction(11, 10) ** 5), abridged_text(Fraction(11, 10) ** 5000)
     ('161051/100000', '(5207 digits)/(5001 digits)')
     """
-    if is_short(value, most):
+    if is_short(value, 40):
         return fraction_text(value)
     top, bottom = value.numerator, value.denominator
     return f"({count_digits(top)} digits)" + (f"/({count_digits(bottom)} digits)" if bottom != 1 else "")

@@ -1,8 +1,6 @@
 """Numbers that are stored as short ratios to other numbers and multiplied out on access.
 
-Along a train, every speed is the speed of a neighbouring link times a ratio of tooth counts. If the factors do not
-cancel, the speed after a thousand links has thousands of digits, and storage of all speeds takes quadratic memory. Each
-number is therefore stored as a short ratio to an earlier one.
+The speed after a thousand links has thousands of digits, and storage of all speeds would take quadratic memory.
 """
 
 from __future__ import annotations
@@ -72,11 +70,8 @@ class FactoredRatios:
         for hop in reversed(hops):
             # the anchor is kept, because the number read next probably has the same one
             if hop == at:
-                self._keep(self.anchor[at], value)
+                self._kept[self.anchor[at]] = value
+                if len(self._kept) > _KEPT:
+                    del self._kept[next(iter(self._kept))]
             value = coprime(*times(value.numerator, value.denominator, self.top[hop], self.bottom[hop]))
         return value
-
-    def _keep(self, at: int, value: Fraction) -> None:
-        self._kept[at] = value
-        if len(self._kept) > _KEPT:
-            del self._kept[next(iter(self._kept))]

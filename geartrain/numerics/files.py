@@ -1,10 +1,7 @@
 """Files: atomic output of results, tables as CSV and Parquet, and input of points and edges.
 
-A file is written completely or not at all, and overwrites another file only on request. `destination` returns the path
-of the file, or raises an error if it cannot be written. `write_bytes` and `place` write a temporary file next to it,
-flush it to disk, and rename it in one step, so that a reader sees either the old or the new file. `write_folder` does
-the same for many files. Long tables are written in chunks to a file whose name contains `partial` until they are
-complete; an interrupted CSV file can be resumed. All rows of CSV files are formatted here.
+A file is written completely or not at all, and overwrites another file only on request. An interrupted long table
+remains in a file whose name contains `partial`; a CSV file can be resumed.
 """
 
 from __future__ import annotations
@@ -16,7 +13,7 @@ import re
 import shutil
 import stat
 import tempfile
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from importlib import import_module
 from pathlib import Path
@@ -27,7 +24,6 @@ from geartrain.errors import GearTrainError, MissingExtraError, Problem, printab
 from geartrain.numerics.exact import plural
 
 _KINDS = (
-    (stat.S_ISDIR, "a folder"),
     (stat.S_ISFIFO, "a FIFO (a named pipe)"),
     (stat.S_ISCHR, "a device"),
     (stat.S_ISBLK, "a device"),
@@ -42,30 +38,26 @@ def destination(path: Path, force: bool = False) -> Path:
     writing (also for root). Otherwise `GearTrainError` is raised. The function does not write anything.
     """
     try:
-        real, mode = _target(path)
-        trouble = _kind(path, mode) or _name(path) or _folder(path, real)
-        if trouble is None and mode is not None:
-            trouble = _protection(path, real, mode, force)
+        try:
+            mode = os.stat(path).st_mode
+        except (FileNotFoundError, NotADirectoryError):
+            mode = 0  # also a link to a file that does not exist yet; `_obstacle` reports a path through a file
+        real = Path(os.path.realpath(path))
+        obstacle = _obstacle(path, real, mode, force)
     except (OSError, ValueError, RuntimeError) as error:
-        trouble = _invalid_name(path, getattr(error, "strerror", None) or str(error))
-    if trouble is not None:
-        raise GearTrainError(trouble)
+        obstacle = _invalid_name(path, getattr(error, "strerror", None) or str(error))
+    if obstacle is not None:
+        raise GearTrainError(obstacle)
     return real
 
 
 def write_text(path: Path, text: str, force: bool = False) -> None:
-    """Write `text` atomically to `path` as UTF-8, following symbolic links.
-
-    An existing file is overwritten only with `force`. Raises `GearTrainError` if the file cannot be written.
-    """
+    """Write `text` atomically as UTF-8, following symbolic links; overwrite an existing file only with `force`."""
     write_bytes(path, text.encode("utf-8"), force)
 
 
 def write_bytes(path: Path, data: bytes, force: bool = False) -> None:
-    """Write `data` atomically to `path`, following symbolic links.
-
-    An existing file is overwritten only with `force`. Raises `GearTrainError` if the file cannot be written.
-    """
+    """Write `data` atomically, following symbolic links; overwrite an existing file only with `force`."""
     real = destination(path, force)
     try:
         # in the same folder, because a rename is atomic only within one file system
@@ -83,20 +75,25 @@ def write_bytes(path: Path, data: bytes, force: bool = False) -> None:
 
 
 def place(temporary: Path, path: Path, force: bool = False) -> None:
-    """Rename a finished temporary file on the same disk to `path`, after the checks of `destination`.
-
-    The permissions of an overwritten file are kept. Raises `GearTrainError` if a check fails, and `OSError` for disk
-    errors.
-    """
+    """Rename a finished temporary file on the same disk to `path`, after the checks of `destination`."""
     real = destination(path, force)
     with temporary.open("rb") as file:
         # before renaming: a power failure could otherwise leave the new name with an empty file
         os.fsync(file.fileno())
     if real.exists():
-        _copy_permissions(real, temporary)
+        old = real.stat()
+        if hasattr(os, "chown"):
+            with suppress(OSError):  # the system may not allow it
+                os.chown(temporary, old.st_uid, old.st_gid)
+        temporary.chmod(stat.S_IMODE(old.st_mode))
     if force or not _link(temporary, real, path):
         os.replace(temporary, real)
-    _sync_folder(real.parent)
+    with suppress(OSError):  # on systems that can flush a folder, the new name survives a power failure
+        handle = os.open(real.parent, os.O_RDONLY)
+        try:
+            os.fsync(handle)
+        finally:
+            os.close(handle)
 
 
 def unfinished_file(path: Path, error: Exception) -> GearTrainError:
@@ -113,58 +110,34 @@ def umask() -> int:
     return mask
 
 
-# ------------------------------------------------------------------------------------------------------- what is there
-
-
-def _target(path: Path) -> tuple[Path, int | None]:
-    """Return the target of a path with symbolic links resolved, and its mode; None if it does not exist."""
-    try:
-        mode = os.stat(path).st_mode
-    except (FileNotFoundError, NotADirectoryError):
-        mode = None  # also a link to a file that does not exist yet; `_folder` reports a path through a file
-    return Path(os.path.realpath(path)), mode
-
-
-def _kind(path: Path, mode: int | None) -> Problem | None:
-    if mode is None or stat.S_ISREG(mode):
-        return None
-    kind = next((name for is_kind, name in _KINDS if is_kind(mode)), "not a regular file")
+def _obstacle(path: Path, real: Path, mode: int, force: bool) -> Problem | None:
+    """Return the problem that prevents writing a file, or None. `mode` is the file's mode, 0 if the file is missing."""
     if stat.S_ISDIR(mode):
         fix = f"give a file in it: {path / 'NAME'}"
         return Problem("this is a folder", "a result is written to one file", fix, str(path))
-    why = "a result can overwrite only a regular file"
-    return Problem(f"this is {kind}", why, "give a file name, or - for standard output", str(path))
-
-
-def _name(path: Path) -> Problem | None:
+    if mode and not stat.S_ISREG(mode):
+        kind = next((name for is_kind, name in _KINDS if is_kind(mode)), "not a regular file")
+        why = "a result can overwrite only a regular file"
+        return Problem(f"this is {kind}", why, "give a file name, or - for standard output", str(path))
     if path.name in ("", "..") or not path.name.isprintable():
         return _invalid_name(path, "a file name must consist of printable characters")
-    return None
-
-
-def _folder(path: Path, real: Path) -> Problem | None:
     folder = real.parent
     if not folder.is_dir():
         what = "the folder does not exist"
         return Problem(what, f"the file would be in {folder}", "create the folder first", str(path))
     if not os.access(folder, os.W_OK | os.X_OK):
         return _unwritable(folder)
+    if mode and not force:
+        return _exists(path)
+    if mode and (not mode & 0o222 or not os.access(real, os.W_OK)):
+        why = f"its permissions ({stat.filemode(mode)}) forbid writing, and --force does not change them"
+        return Problem("the file is read-only", why, "make it writable, or give another name", str(path))
     return None
 
 
 def _unwritable(folder: Path) -> Problem:
     why = "its permissions do not allow writing"
     return Problem("the folder cannot be written to", why, "give another folder", str(folder))
-
-
-def _protection(path: Path, real: Path, mode: int, force: bool) -> Problem | None:
-    """Return the problem that prevents overwriting an existing file; None if it may be overwritten."""
-    if not force:
-        return _exists(path)
-    if not mode & 0o222 or not os.access(real, os.W_OK):
-        why = f"its permissions ({stat.filemode(mode)}) forbid writing, and --force does not change them"
-        return Problem("the file is read-only", why, "make it writable, or give another name", str(path))
-    return None
 
 
 def _exists(path: Path) -> Problem:
@@ -176,23 +149,8 @@ def _invalid_name(path: Path, why: str) -> Problem:
     return Problem("this is not a valid file name", why, "choose a shorter or simpler name", repr(str(path)))
 
 
-# ------------------------------------------------------------------------------------------------------ taking a name
-
-
-def _copy_permissions(old: Path, new: Path) -> None:
-    """Copy the permissions of the old file to the new file, and its owner if the system allows it."""
-    found = old.stat()
-    if hasattr(os, "chown"):
-        with suppress(OSError):
-            os.chown(new, found.st_uid, found.st_gid)
-    new.chmod(stat.S_IMODE(found.st_mode))
-
-
 def _link(temporary: Path, real: Path, path: Path) -> bool:
-    """Give a file a new name in one step by a hard link; return False if the file system does not support hard links.
-
-    Unlike renaming, this fails if another process has created a file with this name in the meantime.
-    """
+    """Give a file a new name by a hard link, which fails if the name exists; return False without hard links."""
     try:
         os.link(temporary, real)
     except FileExistsError:
@@ -203,21 +161,8 @@ def _link(temporary: Path, real: Path, path: Path) -> bool:
     return True
 
 
-def _sync_folder(folder: Path) -> None:
-    """Write a folder to disk (fsync) on systems that support it, so that a new name survives a power failure."""
-    with suppress(OSError):
-        handle = os.open(folder, os.O_RDONLY)
-        try:
-            os.fsync(handle)
-        finally:
-            os.close(handle)
-
-
 def check_folder(folder: Path, names: Sequence[str], force: bool = False) -> None:
-    """Raise `GearTrainError` if files with these names, such as `wheels/b1.svg`, cannot be written to a folder.
-
-    Without `force`, the error is also raised if a file exists.
-    """
+    """Raise `GearTrainError` if the files cannot be written to a folder, or if one exists and `force` is False."""
     place = str(folder)
     if folder.exists() and not folder.is_dir():
         why = "several files are written to one folder"
@@ -237,11 +182,9 @@ def check_folder(folder: Path, names: Sequence[str], force: bool = False) -> Non
 
 
 def write_folder(folder: Path, files: Iterable[tuple[str, bytes]], force: bool = False) -> int:
-    """Write named files to a folder and return their number.
+    """Write named files to a folder and return their number; existing files are overwritten only with `force`.
 
-    The files are created in a temporary folder next to the destination and moved when all are complete, so that an
-    error leaves the destination unchanged. Existing files are overwritten only with `force`. Raises `GearTrainError` if
-    a file cannot be written.
+    The files are created in a temporary folder and moved when all are complete, so that an error changes nothing.
     """
     made: list[str] = []
     try:
@@ -468,10 +411,7 @@ def _cell(cell: object) -> object:
 
 
 def read_points(path: Path) -> list[tuple[float, float, float]]:
-    """Read points from a file with three numbers per line, separated by blanks or commas.
-
-    `#` begins a comment. Raises `GearTrainError`, which lists the invalid lines.
-    """
+    """Read points from a file with three numbers per line, separated by blanks or commas; `#` begins a comment."""
 
     def point(words: list[str]) -> tuple[float, float, float]:
         x, y, z = map(float, words)
@@ -481,10 +421,7 @@ def read_points(path: Path) -> list[tuple[float, float, float]]:
 
 
 def read_edges(path: Path) -> list[tuple[str, str]]:
-    """Read edges from a file with two names per line, separated by blanks or commas.
-
-    `#` begins a comment. Raises `GearTrainError`, which lists the invalid lines.
-    """
+    """Read edges from a file with two names per line, separated by blanks or commas; `#` begins a comment."""
 
     def edge(words: list[str]) -> tuple[str, str]:
         first, second = words
@@ -495,24 +432,19 @@ def read_edges(path: Path) -> list[tuple[str, str]]:
 
 def _parsed_rows(path: Path, parse: Callable[[list[str]], T], what: str, why: str, fix: str) -> list[T]:
     """Return the parsed lines of a file; `parse` raises `ValueError` for invalid words."""
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        cause = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
+        problem = Problem("the file cannot be read", str(cause), "check its name and contents", str(path))
+        raise GearTrainError(problem) from None
     found, problems = [], []
-    for at, words in _rows(path):
+    for at, line in enumerate(text.splitlines(), 1):
+        words = line.partition("#")[0].replace(",", " ").split()
         try:
-            found.append(parse(words))
+            found += [parse(words)] if words else []
         except ValueError:
             problems.append(Problem(f"'{' '.join(words)}' {what}", why, fix, f"{path}:{at}"))
     if problems:
         raise GearTrainError(problems)
     return found
-
-
-def _rows(path: Path) -> Iterator[tuple[int, list[str]]]:
-    try:
-        text = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        why = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
-        what = "the file cannot be read"
-        raise GearTrainError(Problem(what, str(why), "check its name and contents", str(path))) from None
-    for at, line in enumerate(text.splitlines(), 1):
-        if words := line.partition("#")[0].replace(",", " ").split():
-            yield at, words

@@ -1,22 +1,14 @@
-"""Kernels: numerical functions in plain Python that numba can compile and cache on disk.
+"""Kernels: numerical functions in plain Python that numba (extra `fast`) can compile and cache on disk.
 
-A function decorated with `@kernel` is called like any function and then runs as Python. Its attribute `compiled` is the
-same function as machine code, compiled by numba, an optional dependency (the extra `fast`). numba caches the machine
-code in the package's folder. If this folder is not writable, it uses the user's cache folder or `NUMBA_CACHE_DIR`.
-numba is imported only when a kernel is first compiled or loaded.
-
-A kernel may call other kernels by name, and functions of `math`. The code of the called kernels is part of the cache
-key, so that all callers are recompiled if it changes. Rounding is as in Python: sums are not reordered and products are
-not fused. A division by zero returns an infinity, as in numpy, and does not raise an error as in Python. Arguments
-should keep their types and be C-contiguous writable arrays, because every new type requires a compilation.
-
-Compilation takes several seconds. `telling` calls a function when it begins, and Ctrl+C interrupts it.
+A function decorated with `@kernel` runs as Python, and its attribute `compiled` as machine code. A kernel may call
+other kernels by name, whose code is part of the cache key, and functions of `math`. Rounding is as in Python, but a
+division by zero returns an infinity. Every new type of argument requires a compilation of several seconds.
 """
 
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from functools import cached_property, update_wrapper
 from hashlib import sha256
@@ -43,11 +35,9 @@ def telling(say: Callable[[], None]) -> Iterator[None]:
 
 @contextmanager
 def compilation() -> Iterator[None]:
-    """Return a context for all work that numba does before a kernel runs, in which Ctrl+C interrupts this work.
+    """Return a context in which Ctrl+C interrupts the work that numba does before a kernel runs.
 
-    Python ignores an interrupt, with a warning, while a compiler calls back into Python or while an object is
-    finalised. In this context the interrupt is recorded without a warning, and raised as soon as the kernel is
-    compiled.
+    Python drops an interrupt while a compiler calls back into it; here it is recorded, and raised after compilation.
     """
     with ExitStack() as opened:
         if _listeners:
@@ -119,10 +109,12 @@ class Kernel(Generic[P, R]):
         return self._made(no_cpython_wrapper=True)
 
     def _made(self, **options: bool) -> Callable[P, R]:
-        numba = _numba()
+        numba, own = _numba(), self._function
         # a copy that calls compiled kernels; the hash in its name makes numba's cache key depend on all of its sources
-        twin = self._copy_with({name: each._called for name, each in self._named.items() if isinstance(each, Kernel)})
-        twin.__qualname__ = f"{self._function.__qualname__}_{self.digest}{'_'.join(['', *options])}"
+        called = {name: each._called for name, each in self._named.items() if isinstance(each, Kernel)}
+        twin = FunctionType(own.__code__, {**own.__globals__, **called}, own.__name__, own.__defaults__)
+        twin.__annotations__ = own.__annotations__
+        twin.__qualname__ = f"{own.__qualname__}_{self.digest}{'_'.join(['', *options])}"
         made = numba.njit(twin, error_model="numpy", nogil=True, no_cfunc_wrapper=True, **options)
         with suppress(RuntimeError):  # neither the package's folder nor the user's cache is writable
             made.enable_caching()
@@ -133,13 +125,6 @@ class Kernel(Generic[P, R]):
         """Return the compiled function if `fast` is True, else the function in plain Python."""
         return self.compiled if fast else self
 
-    def _copy_with(self, names: Mapping[str, object]) -> FunctionType:
-        """Return a copy of the function in which the given global names refer to other objects."""
-        own = self._function
-        twin = FunctionType(own.__code__, {**own.__globals__, **names}, own.__name__, own.__defaults__)
-        twin.__annotations__ = own.__annotations__
-        return twin
-
     @property
     def _named(self) -> dict[str, Any]:
         """Global objects to which the function refers, by name of the global variable."""
@@ -148,11 +133,7 @@ class Kernel(Generic[P, R]):
 
     @cached_property
     def digest(self) -> str:
-        """Hash of the function's code, the constants of its module that it uses, and the kernels that it calls.
-
-        The named tuples of its module are also included, because the cache on disk contains their types and cannot be
-        loaded if one of them has been removed.
-        """
+        """Hash of the function's code, and of the constants, named tuples and kernels of its module that it uses."""
         function = self._function
         found = sha256(f"{function.__module__} {function.__annotations__} {_text(function.__code__)}".encode())
         for each in function.__globals__.values():
@@ -179,20 +160,15 @@ def is_fast(fast: bool | None, seconds: float) -> bool:
 
     Raises `MissingExtraError` if `fast` is true and numba is not installed.
     """
-    if fast is None:
-        return seconds >= _PAYS and usable()
-    if fast:
-        _numba()
-    return fast
-
-
-def usable() -> bool:
-    """Return True if numba is installed and can be imported."""
-    try:
-        _numba()
-    except MissingExtraError:
-        return False
-    return True
+    wanted = seconds >= _PAYS if fast is None else fast
+    if wanted:
+        try:
+            _numba()
+        except MissingExtraError:
+            if fast:
+                raise
+            return False
+    return wanted
 
 
 def _numba() -> ModuleType:

@@ -53,11 +53,9 @@ class LabelledArray(Tabular, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Columns of a table with a row for each label of the second axis and a column for each label of the first
-        axis.
+        """Columns of a table: one for each label of the first axis, with a row for each label of the second axis.
 
-        An array with one axis has a column of labels and a column of values. An array with three or more axes has a row
-        for each value.
+        A single axis becomes two columns, labels and values; three or more axes become a row for each value.
         """
         if len(self.axes) == 1:
             return {self.axes[0]: self.labels[0], "value": self.values.tolist()}

@@ -1,8 +1,6 @@
 """Periodic functions of one variable, given by points, harmonics or functions, with their derivatives and extremes.
 
-Points are interpolated by a periodic cubic spline, by the monotone cubics of Fritsch and Carlson (PCHIP), by straight
-lines, or by steps. Extremes between the points are also found: every smooth interval is sampled more finely than the
-function varies, and each stationary point is found as a bracketed root of the derivative between two samples.
+Extremes between points are found as bracketed roots of the derivative between samples.
 """
 
 from __future__ import annotations
@@ -66,9 +64,7 @@ class PeriodicFunction(ABC):
 
     @cached_property
     def _samples(self) -> Floats:
-        """Ascending positions over one period, at most `resolution` apart, with positions on both sides of every
-        breakpoint.
-        """
+        """Ascending positions over one period, at most `resolution` apart, on both sides of every breakpoint."""
         starts = self.breakpoints if len(self.breakpoints) else np.zeros(1)
         widths = np.diff(starts, append=starts[0] + self.period)
         counts = self.per_interval + np.ceil(widths / self.resolution).astype(np.int64)
@@ -82,9 +78,7 @@ class PeriodicFunction(ABC):
         return found
 
     def extremes(self, order: int = 0) -> tuple[float, float]:
-        """Return the minimum and maximum over a period of the derivative of the given order, from 0 (the function) to
-        2. Positions at which it is NaN are ignored.
-        """
+        """Return the minimum and maximum over a period of the derivative of order 0 to 2; NaN values are ignored."""
         x = self._samples
         slopes = self.derivative(x, order + 1)
         turns = np.flatnonzero(slopes[:-1] * slopes[1:] < 0)
@@ -169,9 +163,7 @@ class PeriodicTable(PeriodicPieces):
 
 
 def _cubics(x: Floats, y: Floats, interpolation: Interpolation) -> Floats:
-    """Return the coefficients of the cubics between points, shape (4, pieces), in descending order of powers; the last
-    point is the first one after one period.
-    """
+    """Return the coefficients of the cubics between points, in descending order of powers, shape (4, pieces)."""
     if interpolation == "steps":
         return np.vstack([np.zeros((3, len(x) - 1)), y[:-1]])
     if interpolation == "linear":

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import Annotated
 
 from pydantic import BeforeValidator
-from pydantic_core import PydanticCustomError
+
+from geartrain.numerics.quantity import bad
 
 
 def whole_number(raw: object, low: int, high: int) -> int | None:
@@ -26,8 +27,8 @@ def whole_from(low: int, high: int, noun: str) -> BeforeValidator:
         number = whole_number(raw, low, high)
         if number is not None:
             return number
-        context = {"shown": str(raw)[:30], "noun": noun, "fix": f"give a whole number from {low} to {high:,}"}
-        raise PydanticCustomError("number", "{shown} is not a valid number of {noun}", context)
+        fix = f"give a whole number from {low} to {high:,}"
+        raise bad("number", f"{str(raw)[:30]} is not a valid number of {noun}", fix)
 
     return BeforeValidator(read)
 
@@ -38,9 +39,7 @@ def _boolean(raw: object) -> bool:
         return raw
     if isinstance(raw, str) and raw.lower() in ("true", "false"):
         return raw.lower() == "true"
-    raise PydanticCustomError(
-        "boolean", "'{raw}' is neither true nor false", {"raw": str(raw), "fix": "write true or false"}
-    )
+    raise bad("boolean", f"'{raw}' is neither true nor false", "write true or false")
 
 
 Boolean = Annotated[bool, BeforeValidator(_boolean)]

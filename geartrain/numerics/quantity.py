@@ -152,15 +152,13 @@ def scale(unit: str) -> tuple[str, Fraction]:
 
 
 def turns_in(unit: str) -> Fraction:
-    """Return the angle [turn] per unit of time at a speed of 1 in the given unit: 1/360 for deg/s, and 1 for rpm or no
-    unit.
-    """
+    """Return the angle per unit of time [turn] at a speed of 1 in a unit: 1/360 for deg/s, 1 for rpm or no unit."""
     angle = unit.partition("/")[0] if "/" in unit else TURN
     return scale(angle)[1]
 
 
 def same_kind(first: str | None, second: str | None) -> bool:
-    """Return True if one unit is a rational multiple of the other, which radians are only of radians."""
+    """Return True if both units contain radians or neither does, so that their quotient is a rational number."""
     return (first in IRRATIONAL) == (second in IRRATIONAL)
 
 
@@ -265,13 +263,21 @@ class Figure:
         if match is None:
             raise _not_a_number(raw)
         left, sign, right = match.groups()
-        value = Fraction(left)
+        value, half = Fraction(left), None
+        mantissa, _, exponent = left.lower().partition("e")
         if sign is not None:
             below = Fraction(right)
             if not below:
                 raise bad("number", f"'{text}' divides by zero", "write a denominator other than 0")
-            return cls(_within(value / below, text), None, text)
-        return cls(_within(value, text), _half_unit(left), text)
+            value /= below
+        elif "." in mantissa or exponent:
+            # an exponent moves the last decimal: 1e3 is known to half a thousand
+            decimals = len(mantissa.partition(".")[2])
+            half = Fraction(10) ** (int(exponent or 0) - decimals) / 2
+        if value and not 1 / _MOST <= abs(value) <= _MOST:
+            why = "a number must be 0, or from 1e-300 to 1e300"
+            raise bad("number", f"{text} is out of range", "write a number in that range", why)
+        return cls(value, half, text)
 
     @classmethod
     def __get_pydantic_core_schema__(cls, source: Any, handler: GetCoreSchemaHandler) -> core_schema.CoreSchema:
@@ -333,27 +339,12 @@ def _not_a_number(raw: object) -> PydanticCustomError:
     return bad("number", f"{shown} is not a number", "write an integer, a fraction 254/19 or 1:30, or a decimal")
 
 
-def _within(value: Fraction, text: str) -> Fraction:
-    if value and not 1 / _MOST <= abs(value) <= _MOST:
-        raise _out_of_range(text, "a number must be 0, or from 1e-300 to 1e300", "write a number in that range")
-    return value
-
-
-def _half_unit(text: str) -> Fraction | None:
-    mantissa, _, exponent = text.lower().partition("e")
-    if "." not in mantissa and not exponent:
-        return None
-    # an exponent moves the last decimal: 1e3 is known to half a thousand
-    decimals = len(mantissa.partition(".")[2])
-    return Fraction(10) ** (int(exponent or 0) - decimals) / 2
-
-
 def checked(is_valid: Callable[[Any], bool], message: str, fix: str) -> AfterValidator:
-    """Return a validator of numbers or quantities with a message, which contains `{text}`, and a fix."""
+    """Return a validator that rejects invalid numbers or quantities with a message, which can contain `{text}`."""
 
     def check(given: Any) -> Any:
         if not is_valid(given):
-            raise PydanticCustomError("bound", message, {"text": given.text, "fix": fix})
+            raise bad("bound", message.format(text=given.text), fix)
         return given
 
     return AfterValidator(check)
@@ -448,7 +439,9 @@ class Quantity:
         if match is None or match[2] is None:
             figure = Figure.parse(raw)
             if not plain and figure.value:
-                raise _no_unit(text, dimension)
+                known = units_of(dimension)
+                first = "mm" if dimension.startswith("length") else known.split(", ")[0]
+                raise bad("unit", f"'{text}' has no unit", f"for example, write '{text} {first}'; units: {known}")
             return _in_range(cls(figure.value, None, text), dimension)
         # several blanks within a unit count as one
         unit = " ".join(match[2].split())
@@ -469,20 +462,14 @@ class Quantity:
 
 
 def _in_range(quantity: Quantity, dimension: str) -> Quantity:
-    """Return the quantity; raise an error if it is outside the range of its dimension, which is limited so that
-    products and squares can be represented in float64.
-    """
+    """Return the quantity; raise an error outside the range in which float64 represents products and squares."""
     low, high = _BOUNDS.get(dimension, _EXACT)
     if not quantity.value or low <= abs(quantity.base) <= high:
         return quantity
     noun = _with_article(quantity.dimension or dimension)
     unit = "" if quantity.unit is None else f" {base_unit(scale(quantity.unit)[0])}"
     why = f"{noun} must be from {float(low):g}{unit} to {float(high):g}{unit}"
-    raise _out_of_range(quantity.text, why, f"write {noun} in that range")
-
-
-def _out_of_range(text: str, why: str, fix: str) -> PydanticCustomError:
-    return PydanticCustomError("number", "{text} is out of range", {"text": text, "why": why, "fix": fix})
+    raise bad("number", f"{quantity.text} is out of range", f"write {noun} in that range", why)
 
 
 def in_unit(speed: Quantity, unit: str) -> Fraction:
@@ -522,12 +509,6 @@ def as_rotation(speed: Quantity) -> Quantity:
 def as_torque(load: Quantity) -> Quantity:
     """Return a force on a sliding link as the torque [N m] that has the same power; return torques unchanged."""
     return Quantity(load.base * TRAVEL_ARM, "N m", load.text) if load.dimension == "force" else load
-
-
-def _no_unit(text: str, dimension: str) -> PydanticCustomError:
-    first = "mm" if dimension.startswith("length") else units_of(dimension).split(", ")[0]
-    fix = f"for example, write '{text} {first}'; units: {units_of(dimension)}"
-    return bad("unit", f"'{text}' has no unit", fix)
 
 
 def _with_article(noun: str) -> str:
@@ -600,6 +581,4 @@ PairStiffness = Annotated[MeshStiffness, above_zero("give a stiffness above 0, s
 """Stiffness of a tooth pair: torque on the driven wheel per angle, or force per displacement on the line of action."""
 
 PairDamping = Annotated[MeshDamping, not_below_zero("give a damping of 0 or more")]
-"""Damping of a tooth pair: torque on the driven wheel per angular velocity, or force per velocity along the line of
-action.
-"""
+"""Damping of a tooth pair: torque on the driven wheel per angular velocity, or force per velocity of the flanks."""

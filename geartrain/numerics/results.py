@@ -1,15 +1,11 @@
 """Base classes of results: display at the prompt and in notebooks, plain data for JSON, tables and figures.
 
-`Shown` results have a `repr` of one line, print the text of the command that computes them, and are displayed as tables
-in a notebook. `Result` converts fields, or the keys in the `KEYS` of a class, to plain data. Exact numbers become
-strings with all digits, arrays and tuples become lists, and results become objects. None remains None. `Tabular`
-results have columns, which can be converted to a pandas DataFrame, a numpy record array or an HTML table. `Pictured`
-results contain the name of the function that draws them, which is imported when it is called.
+In plain data exact numbers are strings with all digits, arrays and tuples are lists, and results are objects.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, fields, is_dataclass
 from fnmatch import fnmatchcase
 from fractions import Fraction
@@ -39,10 +35,7 @@ class Shown:
     __slots__ = ()
 
     PAGE: ClassVar[str] = ""
-    """Name `package.module:function` of the function that describes the result as a document; it may return None.
-
-    The string is empty if no command prints such a result.
-    """
+    """Name `package.module:function` of the function that describes the result as a document; "" without a page."""
     TEXT: ClassVar[str] = ""
     """Name of the function that returns the text of the command, if this is not the text of the document; else ""."""
 
@@ -114,10 +107,7 @@ def summary_line(name: str, summary: str) -> str:
 
 
 def fields_summary(result: Any) -> str:
-    """Return the public fields of a dataclass or named tuple as `name=value`, without fields that are None.
-
-    Numbers have 6 digits. Only the length of containers is shown. Mappings that are not yet created are omitted.
-    """
+    """Return public fields as `name=value`: numbers with 6 digits, containers by their length, and no None."""
     own = [each.name for each in fields(result)] if is_dataclass(result) else ()
     return values_summary(result, getattr(result, "_fields", own))
 
@@ -189,10 +179,7 @@ def _brief_items(values: Mapping[Any, Any] | Sequence[Any] | set[Any] | frozense
 
 
 class Tabular(Shown):
-    """Result with columns, which can be exported as a table.
-
-    Notebooks display the first rows, or the HTML page of the result if it has one.
-    """
+    """Result with columns, which can be exported as a table and whose first rows a notebook displays."""
 
     __slots__ = ()
 
@@ -206,9 +193,7 @@ class Tabular(Shown):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Columns of equal length, by name. Numbers are floats; exact numbers are strings in separate columns; missing
-        values are None.
-        """
+        """Columns by name: floats, and exact numbers as strings in separate columns; None where a value is missing."""
         rows = _described(self, self.ROWS) or ()
         return {name: [row[name] for row in rows] for name in (rows[0] if rows else ())}
 
@@ -251,7 +236,10 @@ class Tabular(Shown):
         """Return the table as a numpy record array, in which `records["link"]` is a column; missing numbers are NaN."""
         import numpy as np
 
-        columns = {name: np.array(_without_gaps(values)) for name, values in self.columns.items()}
+        columns = {}
+        for name, values in self.columns.items():
+            gap = "" if any(isinstance(value, str) for value in values) else float("nan")
+            columns[name] = np.array([gap if value is None else value for value in values])
         kinds = [(name, column.dtype) for name, column in columns.items()]
         return np.rec.fromarrays(list(columns.values()), dtype=kinds)
 
@@ -287,14 +275,6 @@ def _unit(meaning: str) -> str:
     return found[1] if found else ""
 
 
-def _without_gaps(values: Sequence[Any]) -> Sequence[Any]:
-    """Return a column with None replaced by NaN if it contains numbers, or by "" if it contains text."""
-    if not any(value is None for value in values):
-        return values
-    texts = any(isinstance(value, str) for value in values)
-    return [("" if texts else float("nan")) if value is None else value for value in values]
-
-
 def _cell(value: object) -> str:
     if value is None:
         return ""
@@ -302,13 +282,9 @@ def _cell(value: object) -> str:
 
 
 def imported_function(module: str, name: str) -> Callable[..., Any]:
-    """Import the function that draws or describes a result, by name.
+    """Import the function or class `name` of a module of `geartrain` that draws or describes a result.
 
-    Drawing modules import computing modules, but not the reverse. So results call drawing code only by name through
-    this function, when they are displayed.
-
-    module   module or package in `geartrain`
-    name     name of the public function or class in it
+    Drawing modules import computing modules, but not the reverse; results call them only when they are displayed.
     """
     found: Callable[..., Any] = getattr(import_module(f"geartrain.{module}"), name)
     return found
@@ -465,10 +441,7 @@ def whole(keys: tuple[str | Key, ...]) -> tuple[Key, ...]:
 
 @cache
 def field_docs(kind: type) -> Mapping[str, str]:
-    """Return the docstrings of the fields of a class and its bases, each on one line, by field.
-
-    Python discards these docstrings, so they are read from the source. Units are in square brackets: `Angle [rad].`
-    """
+    """Return the docstrings of the fields of a class and its bases, by field, each on one line."""
     found: dict[str, str] = {}
     # base classes first, so that a class overrides their docstrings
     for base in reversed(kind.__mro__):
@@ -481,23 +454,17 @@ def field_docs(kind: type) -> Mapping[str, str]:
 def _docs_of_classes(module: str) -> Mapping[str, Mapping[str, str]]:
     import ast
     import inspect
-    import sys
 
-    found: dict[str, Mapping[str, str]] = {}
-    todo: list[tuple[str, ast.AST]] = [("", ast.parse(inspect.getsource(sys.modules[module])))]
+    found: dict[str, dict[str, str]] = {}
+    todo: list[tuple[str, ast.AST]] = [("", ast.parse(inspect.getsource(modules[module])))]
     while todo:
         prefix, node = todo.pop()
         for part in ast.iter_child_nodes(node):
             if isinstance(part, ast.ClassDef):
-                found[prefix + part.name] = dict(_docs_in(part.body))
+                docs = found[prefix + part.name] = {}
+                for statement in pairwise(part.body):
+                    match statement:
+                        case ast.AnnAssign(target=ast.Name(name)), ast.Expr(value=ast.Constant(str(text))):
+                            docs[name] = " ".join(text.split())
                 todo.append((f"{prefix}{part.name}.", part))
     return found
-
-
-def _docs_in(body: Sequence[Any]) -> Iterator[tuple[str, str]]:
-    import ast
-
-    for statement, doc in pairwise(body):
-        match statement, doc:
-            case ast.AnnAssign(target=ast.Name(name)), ast.Expr(value=ast.Constant(str(text))):
-                yield name, " ".join(text.split())

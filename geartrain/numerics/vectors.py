@@ -88,9 +88,7 @@ def frame(n: Vector) -> tuple[Vector, Vector]:
 
 
 def foot(point: Vector, way: Vector, other: Vector, cut: Vector) -> tuple[Vector, Vector]:
-    """Return the points at which two non-parallel lines are nearest to each other; each line is given by a point and a
-    unit vector.
-    """
+    """Return the points at which two non-parallel lines, each a point and a unit vector, are nearest to each other."""
     apart, turn = minus(other, point), dot(way, cut)
     # squared sine of the angle between the lines; 0 only for parallel lines
     square = 1.0 - turn * turn

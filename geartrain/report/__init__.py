@@ -1,11 +1,7 @@
 """Results as documents: on a terminal, as Markdown, as one HTML page, and as JSON.
 
-Input is a train (`collect_report`) or a result of another package. Output is a `Document`: titled sections of
-paragraphs and tables, independent of the output format. `to_text`, `to_markdown` and `to_html` convert it. For each
-result, one function `describe_...` makes the document and the result's method `to_dict` the data, so that a page and
-its JSON have the same source. `answer_schema` is the JSON Schema of all such data (docs/json.md). No results are
-computed here: speeds follow from the Willis equation (docs/theory.md, equations 4 and 5), and torques and motion from
-`geartrain.dynamics`.
+A function `describe_...` converts a result to a `Document`, titled sections of paragraphs and tables, which `to_text`,
+`to_markdown` and `to_html` convert to text. The result's method `to_dict` returns its data as JSON (docs/json.md).
 
 document             `Document`, sections, tables, and their layout within a width
 text, html_page      conversion of a document to Markdown, terminal text and HTML

@@ -31,9 +31,7 @@ class AccuracyReport(Result):
 
 
 def describe_accuracy(found: AccuracyReport) -> Document:
-    """Return a document with a section for each stage of computation in each state, and a section on the stages that
-    were omitted.
-    """
+    """Return a document with a section for each measured stage in each state, and one on the stages left out."""
     sections = [section for each in found.states for section in _sections(each)]
     return Document(f"Error against run time: {found.name}", [_LEAD], sections)
 

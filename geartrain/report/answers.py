@@ -50,36 +50,22 @@ _SPANS = {
 
 
 def shift_table(train: GearTrain, answers: Sequence[Answer]) -> Section:
-    """Return a section with one row for each state, which contains the engaged brakes and clutches and the speed and
-    ratio of each output.
-    """
+    """Return a section with a row for each state: engaged brakes and clutches, and speed and ratio of each output."""
     declared = train.declaration
     clutches = list(declared.clutches)
     names = list(dict.fromkeys(name for answer in answers for name in answer.outputs))
     rows = []
     for answer in answers:
         engaged = declared.case(answer.state).closed
-        marks = [closed_mark(declared, clutch) if clutch in engaged else "" for clutch in clutches]
+        marks = [
+            ("x" if declared.clutches[name].one_way is None else "*") if name in engaged else "" for name in clutches
+        ]
         cells = [_speed_and_ratio(answer, name) for name in names]
         rows.append((str(answer.state), *marks, answer.verdict.kind, *cells))
     text = ("x marks an engaged clutch or brake. " if clutches else "") + "Outputs: speed, and input divided by output."
-    text = f"{holding_note(declared)}{text}"
+    if any(each.one_way for each in declared.clutches.values()):
+        text = f"* marks a one-way clutch that holds (only while the input drives). {text}"
     return Section("States", (text,), (Table(("state", *clutches, "verdict", *names), rows),))
-
-
-def closed_mark(declared: Train, clutch: str) -> str:
-    """Return the mark of a closed clutch or brake in a shift table: `*` for a one-way clutch, `x` for any other clutch
-    or brake.
-    """
-    return "x" if declared.clutches[clutch].one_way is None else "*"
-
-
-def holding_note(declared: Train) -> str:
-    """Return an explanation of the mark for one-way clutches in a shift table; an empty string if the train has no
-    one-way clutch.
-    """
-    one_way = any(each.one_way for each in declared.clutches.values())
-    return "* marks a one-way clutch that holds (only while the input drives). " if one_way else ""
 
 
 def _speed_and_ratio(answer: Answer, name: str) -> str:
@@ -91,38 +77,35 @@ def _speed_and_ratio(answer: Answer, name: str) -> str:
 
 
 def answer_sections(train: GearTrain, answer: Answer) -> Iterator[Section]:
-    """Yield the sections on one state: first the pointers with their targets, then, as details, all outputs, targets
-    and speeds.
-    """
+    """Yield the sections on one state: pointers and their targets, then all outputs, targets and speeds as details."""
     if answer.outputs:
         yield _pointers(train, answer)
         yield replace(_outputs(train, answer), detail=True)
     if answer.one_way:
         yield Section(titled(answer.state, "one-way clutches"), [f"{each}." for each in clutch_lines(answer)])
     yield from (replace(section, detail=True) for section in _targets(train.declaration, answer))
-    yield replace(_speed_section(train, answer), detail=bool(answer.outputs and answer.verdict))
+    case = train.declaration.case(answer.state)
+    given = [*map(case.given, case.inputs)]
+    given += [f"{link} fixed" for link in case.fixed] + [f"{a} and {b} locked together" for a, b in case.locks]
+    lines = [f"Prescribed: {', '.join(given) or 'nothing'}.", f"Verdict: {answer.verdict}."]
+    if answer.method == "floats":
+        lines.append(why_floats(answer) if case.exact else "Solved in floats: radians are mixed with turns.")
+    detail = bool(answer.outputs and answer.verdict)
+    yield Section(titled(answer.state, "speeds"), lines, tuple(_speeds(train, answer)), detail=detail)
 
 
 def _pointers(train: GearTrain, answer: Answer) -> Section:
-    """Return a section with the speed, period, target and error of each pointer.
-
-    If no output has a dial, a target or a published figure, all outputs are shown. Otherwise only the number of the
-    remaining outputs is given.
-    """
-    pointers = [each for each in answer.outputs.values() if _is_pointer(each)] or list(answer.outputs.values())
-    rows = [_pointer_row(train.declaration, result) for result in pointers]
-    declared = train.declaration
+    """Return a section with the speed, period, target and error of each pointer, or of all outputs without pointers."""
+    outputs, declared = list(answer.outputs.values()), train.declaration
+    # a pointer has a dial, a target or a published figure; an output that fails an expectation is also shown
+    pointers = [each for each in outputs if each.output.is_pointer or not each.holds] or outputs
+    rows = [_pointer_row(declared, result) for result in pointers]
     second = "output/input" if declared.unit_days is None else "period"
     error = "s a day" if _is_clock(declared) else "d a century"
     table = filled_table(("output", "speed", second, "target", "ppm off", error, "fault"), rows, 3)
-    others = len(answer.outputs) - len(pointers)
+    others = len(outputs) - len(pointers)
     more = (f"{plural(others, 'further output')} without dial, target or printed figure: see 'All outputs'.",)
     return Section(titled(answer.state, "outputs"), more if others else (), (replace(table, rows=cut(table.rows)),))
-
-
-def _is_pointer(result: OutputResult) -> bool:
-    """Return True if an output has a dial, a target or a published figure, or does not meet an expectation."""
-    return result.output.is_pointer or not result.holds
 
 
 def _pointer_row(declared: Train, result: OutputResult) -> tuple[str, ...]:
@@ -154,9 +137,7 @@ def _target_cells(declared: Train, target: TargetResult | None) -> tuple[str, st
 
 
 def _period(declared: Train, speed: SpeedValue | None) -> str:
-    """Return the time of one turn as a string; an empty string for a link at rest, or if speeds have no unit
-    of time.
-    """
+    """Return the time of one turn as a string; "" for a link at rest, or if speeds have no unit of time."""
     if not speed or declared.unit_days is None:
         return ""
     # short units, because the table has many columns
@@ -186,11 +167,8 @@ _LONGER = 2  # d: a pointer of such a period may be off by a day
 
 
 def _clock_rates(declared: Train, result: OutputResult, target: TargetResult) -> tuple[str, str, str]:
-    """Return three strings: the error of an output in seconds per day, the error in seconds per year, and the number of
-    days after which the error is one day.
-
-    The first two strings are empty unless the output has a clock hand or a target of about one day. The third is empty
-    for targets shorter than that.
+    """Return three strings: the error of an output in seconds per day and in seconds per year, both empty for other
+    outputs than clock hands, and the days after which the error is one day, empty for targets of up to about a day.
     """
     if declared.unit_days is None or target.days_per_century is None:
         return "", "", ""
@@ -229,16 +207,6 @@ def _targets(declared: Train, answer: Answer) -> Iterator[Section]:
     if any(_COMPARED["magnitude"] in row for row in targets):
         said.append("Compared by magnitude: the target has no `sense`, so that either sense of rotation meets it.")
     yield Section(titled(answer.state, "against the targets"), tuple(said), (table,))
-
-
-def _speed_section(train: GearTrain, answer: Answer) -> Section:
-    case = train.declaration.case(answer.state)
-    given = [*map(case.given, case.inputs)]
-    given += [f"{link} fixed" for link in case.fixed] + [f"{a} and {b} locked together" for a, b in case.locks]
-    lines = [f"Prescribed: {', '.join(given) or 'nothing'}.", f"Verdict: {answer.verdict}."]
-    if answer.method == "floats":
-        lines.append(why_floats(answer) if case.exact else "Solved in floats: radians are mixed with turns.")
-    return Section(titled(answer.state, "speeds"), lines, tuple(_speeds(train, answer)))
 
 
 _COMPARED = {"speed": "with sense", "magnitude": "magnitude", "difference": "difference"}
@@ -298,9 +266,7 @@ def _output(train: GearTrain, result: OutputResult) -> tuple[str, ...]:
 
 
 def result_words(result: OutputResult) -> str:
-    """Return a string with the computed value, exact and as a decimal number, that corresponds to a
-    published figure.
-    """
+    """Return the computed value that corresponds to a published figure, as a fraction and as a decimal number."""
     published = result.output.published
     if result.found is None:
         if result.speed is None or published is None or published.as_ == "speed":
@@ -315,9 +281,7 @@ def result_words(result: OutputResult) -> str:
 
 
 def only_sign(result: OutputResult) -> str:
-    """Return a remark and a remedy if an output has the expected magnitude but the opposite sense, or an empty string
-    if it does not.
-    """
+    """Return a remark and a remedy if an output has the expected magnitude in the opposite sense, else ""."""
     if not result.differs_in_sign:
         return ""
     published = result.output.published
@@ -326,11 +290,7 @@ def only_sign(result: OutputResult) -> str:
 
 
 def expectations_met(answers: Iterable[Answer]) -> str:
-    """Return a text such as `all 3 expectations and 2 published figures hold`, or how many of them fail; an empty
-    string if there are none.
-
-    A target with a tolerance is counted; a target without tolerance is not.
-    """
+    """Return a text such as `all 3 expectations and 2 published figures hold`; "" if nothing is expected."""
     results = [result for answer in answers for result in answer.outputs.values()]
     kinds = {
         "expectation": [each.expect_holds for each in results if each.expect_holds is not None],
@@ -348,11 +308,7 @@ def expectations_met(answers: Iterable[Answer]) -> str:
 
 
 def _as_read(declared: Train, result: OutputResult) -> str:
-    """Return a string with the sense of rotation as seen on the dial, the time of one turn and the time of one
-    division.
-
-    The sense is reversed on a face that points away from the viewing side.
-    """
+    """Return the sense of rotation as seen on the dial, and the times of one turn and of one division, as a string."""
     dial = declared.dials.get(result.output.dial or "")
     if dial is None or not result.speed:
         return ""
@@ -369,11 +325,7 @@ def _as_read(declared: Train, result: OutputResult) -> str:
 
 
 def _span(declared: Train, units: Fraction | float, digits: int = 7) -> str:
-    """Return a string with a time: in years if the train's unit is a year, otherwise in days, hours, minutes or
-    seconds.
-
-    If the train has no unit of time, the string is a number without a unit.
-    """
+    """Return a time as a string: in years if these are the train's unit, else in days, hours, minutes or seconds."""
     if declared.unit_days is None:
         return figure(units, 7)
     if declared.unit_days > _YEAR and units >= 1:
@@ -384,9 +336,7 @@ def _span(declared: Train, units: Fraction | float, digits: int = 7) -> str:
 
 
 def doubtful_wheels(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Section]:
-    """Yield a section on the change of pointer speeds if a wheel of uncertain tooth count has one tooth more or one
-    tooth fewer.
-    """
+    """Yield a section on how pointer speeds change if an uncertain wheel has one tooth more or one tooth fewer."""
     for answer in answers:
         found = list(train.kinematics.sensitivity(answer)) if answer.verdict else []
         pointers = {name for name, result in answer.outputs.items() if result.output.dial or result.targets}
@@ -395,19 +345,17 @@ def doubtful_wheels(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Sec
         if not found:
             continue
         text = "Change of speed in ppm, from exact solutions; outputs with equal changes share a row."
-        table = Table(("wheel", "teeth", "allowed", "one fewer", "one more", "outputs"), list(_grouped(found)))
+        groups: dict[tuple[str, str, str], list[Sensitivity]] = {}
+        for item in found:
+            groups.setdefault((item.wheel, _shift(item.less), _shift(item.more)), []).append(item)
+        rows = []
+        for (wheel, less, more), items in groups.items():
+            allowed = items[0].allowed
+            whole = allowed == tuple(range(allowed[0], allowed[-1] + 1))
+            span = f"{allowed[0]}-{allowed[-1]}" if whole else ", ".join(map(str, allowed))
+            rows.append((wheel, str(items[0].teeth), span, less, more, ", ".join(item.output for item in items)))
+        table = Table(("wheel", "teeth", "allowed", "one fewer", "one more", "outputs"), rows)
         yield Section(titled(answer.state, "uncertain tooth counts"), (text,), (table,), detail=True)
-
-
-def _grouped(found: Sequence[Sensitivity]) -> Iterator[tuple[str, ...]]:
-    groups: dict[tuple[str, str, str], list[Sensitivity]] = {}
-    for item in found:
-        groups.setdefault((item.wheel, _shift(item.less), _shift(item.more)), []).append(item)
-    for (wheel, less, more), items in groups.items():
-        allowed = items[0].allowed
-        whole = allowed == tuple(range(allowed[0], allowed[-1] + 1))
-        span = f"{allowed[0]}-{allowed[-1]}" if whole else ", ".join(map(str, allowed))
-        yield wheel, str(items[0].teeth), span, less, more, ", ".join(item.output for item in items)
 
 
 def _shift(value: float | None) -> str:
@@ -471,9 +419,7 @@ def speeds_text(answer: Answer, output: str | None, oblique: frozenset[str]) -> 
 
 
 def clutch_lines(answer: Answer) -> Iterator[str]:
-    """Yield a line for each one-way clutch that reports whether the clutch is engaged or overruns; then yield notes on
-    the clutches.
-    """
+    """Yield a line for each one-way clutch, which holds or overruns, and then the notes on these clutches."""
     yield from (each.text(answer.unit) for each in answer.one_way)
     yield from answer.notes
 
@@ -494,9 +440,7 @@ def answer_document(answer: Answer) -> Document | None:
 
 
 def why_floats(answer: Answer) -> str:
-    """Return a text with the reason why a system was solved in floating-point arithmetic, the estimated error, and how
-    to get exact fractions.
-    """
+    """Return why a system was solved in floating point, the estimated error, and the way to exact fractions."""
     error = max((each.estimate for each in answer.accuracy.values()), default=0.0)
     why = "the system is coupled too densely for exact elimination within about a second"
     return (
@@ -506,9 +450,7 @@ def why_floats(answer: Answer) -> str:
 
 
 def _speed(speed: SpeedValue | None, tolerance: Fraction | None, slides: bool = False) -> str:
-    """Return a speed as a string that contains a fraction, the mark ≈ if the speed depends on an approximate ratio, and
-    a unit if the link slides.
-    """
+    """Return a speed as a fraction, with the mark ≈ after an approximate ratio, and with a unit if the link slides."""
     text = exact(speed) + " mm" if slides and speed is not None else exact(speed)
     return f"≈ {text.removeprefix('≈ ')}" if tolerance else text
 
@@ -518,9 +460,7 @@ def _marks(answer: Answer, link: str, oblique: frozenset[str]) -> str:
 
 
 def _pi(answer: Answer, name: str) -> str:
-    """Return a mark if the speed of a link or output contains pi but is not written as a multiple of pi, or an empty
-    string if no mark is needed.
-    """
+    """Return a mark for a speed that contains pi but is not written as a multiple of pi, else ""."""
     speed = answer.speeds.get(name) if name not in answer.outputs else answer.outputs[name].speed
     if speed is None or not answer.contains_pi.get(name) or "π" in exact(speed):
         return ""
@@ -528,9 +468,7 @@ def _pi(answer: Answer, name: str) -> str:
 
 
 def _errors(answer: Answer, link: str) -> str:
-    """Return a string with the condition number, the estimated error and the true error of a floating-point speed; an
-    empty string for an exact speed.
-    """
+    """Return condition number, estimated error and true error of a floating-point speed; "" for an exact speed."""
     accuracy = answer.accuracy.get(link)
     if accuracy is None:
         return ""

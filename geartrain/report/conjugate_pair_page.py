@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from geartrain.report.document import Document, Section, Table, figure
 from geartrain.report.gear_pairs import without_losses
-from geartrain.teeth.conjugate.path_losses import FREE, LOADED, ONE_PAIR, SHARED
+from geartrain.teeth.conjugate.path_losses import FREE, LOADED, ONE_PAIR, SHARED, depth
 
 if TYPE_CHECKING:
     from geartrain.teeth.conjugate.conjugate_mesh import DesignLosses, PairDesign
@@ -20,9 +20,7 @@ if TYPE_CHECKING:
 
 
 def conjugate_verdict(design: PairDesign) -> str:
-    """Return a sentence that states whether the teeth can run. If they cannot, the sentence gives each reason and its
-    remedy.
-    """
+    """Return a sentence that says whether the teeth can run or, if not, gives each reason with its remedy."""
     if design.runs and design.locks:
         return "Verdict: the teeth keep the ratio exactly at every instant, but friction locks them."
     if design.runs:
@@ -33,9 +31,7 @@ def conjugate_verdict(design: PairDesign) -> str:
 
 
 def conjugate_sections(design: PairDesign) -> Iterator[Section]:
-    """Yield the sections on a pair. If the teeth cannot run, yield only the sections on the wheels and the path of
-    contact.
-    """
+    """Yield the sections on a pair; those on losses and friction only if the teeth can run."""
     yield from (_wheels(design), _path(design))
     if design.losses_and_stresses is not None:
         yield from (_losses_and_stresses(design.losses_and_stresses), _friction(design))
@@ -71,8 +67,6 @@ def _wheels(design: PairDesign) -> Section:
 
 
 def _path(design: PairDesign) -> Section:
-    from geartrain.teeth.conjugate.path_losses import depth
-
     path = design.path
     rows = []
     for recess, name, arc in ((False, "approach", design.arcs[0]), (True, "recess", design.arcs[1])):
@@ -107,8 +101,6 @@ _LOADED = {
 
 
 def _losses_and_stresses(found: DesignLosses) -> Section:
-    from geartrain.teeth.conjugate.path_losses import ONE_PAIR, SHARED
-
     loads = found.measures.one_pair, found.measures.shared
     loaded = [(words, *(cost(getattr(costs, name)) for costs in loads)) for name, words in _LOADED.items()]
     free = [
@@ -167,8 +159,10 @@ def describe_form_comparison(found: FormComparison) -> Document:
     header = ("form", "arcs", *map(_header, (*LOADED, *FREE)))
     table = Table(header, list(map(_ratios, found.forms)), True)
     sections = [Section("Ratios", (text,), [table]), _sharing(found), _base(found)]
-    if faulty := [line for form in found.forms for line in _reasons(form)]:
-        sections.append(Section("Forms that cannot run", faulty))
+    faults = [(form.name, fault) for form in found.forms for fault in form.faults]
+    if faults:
+        reasons = [f"{name}: {'; '.join(filter(None, (f.what, f.why, f.fix)))}." for name, f in faults]
+        sections.append(Section("Forms that cannot run", reasons))
     return Document(f"Tooth forms, {pair_name(found.path)}", [found.matched], sections)
 
 
@@ -177,9 +171,7 @@ def _header(name: str) -> str:
 
 
 def _sharing(found: FormComparison) -> Section:
-    """Return the section on the sharing of the load by tooth pairs. The section is a single sentence if no contact
-    ratio exceeds 1.
-    """
+    """Return the section on load sharing by tooth pairs; it is one sentence if no contact ratio exceeds 1."""
     base = found.measures
     runs = [form.measures for form in found.forms if form.runs and form.measures]
     if all(each.contact_ratio < 1 + 1e-9 for each in (base, *runs)):  # tolerance for a contact ratio of exactly 1
@@ -221,9 +213,3 @@ def _base(found: FormComparison) -> Section:
         "as the root of curvature divided by cos psi; maximum heat divided by friction times tangential force."
     )
     return Section("The involute of 20 deg", (text,), (Table(("quantity", "one pair", "shared"), rows),))
-
-
-def _reasons(form: MeasuredForm) -> Iterator[str]:
-    for fault in form.faults:
-        words = (fault.what, fault.why, fault.fix)
-        yield f"{form.name}: " + "; ".join(word for word in words if word) + "."

@@ -18,24 +18,20 @@ if TYPE_CHECKING:
 
 
 def coupling_sections(train: GearTrain) -> Iterator[Section]:
-    """Yield a section on the sizes of the couplings of a train and on effects that are not modelled. Kinds of couplings
-    without any remarks are omitted.
-    """
+    """Yield a section on the sizes of couplings and on effects that are not modelled, where there are any."""
     shown = [each for each in train.declaration.couplings if each.about or each.UNKNOWN]
     if shown:
-        lengths = dict(_belt_lengths(train)) if any(each.kind == "belt" for each in shown) else {}
+        lengths = {}  # of belts around two pulleys with declared diameters and axis positions
+        if any(each.kind == "belt" for each in shown):
+            from geartrain.kinematics.buildability.belt_drives import pulley_pairs
+
+            for pair in pulley_pairs(train.declaration, train.kinematics.tree, train.circuits):
+                if pair.length is not None:
+                    crossed = ", crossed" if pair.belt.reversed else ""
+                    lengths[pair.belt.name] = f"{pair.length:.9g} mm{crossed}"
         rows = [(each.name, each.kind, each.about, lengths.get(each.name, ""), each.UNKNOWN) for each in shown]
         table = filled_table(("coupling", "kind", "sizes", "length", "not modelled"), rows, 3)
         yield Section("Couplings", (), (replace(table, rows=cut(table.rows)),))
-
-
-def _belt_lengths(train: GearTrain) -> Iterator[tuple[str, str]]:
-    """Yield the name and the length of each belt around two pulleys whose diameters and axis positions are declared."""
-    from geartrain.kinematics.buildability.belt_drives import pulley_pairs
-
-    for pair in pulley_pairs(train.declaration, train.kinematics.tree, train.circuits):
-        if pair.length is not None:
-            yield pair.belt.name, f"{pair.length:.9g} mm{', crossed' if pair.belt.reversed else ''}"
 
 
 @dataclass(frozen=True)
@@ -57,13 +53,9 @@ class VaryingCoupling(Result):
     speed_ratio: tuple[float, float]
     """Minimum and maximum speed ratio. The sign is chosen so that the mean ratio is positive."""
     at_once: bool
-    """True if the driven link moves in instantaneous steps. In that case `speed_ratio` describes the motion between the
-    steps.
-    """
+    """True if the driven link moves in steps, between which `speed_ratio` applies."""
     formula: str
-    """Formula for the driven angle q as a function of the driver's angle S; an empty string if no closed form
-    is known.
-    """
+    """Driven angle q as a function of the driver's angle S; "" if no closed form is known."""
 
 
 def varying_section(couplings: Sequence[VaryingCoupling]) -> Section:

@@ -40,9 +40,7 @@ _MERGED = (
     "Source",
     "Published",
 )
-"""Parts of a declaration of which a child of `extends` may give only some keys, so that an editor must not require all
-their keys.
-"""
+"""Parts that a child of `extends` may give without all required keys, which an editor must accept."""
 
 
 def schema() -> Schema:
@@ -82,17 +80,13 @@ def _without_sections(shape: Any) -> Any:
 
 
 def _options(shape: Schema) -> list[Schema]:
-    """Return the members of a union, with nested unions expanded. If the schema is not a union, the list contains only
-    the schema itself.
-    """
+    """Return the members of a union, with nested unions expanded; only the schema itself if it is not a union."""
     members = shape.get("anyOf") or shape.get("oneOf")
     return [shape] if members is None else [option for member in members for option in _options(member)]
 
 
 def _body(part: Schema) -> Schema:
-    """Return the schema of a part. If the part also has a short form, this is the schema of its long form,
-    a mapping.
-    """
+    """Return the schema of a part; if the part also has a short form, the schema of its long form, a mapping."""
     return next((option for option in _options(part) if "properties" in option), part)
 
 
@@ -100,9 +94,7 @@ def _body(part: Schema) -> Schema:
 
 
 def _example_values(models: Schema) -> dict[tuple[str, str], Any]:
-    """Return an example value of each key of each part. It is the shortest value in the examples of that part or, if
-    these contain none, in all examples.
-    """
+    """Return an example of each key of each part: the shortest one in that part's examples, else in all examples."""
     found: dict[tuple[str, str], tuple[bool, int, Any]] = {}
     for source, data in example_data():
         for part, key, value in _values(models, models, data, "Train"):
@@ -133,9 +125,7 @@ def _values(models: Schema, shape: Schema, data: Any, name: str) -> Iterator[tup
 
 
 def _fits(body: Schema, data: Any) -> bool:
-    """Return True if all keys of a mapping are keys of a part of a declaration, and the mapping has the same kind, form
-    or law.
-    """
+    """Return True if a part allows all keys of a mapping, and has no other fixed values (`kind`, `form`) than these."""
     keys = body["properties"]
     return isinstance(data, dict) and all(
         key in keys and keys[key].get("const", value) == value for key, value in data.items()
@@ -218,9 +208,7 @@ def _references(shape: Any) -> Iterator[str]:
 
 
 def _chapters(models: Schema, name: str, depth: int, seen: set[str]) -> Iterator[_Chapter]:
-    """Yield the sections of all parts below a part. Parts that also belong to a top-level key are described under that
-    key.
-    """
+    """Yield the sections of a part's keys, their parts and so on; parts that are already in `seen` are omitted."""
     found = {
         key: tuple(dict.fromkeys(_references(shape))) for key, shape in _body(_part(models, name))["properties"].items()
     }
@@ -238,9 +226,7 @@ def _chapters(models: Schema, name: str, depth: int, seen: set[str]) -> Iterator
 
 
 def _kind_title(models: Schema, name: str) -> str:
-    """Return the key and value that select one of several kinds of parts, such as `form: involute`, or the first key of
-    the part.
-    """
+    """Return the key and value that select one kind of part, such as `form: involute`, else the part's first key."""
     keys = _body(_part(models, name))["properties"]
     return next((f"{key}: {shape['const']}" for key, shape in keys.items() if "const" in shape), next(iter(keys)))
 
@@ -248,9 +234,7 @@ def _kind_title(models: Schema, name: str) -> str:
 def _section(
     models: Schema, chapter: _Chapter, kinds: Mapping[str, str], printed: dict[tuple[str, ...], _Chapter]
 ) -> Iterator[str]:
-    """Yield the lines of a section. Keys that are explained in an earlier section are only named, with a link to that
-    section.
-    """
+    """Yield the lines of a section; keys that an earlier section explains are only named, with a link to it."""
     several = len(chapter.parts) > 1
     name = chapter.title if several else chapter.parts[0]
     part = models["properties"][name] if several else _part(models, name)

@@ -85,17 +85,14 @@ class Table(Shown):
 
 
 def table_document(columns: Mapping[str, Sequence[object]], most: int) -> Document:
-    """Return a document with one table: the first `most` rows of the columns of a result, and the number of omitted
-    rows.
-    """
+    """Return a document with a table of the first `most` rows of a result, and the number of omitted rows."""
     count = len(next(iter(columns.values()), ()))
-    rows = [[_cell(value) for value in row] for row in islice(zip(*columns.values(), strict=True), most)]
+    rows = [
+        ["" if value is None else f"{value:.8g}" if isinstance(value, float) else str(value) for value in row]
+        for row in islice(zip(*columns.values(), strict=True), most)
+    ]
     more = [f"{count - most:,} more rows."] if count > most else []
     return Document("", [], [Section("", more, [Table(list(columns), rows)])] if columns else [])
-
-
-def _cell(value: object) -> str:
-    return "" if value is None else f"{value:.8g}" if isinstance(value, float) else str(value)
 
 
 def filled_table(header: Sequence[str], rows: Sequence[Sequence[str]], always: int, wide: bool = False) -> Table:
@@ -131,11 +128,12 @@ def _field_column(column: str | _CellColumn, docs: Mapping[str, str]) -> _CellCo
     name, _, digits = field.partition(":")
     unit = _UNIT.search(docs.get(name, ""))
     head = head if given else f"{name.replace('_', ' ')} ({unit[1]})" if unit else name.replace("_", " ")
-    return head, lambda result: _field_text(getattr(result, name), digits)
 
+    def cell(result: Any) -> str:
+        value = getattr(result, name)
+        return "-" if value is None else figure(value, int(digits)) if digits else str(value)
 
-def _field_text(value: Any, digits: str) -> str:
-    return "-" if value is None else figure(value, int(digits)) if digits else str(value)
+    return head, cell
 
 
 @dataclass(frozen=True, slots=True)
@@ -188,9 +186,7 @@ class Picture(Shown):
     caption: str
     """Text below the picture."""
     svg: str
-    """Complete SVG document, which is included unchanged in the page. The function that draws the picture must
-    escape text from users.
-    """
+    """Complete SVG document, included unchanged in the page; text from users must be escaped in it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -268,23 +264,15 @@ def titled(state: str | None, words: str) -> str:
 
 
 def without_details(document: Document, requested: Sequence[str] = ()) -> Document:
-    """Return a document without its detail sections.
+    """Return a document without its detail sections, or only the sections whose titles contain a requested word.
 
-    requested   words of section titles; if given, only sections whose titles contain one of these words are kept
-
-    Without requested words, a last section lists the titles that were omitted. Raise `QuestionError` if a requested
-    word is in no title.
+    Without requested words, a last section lists the omitted titles. A word in no title raises `QuestionError`.
     """
     titles = [section.title for section in document.sections]
     for word in requested:
         if not any(word.lower() in title.lower() for title in titles):
-            raise QuestionError(
-                Problem(
-                    f"the report has no section '{word}'",
-                    f"its sections are {', '.join(titles)}",
-                    "use a word from one of these titles",
-                )
-            )
+            what, why = f"the report has no section '{word}'", f"its sections are {', '.join(titles)}"
+            raise QuestionError(Problem(what, why, "use a word from one of these titles"))
     if requested:
         kept = [each for each in document.sections if any(word.lower() in each.title.lower() for word in requested)]
         return replace(document, summary=(), sections=kept)
@@ -312,9 +300,7 @@ def exact(value: Fraction | float | None) -> str:
 
 
 def one_to(ratio: Fraction | float | None) -> str:
-    """Return the ratio of output to input as a string `1 : n`, or `n : 1` if the output is faster; a dash for None or
-    0.
-    """
+    """Return the ratio of output to input as `1 : n`, or as `n : 1` if the output is faster; "-" for None or 0."""
     if not ratio:
         return "-"
     if not -1 < ratio < 1:
@@ -329,10 +315,7 @@ def ppm(value: float | None) -> str:
 
 
 def cut(rows: Sequence[Sequence[str]], of: int | None = None, most: int = MOST_ROWS) -> list[Sequence[str]]:
-    """Return the first `most` rows of a table. If rows are omitted, an additional last row states their number.
-
-    of   total number of rows, if `rows` does not hold all of them
-    """
+    """Return the first `most` rows and a row with the number of omitted rows, of `of` rows in all (default: `rows`)."""
     count = len(rows) if of is None else of
     if count <= most:
         return list(rows)
@@ -342,22 +325,15 @@ def cut(rows: Sequence[Sequence[str]], of: int | None = None, most: int = MOST_R
 # ------------------------------------------------------------------------------------------------ tables within a width
 
 
-GAP = 2
-"""Number of spaces between two columns of a table, except for a matrix, which has one space."""
-
-
 def gap_of(table: Table) -> int:
-    """Return the number of spaces between two columns of a table."""
-    return 1 if table.wide else GAP
+    """Return the number of spaces between two columns of a table: one in a matrix, two in other tables."""
+    return 1 if table.wide else 2
 
 
 def strips(table: Table, width: int) -> Iterator[Table]:
-    """Divide a table into strips of columns that fit the width, and yield each strip. Each strip also contains the
-    first column.
+    """Yield the strips of columns, each with the first column, into which a table is divided to fit a width.
 
-    A table that fits is yielded unchanged. A word is broken only if it is wider than the available width.
-
-    width   characters per line
+    A word is broken only if it is wider than `width`, the number of characters per line.
     """
     minimum = [_minimum(column, table.wide) for column in _columns(table)]
     gap, start = gap_of(table), 1
@@ -374,10 +350,9 @@ def strips(table: Table, width: int) -> Iterator[Table]:
 
 
 def column_widths(table: Table, width: int) -> list[int]:
-    """Return the width of each column in characters. A column is not wider than its longest cell.
+    """Return the width of each column in characters, at most that of its longest cell.
 
-    The columns that need the fewest characters in addition to their longest word are widened first. The sum exceeds
-    `width` only if the longest words do not fit.
+    The sum exceeds `width` only if the longest words do not fit.
     """
     columns = _columns(table)
     full = [max(map(len, column)) for column in columns]
@@ -400,10 +375,7 @@ _NUMBER = re.compile(r"[+\-−~]?\d[\d ]*(\.\d*)?(e[+-]?\d+)?")
 
 
 def aligned_rows(table: Table) -> list[list[str]]:
-    """Return the rows of a table in which the decimal points of each numeric column are aligned by spaces.
-
-    A column is numeric if each of its cells is a decimal number, empty, or a dash.
-    """
+    """Return the rows of a table, with the decimal points of numeric columns aligned by spaces."""
     if table.wide:
         return [list(row) for row in table.rows]
     columns = [_aligned(column) for column in zip_longest(*table.rows, fillvalue="")]
@@ -426,9 +398,7 @@ def _columns(table: Table) -> list[tuple[str, ...]]:
 
 
 def _minimum(column: Sequence[str], whole: bool) -> int:
-    """Return the minimum width of a column in characters: the length of its longest word, or of its longest cell if
-    cells are not wrapped.
-    """
+    """Return the minimum width of a column: the length of its longest word or, if `whole`, of its longest cell."""
     pieces = column if whole else [word for cell in column for word in cell.split()]
     return max(1, *(len(piece) for piece in pieces), 0)
 

@@ -31,9 +31,7 @@ class RatioElasticity(Result):
     wheel: str
     """Name of the wheel whose tooth count is varied."""
     elasticity: ClosedForm
-    """Elasticity (z/f) df/dz of the ratio f with respect to the tooth count z, that is, the relative change of f per
-    relative change of z.
-    """
+    """Elasticity (z/f) df/dz of the ratio f with respect to the tooth count z."""
 
 
 @dataclass(frozen=True)
@@ -58,7 +56,9 @@ def collect_formulas(
     train: GearTrain, states: Sequence[str | None], outputs: Sequence[str] = (), sensitivities: bool = False
 ) -> FormulaReport:
     """Return the formulas of a train's outputs in the given states."""
-    formulas = tuple(each for state in states for each in _formulas(train, state, outputs))
+    declared = train.declaration
+    given = (declared.single_state(state) for state in states)
+    formulas = tuple(each for state in given for each in speed_formulas(declared, state, outputs))
     found = (
         RatioElasticity(each.state, each.output, share.input, wheel, share.ratio.elasticity(wheel))
         for each in formulas
@@ -66,17 +66,11 @@ def collect_formulas(
         for wheel in share.ratio.formula.wheels
     )
     elasticities, varying = tuple(found) if sensitivities else (), tuple(varying_couplings(train))
-    return FormulaReport(train.name, train.declaration.title, formulas, elasticities, varying)
-
-
-def _formulas(train: GearTrain, state: str | None, outputs: Sequence[str] = ()) -> Iterator[OutputFormula]:
-    return speed_formulas(train.declaration, train.declaration.single_state(state), outputs)
+    return FormulaReport(train.name, declared.title, formulas, elasticities, varying)
 
 
 def describe_formulas(found: FormulaReport, latex: bool = False, inverse: bool = False) -> Document:
-    """Return a document with the formula, value and locking condition of each output. If `found` contains elasticities,
-    the document includes them.
-    """
+    """Return a document with formula, value, locking condition and any elasticities of each output."""
     states = dict.fromkeys(each.state for each in found.formulas)
     sections = [section for state in states for section in _state(found, state, latex, inverse)]
     sections += [varying_section(found.couplings)] if found.couplings else []
@@ -89,8 +83,9 @@ def formula_section(train: GearTrain, state: str | None, explained: bool = True)
 
     explained   True to begin the section with an explanation of the notation
     """
+    formulas = speed_formulas(train.declaration, train.declaration.single_state(state))
     # a formula without tooth counts would only repeat a given speed
-    shown = [each for each in _formulas(train, state) if any(share.ratio.formula.wheels for share in each.shares)]
+    shown = [each for each in formulas if any(share.ratio.formula.wheels for share in each.shares)]
     if shown:
         lines = (text for each in shown for text in _lines(each, False))
         yield Section(titled(state, "formulas"), ((_HEAD,) if explained else ()) + tuple(lines))

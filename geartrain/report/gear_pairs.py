@@ -112,9 +112,7 @@ def _pins(train: GearTrain) -> Section:
 
 
 def driven_pairs(train: GearTrain) -> tuple[DrivenPair, ...]:
-    """Return the pairs with a declared tooth form. A pair has one entry for each wheel that drives in at least one
-    state.
-    """
+    """Return the pairs with a tooth form, with an entry for each wheel that drives in at least one state."""
     return tuple(DrivenPair(mesh, states) for ways in train.mechanics.driven_ways.values() for mesh, states in ways)
 
 

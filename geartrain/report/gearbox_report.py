@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from geartrain.report.document import Document, Section, Table, exact, figure, result_table
 
 if TYPE_CHECKING:
-    from geartrain.analysis.gear_series import GearSearch, GearSeries, PossibleGear
+    from geartrain.analysis.gear_series import GearSearch, PossibleGear
     from geartrain.analysis.gearbox import Gearbox, GearState, ShiftElement
 
 _DIGITS = 5  # significant digits of ratios, torques and efficiencies
@@ -28,9 +28,7 @@ _ELEMENTS = "Maximum magnitudes over all states, relative to the torque and spee
 
 
 def describe_gearbox(found: Gearbox) -> Document:
-    """Return a document on the states of a gearbox: ratios, speeds, slip, torques, and the maximum load of each clutch
-    and brake.
-    """
+    """Return a document on a gearbox: ratios, speeds, slip and torques by state, and maximum load of each clutch."""
     return Document(f"Gearbox {found.name}", (found.title,) if found.title else (), tuple(gearbox_sections(found)))
 
 
@@ -59,9 +57,7 @@ def gearbox_sections(found: Gearbox) -> Iterator[Section]:
 
 
 def _unit(found: Gearbox) -> str:
-    """Return a sentence on the unit of speeds that lists the states whose speeds refer to a link other than
-    the input.
-    """
+    """Return a sentence on the unit of speeds, with the states whose speeds refer to another link than the input."""
     others = {each.state: each.driven_by or "no input, as declared" for each in found.states}
     named = ", ".join(f"{state} ({link})" for state, link in others.items() if link != found.input)
     return "Relative to the input speed" + (f"; relative to another link's in {named}." if named else ".")
@@ -82,9 +78,7 @@ def _speeds(states: Sequence[GearState], links: Sequence[str]) -> Table:
 
 
 def _by_state(states: Sequence[GearState], columns: Sequence[str], field: str) -> Table:
-    """Return a table of a field that maps names to numbers. The table has a row for each state and a column for each
-    name in `columns`.
-    """
+    """Return a table of a field that maps names to numbers, with a row for each state and a column for each name."""
     rows = []
     for each in states:
         values = getattr(each, field)
@@ -129,7 +123,10 @@ def describe_gear_search(found: GearSearch) -> Document:
                 f"Spread {figure(series.spread, _DIGITS)}; standard deviation of the logarithms of steps "
                 f"{series.deviation:.3g}; double-transition shifts: {series.double_shifts}."
             )
-            sections.append(Section(title, (head, text), (_series_table(series),)))
+            steps = [*(figure(step, _DIGITS) for step in series.steps), "-"]
+            rows = [(*_row(gear), step) for gear, step in zip(series.gears, steps, strict=True)]
+            table = Table(("closed", "ratio", "declared as", "step"), rows)
+            sections.append(Section(title, (head, text), (table,)))
     elif found.requested:
         text = f"No series of {found.requested} gears has all its steps in the requested range."
         sections.append(Section("Series", (text,)))
@@ -139,9 +136,3 @@ def describe_gear_search(found: GearSearch) -> Document:
 def _row(gear: PossibleGear) -> tuple[str, ...]:
     ratio = "held" if gear.ratio is None else figure(gear.ratio, _DIGITS)
     return ", ".join(gear.engaged), ratio, ", ".join(gear.states)
-
-
-def _series_table(series: GearSeries) -> Table:
-    steps = [*(figure(step, _DIGITS) for step in series.steps), "-"]
-    rows = [(*_row(gear), step) for gear, step in zip(series.gears, steps, strict=True)]
-    return Table(("closed", "ratio", "declared as", "step"), rows)

@@ -20,15 +20,12 @@ from geartrain.errors import MissingExtraError
 from geartrain.report.document import CitedText, Document, Table, strips
 from geartrain.scene.palette import THEMES
 
-ON_PAPER = 110
-"""Characters per line of a printed table on A4 or letter paper."""
+_ON_PAPER = 110  # characters per line of a printed table on A4 or letter paper
 WORDS = {"viewer": "Animation", "pictures": "Pictures", "sources": "Sources"}
 _LONG = re.compile(r"(\.\d\d)\d+")  # digits of a decimal number after the second place
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data: blob:; script-src "
 _INTO_FRAMES = "'unsafe-inline' blob: data:; worker-src blob:; connect-src data: blob:"
-"""Sources that the content security policy allows on pages with a viewer. Its frame inherits the policy, and the hashes
-of its scripts are unknown.
-"""
+"""Sources allowed on pages with a viewer, whose frame inherits the policy and has scripts of unknown hash."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,10 +87,7 @@ def to_html(documents: Sequence[Document]) -> str:
 
 
 def to_fragment(documents: Sequence[Document]) -> str:
-    """Return documents as HTML for a notebook, without the style and script of a page. Pictures are omitted.
-
-    Raise `MissingExtraError` if jinja2 is not installed (extra `report`).
-    """
+    """Return documents as HTML for a notebook, without the style, script and pictures of a page."""
     check_pages()
     fragment: str = _template("fragment.html").render(documents=documents)
     return fragment
@@ -124,10 +118,8 @@ def _template(name: str) -> Any:
 
 
 def _on_paper(table: Table) -> list[Table]:
-    """Return the strips of columns in which a table that is wider than a sheet is printed; an empty list for other
-    tables.
-    """
-    parts = list(strips(table, ON_PAPER))
+    """Return the strips of columns in which a table that is too wide for a sheet is printed; empty if it fits."""
+    parts = list(strips(table, _ON_PAPER))
     return parts if len(parts) > 1 else []
 
 
@@ -148,8 +140,7 @@ def is_web(url: str) -> bool:
 
 
 def inline(svg: str, number: int) -> str:
-    """Return an SVG document as an element of an HTML page. Its ids are made unique by `number`, and its fixed size is
-    removed.
+    """Return an SVG document as an element of a page, with ids made unique by `number` and without a fixed size.
 
     Lengths in paths are cut to two decimals, because no screen or printer resolves a hundredth of a point.
     """
@@ -188,9 +179,7 @@ def _anchors(document: Document, prefix: str) -> _Anchors:
 
 
 def _marks(titles: Sequence[str], prefix: str) -> Iterator[str]:
-    """Yield a unique anchor for each title: its words joined by hyphens, followed by a number if the anchor was already
-    used.
-    """
+    """Yield a unique anchor for each title: its words joined by hyphens, and a number if that anchor is taken."""
     seen: dict[str, int] = {}
     for title in titles:
         name = re.sub(r"[^a-z0-9]+", "-", title.lower()).strip("-") or "section"
@@ -199,9 +188,7 @@ def _marks(titles: Sequence[str], prefix: str) -> Iterator[str]:
 
 
 def _policy(script: str, framed: bool) -> str:
-    """Return the content security policy of a page. The page loads nothing and runs only its own script, which is
-    identified by its hash.
-    """
+    """Return the content security policy of a page that loads nothing and runs its own script, known by its hash."""
     if framed:
         return _POLICY + _INTO_FRAMES
     return f"{_POLICY}'sha256-{b64encode(sha256(script.encode()).digest()).decode()}'"

@@ -29,13 +29,12 @@ from geartrain.wings import WINGS, WingResult, has_wing, wing
 Schema = dict[str, Any]
 
 FLAG: Schema = {"type": "boolean"}
+OBJECT: Schema = {"type": "object"}
 
 
 def _list(item: Schema) -> Schema:
     return {"type": "array", "items": item}
 
-
-OBJECT: Schema = {"type": "object"}
 
 # ----------------------------------------------------------------------------------------------------------- questions
 
@@ -87,9 +86,7 @@ def answers() -> dict[str, Schema]:
 
 
 def _of_any_form(kind: type) -> Schema:
-    """Return the schema of a result on a pair of any tooth form. It has one alternative for the results of
-    each form.
-    """
+    """Return the schema of a result on a pair of any tooth form, with an alternative for the results of each form."""
     from geartrain.teeth.any_tooth_form import tooth_forms
 
     pair = shape_of(kind)
@@ -102,9 +99,7 @@ def _of_any_form(kind: type) -> Schema:
 
 
 def answer_schema() -> Schema:
-    """Return one JSON Schema (draft 2020-12) of all JSON answers; `#/$defs/NAME` is the schema of the answer with this
-    name.
-    """
+    """Return one JSON Schema (draft 2020-12) of all JSON answers; `#/$defs/NAME` describes the answer NAME."""
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "Answers of geartrain",
@@ -195,21 +190,16 @@ def _of_one(kind: Any, to: Callable[[Any], Any] | None, keys: tuple[str | Key, .
     if kind in _PLAIN:
         return _PLAIN[kind]
     if is_typeddict(kind):
-        return _typed_dict(kind)
+        kinds = {name: _evaluated(part, sys.modules[kind.__module__]) for name, part in kind.__annotations__.items()}
+        needed = {Required: True, NotRequired: False}
+        required = [name for name, each in kinds.items() if needed.get(get_origin(each), kind.__total__)]
+        return _fields({name: shape_of(each) for name, each in kinds.items()}, required, kind)
     # a pydantic model
     if hasattr(kind, "model_json_schema"):
         return dict(kind.model_json_schema(schema_generator=DefaultsAsWritten))
     if hasattr(kind, "to_dict") and not issubclass(kind, Result):  # a class with its own `to_dict`
         return shape_of(_returned(kind.to_dict))
     return _record(kind, keys_of(kind))
-
-
-def _typed_dict(kind: Any) -> Schema:
-    """Return the schema of a `TypedDict`, some of whose keys may be optional."""
-    kinds = {name: _evaluated(part, sys.modules[kind.__module__]) for name, part in kind.__annotations__.items()}
-    needed = {Required: True, NotRequired: False}
-    required = [name for name, each in kinds.items() if needed.get(get_origin(each), kind.__total__)]
-    return _fields({name: shape_of(each) for name, each in kinds.items()}, required, kind)
 
 
 def _one_of(shapes: list[Schema]) -> Schema:
@@ -241,9 +231,7 @@ def _described(shape: Schema, meaning: str) -> Schema:
 
 
 def meaning_of(kind: Any, path: str) -> str:
-    """Return the docstring of a field or property, given as `attribute` or `part.attribute`; an empty string if it has
-    no docstring.
-    """
+    """Return the docstring of the field or property at a path, such as `part.attribute`; "" if it has no docstring."""
     first, _, rest = path.partition(".")
     if rest:
         whole_kind = attribute_kind(kind, first)
@@ -268,9 +256,7 @@ def _object(properties: Mapping[str, Schema], required: Any, kind: type) -> Sche
 
 
 def _summary(what: Any) -> str:
-    """Return the first paragraph of a docstring as one line; an empty string for an object without a docstring in this
-    package.
-    """
+    """Return the first paragraph of a docstring as one line; "" for an object without a docstring in this package."""
     maker = getattr(what, "func", what)  # the function of a cached property
     own = getattr(maker, "__module__", "geartrain").startswith("geartrain")
     text = what.__doc__ if own and (isinstance(what, type | property) or maker is not what) else ""
@@ -281,10 +267,7 @@ def _summary(what: Any) -> str:
 
 
 def attribute_kind(kind: Any, path: str) -> Any:
-    """Return the annotation of a field or property, given as `attribute` or `part.attribute`.
-
-    Raises `AttributeError` if the class has no such field or property.
-    """
+    """Return the annotation of the field or property at a path, such as `part.attribute`, or raise an error."""
     for name in path.split("."):
         kind = _own_kind(kind, name)
     return kind
@@ -326,9 +309,7 @@ class _Names(dict[str, Any]):
 
 @cache
 def _imports(module: ModuleType) -> dict[str, str]:
-    """Return a dictionary that maps each name that a module imports, including imports only for annotations, to the
-    module from which it is imported.
-    """
+    """Return the module from which each name of a module is imported, also for annotations only."""
     nodes = ast.walk(ast.parse(inspect.getsource(module)))
     return {name.name: node.module or "" for node in nodes if isinstance(node, ast.ImportFrom) for name in node.names}
 

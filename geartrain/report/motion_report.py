@@ -67,16 +67,12 @@ class OutputMotion:
     phases: PhaseRange | None
     """Range of the deviation over runs with random tooth phases; None if it was not requested."""
     spectrum: Sequence[SpectrumLine] | None
-    """Spectral lines of the deviation, each at an exact order (cycles per turn of the input); None if they were not
-    requested.
-    """
+    """Spectral lines of the deviation, by order (cycles per turn of the input); None if not requested."""
 
 
 @dataclass(frozen=True)
 class MotionFigures(Result):
-    """Deviations and speeds, over a run in one state, of the outputs of a train with declared tooth forms or pins.
-    Angles are in rad, and travels of links that slide are in mm.
-    """
+    """Deviations and speeds of the outputs over a run in one state; angles in rad, travels of slides in mm."""
 
     PAGE = "report.motion_report:describe_motion"
 
@@ -104,9 +100,7 @@ class MotionFigures(Result):
     reversing_drivers: Sequence[str]
     """Names of the pairs whose driving wheel temporarily turns against its mean sense of rotation."""
     rigid: Sequence[str]
-    """Names of the pairs whose declared tooth form keeps a constant speed ratio, so that they contribute no
-    transmission error.
-    """
+    """Names of the pairs whose tooth form keeps a constant speed ratio, without transmission error."""
     outputs: Mapping[str, OutputMotion]
     """Deviation, speed and further requested results of each output, keyed by output name."""
     separation: Annotated[Any, WingResult("simulation", "SeparationRates")] | None
@@ -119,9 +113,7 @@ class MotionFigures(Result):
     partial: PartialRun | None
     """Progress of an interrupted run; None for a complete run."""
     advances: Mapping[str, float]
-    """Mean speed of each link that is driven stepwise by one-way clutches, divided by the input speed [1], keyed by
-    link.
-    """
+    """Mean speed of each link that one-way clutches drive stepwise, divided by the input speed [1]."""
 
 
 @dataclass(frozen=True)
@@ -185,9 +177,7 @@ def _phase_range(tallies: list[RunningStatistics]) -> PhaseRange | None:
 
 
 def collect_motions(train: GearTrain) -> Iterator[MotionFigures | UnfollowedMotion]:
-    """Yield the motion in every state; yield nothing if the train has neither tooth forms nor pins with declared
-    dimensions.
-    """
+    """Yield the motion in every state; nothing for a train without tooth forms and without pins of known size."""
     if not ripples(train):
         return
     from geartrain.dynamics import MotionRun
@@ -204,10 +194,9 @@ def collect_motions(train: GearTrain) -> Iterator[MotionFigures | UnfollowedMoti
 
 
 def separation_rates(train: GearTrain, state: str | None, without: Sequence[str] = ()) -> Any:
-    """Return the speeds of the input at which teeth first separate in a state (`geartrain.simulation.SeparationRates`).
+    """Return the input speeds at which teeth first separate in a state (`geartrain.simulation.SeparationRates`).
 
-    Return None if no link driven by the input has an inertia, if torques have no units, or if the optional package
-    `simulation` is not installed.
+    None without inertia, without units of torque, or without the optional package `simulation`.
     """
     # reports are part of the core, which imports optional packages only on demand
     if not (train.declaration.has_inertia and has_wing("simulation")):
@@ -255,9 +244,7 @@ def describe_motion(found: MotionFigures, every_output: bool = False) -> Documen
 
 
 def motion_document(found: Motion | MotionRun) -> Document | None:
-    """Return the output of `geartrain motion` for a run, or for the default run of a motion; None if the motion has no
-    run.
-    """
+    """Return the document of a run, or of the default run of a motion; None if the motion has no run."""
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.dynamics import MotionRun
 
@@ -288,10 +275,7 @@ def motion_sections(run: MotionRun, every_output: bool = False) -> Iterator[Sect
 def moving_sections(
     train: GearTrain, found: Sequence[MotionFigures | UnfollowedMotion], toothed: bool
 ) -> Iterator[Section]:
-    """Yield a section on the motion in each state of a train that declares tooth forms or pins.
-
-    toothed   True if the train declares tooth forms
-    """
+    """Yield a section on the motion in each state; `toothed` is True for a train with tooth forms."""
     for each in found:
         head = titled(each.state, "motion")
         if isinstance(each, UnfollowedMotion):
@@ -313,9 +297,7 @@ def moving_sections(
 
 
 def _rigid(meshes: Iterable[GearMesh]) -> str:
-    """Return a sentence that lists, by tooth form, the pairs with a constant speed ratio; an empty string if all speed
-    ratios vary.
-    """
+    """Return a sentence that lists the pairs of constant speed ratio by tooth form; "" if all ratios vary."""
     forms: dict[str, list[str]] = {}
     for mesh in meshes:
         if mesh.rigid:
@@ -330,25 +312,28 @@ def _outputs(tallies: Sequence[RunningStatistics], deviation: str) -> tuple[Tabl
     def row(tally: RunningStatistics) -> tuple[str, ...]:
         # a mean speed of 0 cannot be the divisor
         speeds = _speeds(*tally.speeds) + ("" if tally.ratio else " (divided by the input's)")
-        return tally.name, figure(tally.ratio, 9), *_amounts(tally.slides, tally.peak_to_peak, tally.rms), speeds
+        return (
+            tally.name,
+            figure(tally.ratio, 9),
+            *(_amount(tally.slides, each) for each in (tally.peak_to_peak, tally.rms)),
+            speeds,
+        )
 
     def head(unit: str) -> tuple[str, ...]:
         mean = "mean travel (mm per turn)" if unit == "mm" else "mean speed"
         return ("output", mean, *_deviation_heads(deviation, unit), "speed / mean speed")
 
-    return _by_unit(tallies, head, lambda tally: [row(tally)])
+    return _by_unit(tallies, head, row)
 
 
 def _by_unit(
     tallies: Sequence[RunningStatistics],
     head: Callable[[str], tuple[str, ...]],
-    rows: Callable[[RunningStatistics], Sequence[tuple[str, ...]]],
+    row: Callable[[RunningStatistics], tuple[str, ...]],
 ) -> tuple[Table, ...]:
-    """Return two tables: the outputs that turn, with angles in deg, and the links that slide, with travels in mm."""
+    """Return up to two tables: outputs that turn, with angles in deg, and links that slide, with travels in mm."""
     groups = {unit: [tally for tally in tallies if _unit(tally.slides) == unit] for unit in ("deg", "mm")}
-    return tuple(
-        Table(head(unit), [row for tally in own for row in rows(tally)]) for unit, own in groups.items() if own
-    )
+    return tuple(Table(head(unit), list(map(row, own))) for unit, own in groups.items() if own)
 
 
 def _speeds(low: float, high: float) -> str:
@@ -412,9 +397,7 @@ def _pairs(run: MotionRun, every_output: bool) -> Section:
 
 
 def _shares(motion: Motion, outputs: Sequence[str]) -> Table:
-    """Return a table of the contribution of each pair to the peak-to-peak deviation of the given outputs [deg
-    or mm].
-    """
+    """Return a table of each pair's contribution to the peak-to-peak deviation of some outputs [deg or mm]."""
     rows = []
     for source in motion._forward.used:
         driver = motion._problem.drivers[source.id]
@@ -422,14 +405,8 @@ def _shares(motion: Motion, outputs: Sequence[str]) -> Table:
         reaches = {name: abs(motion.sensitivity[name][source.id]) * (high - low) for name in outputs}
         given = [_amount(name in motion._sliding, reach, 4) for name, reach in reaches.items()]
         rows.append((source.id, driver.wheel, driver.why, str(source.cycles), *given))
-    header = (
-        "pair",
-        "driving wheel",
-        "basis",
-        "periods a turn",
-        *(f"{name} ({_unit(name in motion._sliding)})" for name in outputs),
-    )
-    return Table(header, rows, wide=True)
+    named = (f"{name} ({_unit(name in motion._sliding)})" for name in outputs)
+    return Table(("pair", "driving wheel", "basis", "periods a turn", *named), rows, wide=True)
 
 
 def _steps(motion: Motion) -> Iterator[Section]:
@@ -456,15 +433,9 @@ def _random_phases(run: MotionRun) -> Section:
     deviation = run.motion._problem.deviation
     text = f"{len(run.phase_statistics)} sets of random phases of the teeth, seed {run.seed}."
     tables = _by_unit(
-        run.statistics,
-        lambda unit: ("output", *_deviation_heads(deviation, unit), "speed / mean speed"),
-        lambda tally: [row(tally)],
+        run.statistics, lambda unit: ("output", *_deviation_heads(deviation, unit), "speed / mean speed"), row
     )
     return Section("Random phases", (text,), tables)
-
-
-def _amounts(slides: bool, *values: float) -> tuple[str, ...]:
-    return tuple(_amount(slides, value) for value in values)
 
 
 def _amount(slides: bool, value: float, digits: int = 6) -> str:
@@ -478,14 +449,9 @@ def _spectrum(name: str, lines: list[SpectrumLine], slides: bool) -> Section:
     rows = []
     for line in lines:
         sources = ", ".join(f"{pair} x{harmonic}" for pair, harmonic, _ in line.shares)
-        amplitudes = _amounts(slides, line.expected, line.measured)
+        amplitudes = (_amount(slides, each) for each in (line.expected, line.measured))
         rows.append((str(line.order), figure(float(line.order), 8), sources, *amplitudes))
-    header = (
-        "order",
-        "per turn of the input",
-        "pair and harmonic",
-        f"expected ({_unit(slides)})",
-        f"measured ({_unit(slides)})",
-    )
+    unit = _unit(slides)
+    header = ("order", "per turn of the input", "pair and harmonic", f"expected ({unit})", f"measured ({unit})")
     text = "Amplitudes by exact order: expected to first order, and measured in the composed motion."
     return Section(f"Spectrum of {name}", (text,), (Table(header, rows),))

@@ -16,11 +16,7 @@ from geartrain.report.document import Document, Section, Table, figure
 from geartrain.report.gear_pairs import fault_text, joined_table, without_losses
 from geartrain.teeth.conjugate.conjugate_mesh import ConjugateMesh
 from geartrain.teeth.rubbed_transmission import pair_friction
-from geartrain.teeth.triangular.triangular_mesh import (
-    TriangularMesh,
-    explain_clearance,
-    triangular_figures,
-)
+from geartrain.teeth.triangular.triangular_mesh import TriangularMesh, explain_clearance, triangular_figures
 from geartrain.teeth.triangular.triangular_transmission import contact_course
 
 if TYPE_CHECKING:
@@ -57,9 +53,7 @@ class FormedPair(Result):
 
 @dataclass(frozen=True)
 class TriangularPair(Result):
-    """Pair of wheels with triangular teeth that does not belong to a train, with the effects of impacts under operating
-    conditions.
-    """
+    """Pair of wheels with triangular teeth outside a train, with impacts under operating conditions."""
 
     KEYS = (Key("", "figures"), "course", "impacts", "outlines")
 
@@ -75,13 +69,10 @@ class TriangularPair(Result):
 def collect_pair(
     mesh: GearMesh, outlines: Sequence[WheelOutline] = (), operation: PairOperation | None = None
 ) -> PairDesign | TriangularPair | FormedPair:
-    """Return the data on one pair of wheels that does not belong to a train.
+    """Return the data on a pair of wheels outside a train, in a class that depends on its teeth.
 
     outlines    outlines of the wheels that were constructed
     operation   operating conditions, for the impacts of triangular teeth
-
-    The class of the result depends on the teeth: conjugate teeth at their design distance, triangular teeth, or other
-    teeth.
     """
     if not isinstance(mesh, TriangularMesh):
         return _design(mesh, outlines) or FormedPair(mesh, tuple(outlines))
@@ -93,11 +84,7 @@ def collect_pair(
 def describe_pair(
     mesh: GearMesh, outlines: Sequence[WheelOutline] = (), operation: PairOperation | None = None
 ) -> Document:
-    """Return a document on one pair of wheels: verdict, sizes, transmission function, losses and outlines.
-
-    The arguments are those of `collect_pair`. The document gives the permitted range of a friction coefficient or of a
-    clearance factor that is out of range.
-    """
+    """Return a document on one pair of wheels; the arguments are those of `collect_pair`."""
     first, second = mesh.counts
     drives = f"The wheel of {first} drives the wheel of {second}."
     if isinstance(mesh, TriangularMesh):
@@ -118,9 +105,7 @@ def describe_pair(
 
 
 def _design(mesh: GearMesh, outlines: Sequence[WheelOutline]) -> PairDesign | None:
-    """Return the design of conjugate teeth; None for other tooth forms, and for a centre distance at which the ratio
-    varies.
-    """
+    """Return the design of conjugate teeth; None for other tooth forms, and at a distance at which the ratio varies."""
     if not isinstance(mesh, ConjugateMesh) or not mesh.rigid:
         return None
     from geartrain.teeth.conjugate.conjugate_mesh import PairDesign
@@ -148,9 +133,7 @@ def _outline(wheel: WheelOutline) -> Section:
 
 
 def describe_pin(transmission: PinTransmission) -> Document:
-    """Return a document on a pin in a slot, for a driving pin and for a driving slot: mean ratio, amplitude, speeds and
-    friction.
-    """
+    """Return a document on a pin in a slot: mean ratio, amplitude, speeds and friction, for either of them driving."""
     from geartrain.teeth.pair_results import pin_figures
 
     found = pin_figures(transmission)
@@ -190,28 +173,19 @@ def _share(efficiency: float | None) -> str:
 
 
 def triangular_sections(mesh: TriangularMesh, operation: PairOperation | None) -> Iterator[Section]:
-    """Yield the sections on a pair with triangular teeth. If the teeth never touch, yield only the sections on sizes
-    and clearance.
-    """
+    """Yield the sections on a pair of triangular teeth; only sizes and clearance if the teeth never touch."""
     transmission, window = mesh.transmission, mesh.window
     yield _sizes(transmission)
     if window is not None:
         yield _clearance(transmission, window)
     if transmission.intervals:
-        yield from (
-            _path(transmission),
-            _course(mesh),
-            _transmission(transmission),
-            _collisions(transmission),
-            _losses(mesh),
-            *_impact_section(transmission, operation),
-        )
+        yield from (_path(transmission), _course(mesh), _transmission(transmission), _collisions(transmission))
+        yield _losses(mesh)
+        yield from _impact_section(transmission, operation)
 
 
 def triangular_verdict(mesh: TriangularMesh) -> str:
-    """Return a sentence that states whether the pair can turn. If it cannot, the sentence gives the reason and the
-    remedy.
-    """
+    """Return a sentence that says whether the pair can turn or, if not, gives the reason and the remedy."""
     transmission, found = mesh.transmission, mesh.transmission.verdict
     words = [f"Verdict: {found.kind}: {found.text}."]
     if not found:
@@ -284,9 +258,7 @@ def _path(transmission: TriangularTransmission) -> Section:
 
 
 def _course(mesh: TriangularMesh) -> Section:
-    """Return a section on the speed ratio, instant centre and moment arms, at the ends of contact intervals and between
-    the ends.
-    """
+    """Return a section on speed ratio, instant centre and moment arms at and between the ends of contact intervals."""
     found = contact_course(mesh.transmission, friction=pair_friction(mesh.wheels))
     angles, lengths = (found.alpha1, found.alpha2), (found.speed_ratio, found.instant_centre, found.driver_arm)
     columns = (each.tolist() for each in (*angles, *lengths, found.driven_arm, found.efficiency))
@@ -351,9 +323,7 @@ def _losses(mesh: TriangularMesh) -> Section:
 
 
 def _impacts(transmission: TriangularTransmission, operation: PairOperation | None) -> PairImpacts | None:
-    """Return the impacts under the operating conditions; None if no conditions are given or if the teeth
-    never touch.
-    """
+    """Return the impacts under operating conditions; None without conditions, or if the teeth never touch."""
     from geartrain.dynamics.motion.pair_impacts import find_pair_impacts
 
     return None if operation is None or not transmission.intervals else find_pair_impacts(transmission, operation)

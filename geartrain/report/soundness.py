@@ -30,9 +30,7 @@ class Soundness:
     file: str
     answers: Sequence[Answer]
     failures: tuple[str, ...]
-    """Lines on undetermined speeds, expectations that are not met, parts that cannot be built, and teeth that cannot
-    turn.
-    """
+    """Lines on undetermined speeds, unmet expectations, parts that cannot be built, and teeth that cannot turn."""
     whole: bool = True
     """True if the findings include the checks of teeth, loads and closure of loops, which need numpy."""
 
@@ -40,10 +38,7 @@ class Soundness:
         return not self.failures
 
     def lines(self, quiet: bool = False) -> Iterator[str]:
-        """Yield the output lines of `geartrain check`.
-
-        quiet   True to omit the remarks on a train without failures
-        """
+        """Yield the output lines of `geartrain check`; if `quiet`, omit the remarks on a train without failures."""
         # remarks may explain a failure, so they are printed with failures
         train, whole = self.train, not quiet or not self
         yield from (f"FAIL {each}" for each in self.failures)
@@ -64,9 +59,7 @@ class Soundness:
 
 
 def find_soundness(train: GearTrain, file: str, whole: bool = True) -> Soundness:
-    """Check every state of a train that was read from a file, and return the findings. Raise `GearTrainError` if
-    declared teeth cannot be made.
-    """
+    """Check every state of a train read from a file; raise `GearTrainError` if declared teeth cannot be made."""
     answers = list(train.answers())
     failures = [line for answer in answers for line in _failures(train, answer, file)]
     failures += map(str, build_errors(train.build_findings))
@@ -82,10 +75,7 @@ def _summary(train: GearTrain, answers: Sequence[Answer]) -> str:
 
 
 def _without_findings(train: GearTrain, whole: bool) -> str:
-    """Return a text that names the checks of equal planets and of declared teeth that gave no finding.
-
-    whole   True if the teeth were checked
-    """
+    """Return a text that names the checks without findings: of equal planets and, if `whole`, of declared teeth."""
     declared, rules = train.declaration, {found.rule for found in train.build_findings}
     checked = []
     if not rules & {"A1", "A2", "A3"}:
@@ -97,9 +87,7 @@ def _without_findings(train: GearTrain, whole: bool) -> str:
 
 
 def _failures(train: GearTrain, answer: Answer, file: str) -> Iterator[str]:
-    """Yield the failures of one state: its verdict if another verdict is expected, or each expectation that is
-    not met.
-    """
+    """Yield the failures of one state: an unexpected verdict, or each expectation that is not met."""
     state = f" state {answer.state}" if answer.state is not None else ""
     if not answer.as_expected:
         wanted = "" if answer.expected == "determined" else f", where `expect` says {answer.expected}"
@@ -118,9 +106,7 @@ def _failures(train: GearTrain, answer: Answer, file: str) -> Iterator[str]:
 
 
 def _neglected(train: GearTrain) -> Iterator[str]:
-    """Yield lines on the effects that computed torques neglect, for each loaded state; yield nothing if teeth cannot
-    turn.
-    """
+    """Yield lines on the effects that torques neglect in each loaded state; nothing if the teeth cannot turn."""
     if train.mechanics.faults:
         return
     for state in train.kinematics.usable_states:
@@ -149,10 +135,7 @@ def _too_fast(train: GearTrain) -> Iterator[str]:
 
 
 def _off_beat(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
-    """Yield lines on the states in which the escape wheel's speed does not match the declared beat.
-
-    The beat depends on the speed of the escape wheel relative to the link with the pallets.
-    """
+    """Yield lines on the states in which the escape wheel's speed relative to its pallets does not match the beat."""
     declared = train.declaration
     escapement = declared.escapement
     if escapement is None:

@@ -17,10 +17,8 @@ if TYPE_CHECKING:
 def describe_sphere(found: GearSphere) -> Document:
     """Return a document on a set of gears on a sphere: mobility, phase closure, kinds of gear and mesh, and sizes."""
     configuration = found.configuration
-    summary = [
-        f"{len(configuration.names)} gears, {len(configuration.meshes)} meshes, on a sphere of radius "
-        f"{found.radius:.15g}."
-    ]
+    counts = f"{len(configuration.names)} gears, {len(configuration.meshes)} meshes"
+    summary = [f"{counts}, on a sphere of radius {found.radius:.15g}."]
     return Document(configuration.title or "Gears on a sphere", summary, list(_sections(found)))
 
 
@@ -102,9 +100,7 @@ def _pitch(found: GearSphere) -> Iterator[str]:
 
 
 def describe_survey(rows: Iterable[SurveyRow]) -> Document:
-    """Return a document with a table of polyhedra. The table states whether the gears turn, how many meshes must be
-    removed if they do not, and the angles between axes.
-    """
+    """Return a table of polyhedra: whether the gears turn, how many meshes prevent it, and the angles between axes."""
     table = result_table(
         rows,
         *("faces of=solid", "gears", "meshes", ("turns", lambda row: "yes" if row.bipartite else "no")),
@@ -122,9 +118,7 @@ def describe_survey(rows: Iterable[SurveyRow]) -> Document:
 
 
 def describe_suggestions(found: ToothCountSuggestions) -> Document:
-    """Return a document on suggested tooth counts of gears on a sphere, in the order of `found`, and on rejected sets.
-    With the suggested counts, loops close and tooth tips clear each other.
-    """
+    """Return a document on suggested tooth counts, on loops that close and tips that clear, and on rejected sets."""
     kinds = list(dict.fromkeys(found.configuration.kinds))
     rows = []
     for each in found:

@@ -37,26 +37,24 @@ def to_markdown(documents: Sequence[Document]) -> str:
     >>> [line for line in text.splitlines() if line.startswith("| carrier | 2/7")]
     ['| carrier | 2/7   | 0.28571429  | 1 : 3.5        |']
     """
-    return "\n".join(line for document in documents for line in _markdown(document))
+    lines = []
+    for document in documents:
+        lines += [f"# {_line(document.title)}", ""]
+        for paragraph in document.summary:
+            lines += [markdown_text(paragraph), ""]
+        for section in document.sections:
+            lines += [f"## {_line(section.title)}", ""]
+            for paragraph in section.paragraphs:
+                lines += [markdown_text(paragraph), ""]
+            if section.branches:
+                lines += [*_list(section.branches), ""]
+            for table in section.tables:
+                lines += [*_pipes(table), ""]
+    return "\n".join(lines)
 
 
 def _line(text: str) -> str:
     return " ".join(markdown_text(text).split())
-
-
-def _markdown(document: Document) -> Iterator[str]:
-    yield from (f"# {_line(document.title)}", "")
-    for paragraph in document.summary:
-        yield from (markdown_text(paragraph), "")
-    for section in document.sections:
-        yield from (f"## {_line(section.title)}", "")
-        for paragraph in section.paragraphs:
-            yield from (markdown_text(paragraph), "")
-        if section.branches:
-            yield from (*_list(section.branches), "")
-        for table in section.tables:
-            yield from _pipes(table)
-            yield ""
 
 
 def _list(branches: Sequence[Branch], depth: int = 0) -> Iterator[str]:
@@ -116,10 +114,7 @@ def to_text(documents: Sequence[Document], width: int = PIPED) -> str:
 
 
 def to_terminal(documents: Sequence[Document], console: Console, marks: str = "") -> None:
-    """Print documents on a console, wrapped to the width of the console.
-
-    marks   characters that underline headings of the first and second level if colours cannot distinguish them
-    """
+    """Print documents at the width of a console; `marks` underline headings if colours cannot distinguish them."""
     for document in documents:
         if document.title:
             _heading(document.title, "bold underline", console, marks[:1])

@@ -90,13 +90,9 @@ class TorqueFigures(Result):
     """True if torques are in N m, False if they are in the unit of the declared loads."""
     flow: PowerFlow
     impact_power: Mapping[str, float]
-    """Power that is dissipated by the impacts of each pair [W], keyed by pair; empty unless inertias and a rate are
-    declared.
-    """
+    """Power that impacts dissipate [W], by pair; empty unless inertias and a rate are declared."""
     belt_pulls: Mapping[str, float]
-    """Difference between the tensions of the tight and the slack strand at the driven pulley [N], keyed by row of a
-    belt; empty unless diameters and torques have units.
-    """
+    """Tight minus slack tension at the driven pulley [N], by row of a belt; empty without units."""
 
     @property
     def losses(self) -> tuple[LossFigures, ...]:
@@ -127,14 +123,9 @@ class TorqueReport(Result):
 
 
 def collect_torque_report(
-    train: GearTrain,
-    found: Sequence[Torques],
-    over_turn: TorqueCycle | None = None,
-    friction_trials: Any = None,
+    train: GearTrain, found: Sequence[Torques], over_turn: TorqueCycle | None = None, friction_trials: Any = None
 ) -> TorqueReport:
-    """Return the torque report of a train in one or more states: torques, power flow, losses, and efficiency in both
-    directions.
-    """
+    """Return the torque report of a train in one or more states."""
     states = tuple(collect_torques(train, each) for each in found)
     return TorqueReport(train.name, train.declaration.title, states, over_turn, friction_trials)
 
@@ -160,9 +151,7 @@ def collect_torques(train: GearTrain, found: Torques) -> TorqueFigures:
 
 
 def _belt_pulls(declared: Train, found: Torques) -> Iterator[tuple[str, float]]:
-    """Yield the name of each belt and its pull at the driven pulley [N], which is the torque divided by half of the
-    pitch diameter.
-    """
+    """Yield the name of each belt and its pull at the driven pulley [N]: twice the torque over the pitch diameter."""
     for belt in declared.couplings:
         if belt.kind != "belt" or any(size.unit is None for size in belt.lengths):
             continue
@@ -185,10 +174,7 @@ _SIGNS = (
 
 
 def describe_torques(found: TorqueReport) -> Document:
-    """Return a document on the torques in each state: verdict, efficiency, links, pairs, power flow and losses.
-
-    Sections on the torque over some revolutions and on trials with random friction follow if they were requested.
-    """
+    """Return a document on torques: in each state and, if requested, over some revolutions and in friction trials."""
     sections = [section for each in found.states for section in torque_sections(each)]
     if found.over_turn is not None:
         sections += cycle_sections(found.over_turn)
@@ -199,9 +185,7 @@ def describe_torques(found: TorqueReport) -> Document:
 
 
 def torques_document(found: Torques | TorqueCycle) -> Document | None:
-    """Return the output of `geartrain torques` for one state; None if the train that belongs to the result is not
-    known.
-    """
+    """Return the document of `geartrain torques` for one state; None if the train of the result is not known."""
     from geartrain.analysis.gear_train import GearTrain
     from geartrain.dynamics import Torques
 
@@ -362,9 +346,7 @@ def _loops(flow: PowerFlow, amounts: _Amounts) -> Iterator[str]:
 
 
 def _losses(flow: PowerFlow, amounts: _Amounts, impact_power: Mapping[str, float]) -> Iterator[Table]:
-    """Yield a table of the losses of each pair and bearing, and of their total. Losses of impacts have separate
-    columns.
-    """
+    """Yield a table of the losses of each pair and bearing and of their total, with columns for losses of impacts."""
     if not flow.losses and not impact_power:
         return
     struck = {node: impact_power[node.name] for node in flow.nodes if node.kind == "pair" and node.name in impact_power}
@@ -385,9 +367,7 @@ def _losses(flow: PowerFlow, amounts: _Amounts, impact_power: Mapping[str, float
 
 
 def _loss_row(flow: PowerFlow, amounts: _Amounts, lost: Fraction, struck: float | None) -> tuple[str, ...]:
-    """Return a table row with a loss, its fractions of the input power and of all losses, the power dissipated by
-    impacts, and the fraction of that power.
-    """
+    """Return a row with a loss, its fractions of input power and of all losses, and impact power with its fraction."""
     parts = (percent_text(lost / whole) if whole else "-" for whole in (flow.power_in, flow.loss))
     if struck is None:
         return (amounts.text(lost), *parts, "", "")
@@ -396,9 +376,7 @@ def _loss_row(flow: PowerFlow, amounts: _Amounts, lost: Fraction, struck: float 
 
 
 def summary_text(torques: Torques) -> str:
-    """Return a text with the efficiency and the losses by cause, or with the reason why the efficiency is not
-    determined.
-    """
+    """Return the efficiency and the losses by cause as text, or why the efficiency is not determined."""
     if not torques.verdict or not torques.power_in:
         return torques.verdict.text
     lost = {"teeth": torques.loss - torques.bearing_loss, "bearings": torques.bearing_loss}
@@ -431,9 +409,7 @@ _MINIMUM = 1e-12  # relative to all losses: smaller amounts are rounding
 
 
 def cycle_sections(found: TorqueCycle) -> Iterator[Section]:
-    """Yield sections on the crank torque over the positions of `found`, on energies, and on the losses of each pair,
-    pin and bearing.
-    """
+    """Yield sections on crank torque over the positions of `found`, energies, and losses by pair, pin and bearing."""
     head = titled(found.state, "torque over a turn")
     lines = [f"Verdict: {found.verdict.kind}: {found.verdict.text}."]
     lines += [f"Not included: {each}: {each.why}." for each in found.neglected]
@@ -456,8 +432,8 @@ def turns_text(turns: float) -> str:
 
 def _run(found: TorqueCycle) -> str:
     assert found.turns is not None
-    text = f"Torque at '{found.link}' over {turns_text(found.span)} of the input, at {len(found.turns)} positions"
-    text += ", including kinks and both sides of jumps"
+    positions = f"{len(found.turns)} positions, including kinks and both sides of jumps"
+    text = f"Torque at '{found.link}' over {turns_text(found.span)} of the input, at {positions}"
     if found.period is not None:
         whole = found.span / found.period
         text += f"; everything repeats after {turns_text(found.period)}"
@@ -467,9 +443,7 @@ def _run(found: TorqueCycle) -> str:
 
 
 def _remarks(found: TorqueCycle) -> Iterator[str]:
-    """Yield sentences on the fractions of the revolutions in which the train locks, all energy is lost, or results are
-    ambiguous. Further sentences report efficiency, largest loss, flank changes and recirculating power.
-    """
+    """Yield sentences on locked and ambiguous stretches, efficiency, largest loss, flank changes and recirculation."""
     shares = {
         "no torque balances: the train locks": found.locked_share,
         "loads and the crank both put power in, and all of it is lost": found.held_share,
@@ -525,9 +499,7 @@ def _energies(found: TorqueCycle) -> Table:
 
 
 def energy_table(head: str, amounts: Mapping[str, float], whole: float, digits: int) -> Table:
-    """Return a table of energies and of their fractions of the total energy input `whole`. Amounts as small as rounding
-    errors are omitted.
-    """
+    """Return a table of energies and their fractions of the input `whole`, without those within rounding error."""
     rows = [
         (name, figure(value, digits), _share(value, whole))
         for name, value in amounts.items()

@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from geartrain.report.gear_pairs import DrivenPair, DrivenPin
     from geartrain.report.motion_report import MotionFigures, UnfollowedMotion
     from geartrain.report.torque_report import TorqueFigures
-    from geartrain.train import Train
     from geartrain.train.states import Erratum
 
 _MOST_LINKS = 500  # maximum number of links of a train whose adjacency matrix is reported
@@ -134,9 +133,7 @@ class TrainReport(TrainAnswers):
     strength: tuple[Annotated[Any, WingResult("simulation", "TrainStrength")], ...]
     """Tooth strength in every state whose loads have units, if materials of wheels are declared."""
     motion: tuple[MotionFigures | UnfollowedMotion, ...]
-    """Motion in every state of a train with tooth forms or pins. An entry contains `error` if the motion cannot be
-    computed.
-    """
+    """Motion in every state with tooth forms or pins; an entry with `error` could not be computed."""
     errata: tuple[Erratum, ...]
     """Declared errors in the published sources."""
 
@@ -180,6 +177,8 @@ def collect_report(train: GearTrain, whole: bool = True) -> TrainReport:
     # sensitivities exist only for determined speeds
     uncertainties = ((answer, change) for answer in answers if answer.verdict for change in own.sensitivity(answer))
     loaded = tuple(state for state in own.usable_states if whole and declared.is_loaded(state))
+    materials = (declared.material, *(wheel.material for _, wheel in declared.wheels.values()))
+    has_strength = has_wing("simulation") and any(material is not None for material in materials)
     return TrainReport(
         **vars(collect_answers(train, answers)),
         gridlock=own.gridlock,
@@ -193,7 +192,7 @@ def collect_report(train: GearTrain, whole: bool = True) -> TrainReport:
         **_teeth_and_motion(train, whole),
         torques=_torques(train, loaded),
         timekeeping=_timekeeping(train) if whole and declared.escapement is not None else (),
-        strength=tuple(train.strength(state) for state in loaded if _has_strength(declared, state)),
+        strength=tuple(train.strength(state) for state in loaded if has_strength and declared.has_torque_units(state)),
         errata=tuple(declared.errata),
     )
 
@@ -227,13 +226,3 @@ def _teeth_and_motion(train: GearTrain, whole: bool) -> dict[str, Any]:
         "couplings": tuple(varying_couplings(train)),
         "motion": tuple(collect_motions(train)),
     }
-
-
-def _has_strength(declared: Train, state: str | None) -> bool:
-    """Return True if loads of a state have units, a wheel has a material, and the package `simulation` is installed."""
-    if not has_wing("simulation"):
-        return False
-    if declared.material is None and all(wheel.material is None for _, wheel in declared.wheels.values()):
-        return False
-
-    return declared.has_torque_units(state)

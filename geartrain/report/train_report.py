@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from math import degrees
 from typing import TYPE_CHECKING
@@ -37,11 +38,10 @@ from geartrain.report.document import (
 )
 from geartrain.report.formula_report import formula_section
 from geartrain.report.train_data import TrainReport
-from geartrain.train import Link, Source, Train, Wheel
+from geartrain.train import Train, Wheel
 from geartrain.wings import wing
 
 if TYPE_CHECKING:
-    from geartrain.analysis.gearbox import Gearbox
     from geartrain.dynamics.clock_rate import Timekeeping
     from geartrain.kinematics.phasing import MeshPhasing
     from geartrain.kinematics.speeds import Mobility
@@ -60,9 +60,7 @@ _SIDES = ("above", "below", "behind")  # viewing sides that are written without 
 
 
 def describe_train(found: TrainReport) -> Document:
-    """Return the report on a train: outputs, speeds, torques, strength and motion, followed by structure, fundamental
-    circuits, and errata of the published sources.
-    """
+    """Return the report on a train: outputs, speeds, torques, strength and motion, then structure and errata."""
     train, answers = found.train, found.states
     declared = train.declaration
     held = [f"{line[0].upper()}{line[1:]}." for line in train.kinematics.gridlock.lines()]
@@ -94,9 +92,7 @@ def describe_in_short(train: GearTrain) -> Document:
 
 
 def _details(found: TrainReport) -> Iterator[Section]:
-    """Yield the detail sections: formulas, structure, circuits, phase closure, adjacency matrix with names, errata and
-    sources.
-    """
+    """Yield the detail sections: formulas, structure, circuits, phases, named adjacency matrix, errata, sources."""
     train, declared = found.train, found.train.declaration
     explained = True  # the notation of formulas is explained once
     for answer in found.states:
@@ -117,14 +113,18 @@ def _details(found: TrainReport) -> Iterator[Section]:
         rows = [(e.place, e.printed, e.right, e.why) for e in declared.errata]
         yield Section("Errata of the sources", (), (Table(("place", "printed", "right", "why"), rows),))
     if declared.sources:
-        yield Section(SOURCES, [source_line(key, source) for key, source in declared.sources.items()])
+        lines = []
+        for key, source in declared.sources.items():
+            lines.append(f"Source {key}: {source.cite}" + (f" ({source.note})" if source.note else "") + ".")
+        yield Section(SOURCES, lines)
 
 
 def _answers(train: GearTrain, answers: Sequence[Answer]) -> Iterator[Section]:
-    """Yield the sections on outputs, targets and speeds of each state. If the train has states, tables of all states
-    come first.
-    """
-    box = _gearbox(train)
+    """Yield the sections on outputs, targets and speeds of each state; tables of all states come first."""
+    box = None
+    if train.declaration.clutches and train.states:
+        with suppress(GearTrainError):  # not a valid gearbox
+            box = train.gearbox()
     if box is not None:
         from geartrain.report.gearbox_report import gearbox_sections
 
@@ -150,9 +150,7 @@ def _findings(train: GearTrain) -> Iterator[Section]:
 
 
 def _loaded(found: TrainReport) -> Iterator[Section]:
-    """Yield the sections on teeth, torques, strength and motion. The modules of these sections are imported only if
-    needed.
-    """
+    """Yield the sections on teeth, torques, strength and motion, whose modules are imported only if needed."""
     if found.teeth or found.pins:
         from geartrain.report.gear_pairs import teeth_sections
 
@@ -202,16 +200,6 @@ def _fusees(train: GearTrain) -> Iterator[Section]:
         yield Section(titled(state, "fusee"), (text,), (Table(("quantity", "value"), rows),))
 
 
-def _gearbox(train: GearTrain) -> Gearbox | None:
-    """Return the train as a gearbox; None if the train has no clutches or brakes, has no states, or is not a valid
-    gearbox.
-    """
-    try:
-        return train.gearbox() if train.declaration.clutches and train.states else None
-    except GearTrainError:
-        return None
-
-
 def _summary(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
     declared = train.declaration
     for answer in answers:
@@ -240,11 +228,6 @@ def _summary(train: GearTrain, answers: Sequence[Answer]) -> Iterator[str]:
         )
 
 
-def source_line(key: str, source: Source) -> str:
-    """Return one line of text with the key and the full reference of a source."""
-    return f"Source {key}: {source.cite}" + (f" ({source.note})" if source.note else "") + "."
-
-
 def _structure(train: GearTrain) -> Iterator[Section]:
     declared = train.declaration
     parts = (declared.revolutes, declared.slides, declared.gears, declared.couplings, declared.wheels)
@@ -252,16 +235,18 @@ def _structure(train: GearTrain) -> Iterator[Section]:
     nouns = ("turning pair", "sliding pair", "gear pair", "coupling", "wheel")
     counted = ", ".join(plural(count, noun) for count, noun in zip(counts, nouns, strict=True) if count)
     text = f"{len(declared.links)} links (the frame is '{declared.frame}'), {counted}."
-    rows = [(name, _wheels(link.wheels), _joint(train, name), _note(link)) for name, link in declared.links.items()]
+    rows = []
+    for name, link in declared.links.items():
+        copies = f"{link.copies} equal copies" if link.copies > 1 else ""
+        note = "; ".join(filter(None, (copies, link.note)))
+        rows.append((name, _wheels(link.wheels), _joint(train, name), note))
     moves = "turns or slides in (axis)" if declared.sliding else "turns in (axis)"
     table = filled_table(("link", "wheels and teeth", moves, "note"), rows, 3)
     yield Section("Structure", (text,), (replace(table, rows=cut(table.rows)),))
 
 
 def _adjacency(train: GearTrain) -> Iterator[Section]:
-    """Yield a section with the adjacency matrix, one letter per cell; yield nothing if the matrix is wider than
-    a line.
-    """
+    """Yield a section with the adjacency matrix, one letter per cell; nothing if it is wider than a line."""
     links = list(train.declaration.links)
     if len(links) > _MOST_LETTERS:
         return
@@ -274,12 +259,6 @@ def _adjacency(train: GearTrain) -> Iterator[Section]:
     slides = ", P sliding pair" if train.declaration.slides else ""
     text = f"R turning pair{slides}, G gear pair{couplings}, + several; columns by last digit."
     yield Section(_MATRIX, (text,), (Table(("link", head), rows, wide=True),))
-
-
-def _note(link: Link) -> str:
-    """Return a text with the number of copies of a link and its declared note."""
-    number = f"{link.copies} equal copies" if link.copies > 1 else ""
-    return "; ".join(filter(None, (number, link.note or "")))
 
 
 def _wheels(wheels: dict[str, Wheel]) -> str:
@@ -306,10 +285,8 @@ def _joint(train: GearTrain, link: str) -> str:
 
 def _circuits(train: GearTrain) -> Section:
     shown = train.circuits[:MOST_ROWS]
-    tables = [
-        _abreast(train.declaration, shown[at : at + _CIRCUITS_ABREAST])
-        for at in range(0, len(shown), _CIRCUITS_ABREAST)
-    ]
+    starts = range(0, len(shown), _CIRCUITS_ABREAST)
+    tables = [_abreast(train.declaration, shown[at : at + _CIRCUITS_ABREAST]) for at in starts]
     pairs = "gear pair and coupling" if train.declaration.couplings else "gear pair"
     text = f"One circuit for each {pairs}, of bodies i and j with carrier k: tau = (w_i - w_k)/(w_j - w_k)."
     more = [f"{len(train.circuits) - MOST_ROWS} more circuits are not shown."] if train.circuits[MOST_ROWS:] else []
@@ -317,9 +294,7 @@ def _circuits(train: GearTrain) -> Section:
 
 
 def _abreast(declared: Train, circuits: Sequence[Circuit]) -> Table:
-    """Return a table with one column for each fundamental circuit, which contains its links, carrier, tooth counts and
-    ratio.
-    """
+    """Return a table with a column for each fundamental circuit: its links, carrier, tooth counts and ratio."""
     from geartrain.teeth.coupling import coupling_model
 
     wheels = declared.wheels
@@ -351,9 +326,7 @@ def _circuits_in_short(train: GearTrain) -> str:
 
 
 def _mobility_lines(found: Mobility, held: Sequence[str] = ()) -> Iterator[str]:
-    """Yield sentences on mobility (from the numbers of joints and from the rank of the equations), redundant circuits,
-    locked links, and links at rest (`held`).
-    """
+    """Yield sentences on mobility by count and by rank, redundant circuits, locked links, and links at rest, `held`."""
     minus = f" - {plural(found.couplings, 'coupling')}" if found.couplings else ""
     slides = f" + {plural(found.sliding_pairs, 'sliding pair')}" if found.sliding_pairs else ""
     pairs = f"{plural(found.turning_pairs, 'turning pair')}{slides} - {plural(found.gear_pairs, 'gear pair')}{minus}"
@@ -403,9 +376,7 @@ def _phasing(closure: MeshPhasing | None) -> Iterator[Section]:
 
 
 def adjacency_table(train: GearTrain) -> Table:
-    """Return a table of the adjacency matrix of links, with R(axis) for turning pairs, and names for gear pairs and
-    couplings.
-    """
+    """Return the adjacency matrix of links: R(axis) for turning pairs, names for gear pairs and couplings."""
     names = list(train.declaration.links)
     cells = adjacency_labels(train.declaration)
     return Table(("", *names), [(name, *row) for name, row in zip(names, cells, strict=True)], wide=True)
@@ -428,9 +399,7 @@ def describe_edges(train: GearTrain) -> Document:
 def describe_shared_page(
     found: TrainReport, pictures: Sequence[Picture] = (), viewer: str = "", notes: Sequence[str] = ()
 ) -> Document:
-    """Return the report on a train as a document for an HTML page, with pictures, viewer, verdict badge and linked
-    sources.
-    """
+    """Return the report on a train for an HTML page, with pictures, viewer, verdict badge and linked sources."""
     document, declared = describe_train(found), found.train.declaration
     badge, sound = _badge(found)
     wheels = tuple(_wheels_with_sources(declared))
@@ -461,9 +430,7 @@ def _badge(found: TrainReport) -> tuple[str, bool]:
 
 
 def _wheels_with_sources(declared: Train) -> Iterator[Section]:
-    """Yield a section with a table of wheels, their sources, status and notes; yield nothing if only tooth counts are
-    declared.
-    """
+    """Yield a table of wheels with sources, status and notes; nothing if only tooth counts are declared."""
     rows = []
     for name, (link, wheel) in declared.wheels.items():
         uncertainty = wheel.teeth if not isinstance(wheel.teeth, int) else None

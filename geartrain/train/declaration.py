@@ -15,7 +15,6 @@ from itertools import chain
 from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field, PrivateAttr, model_validator
-from pydantic_core import PydanticCustomError
 
 from geartrain.errors import Loc, Marks, Problem, QuestionError, dotted, suggest
 from geartrain.numerics.quantity import (
@@ -28,6 +27,7 @@ from geartrain.numerics.quantity import (
     Rate,
     as_rotation,
     as_torque,
+    bad,
     in_unit,
     same_kind,
 )
@@ -61,7 +61,7 @@ from geartrain.train.mechanism import (
     Wheel,
 )
 from geartrain.train.outputs import Dial, FacePlate, Output, SpeedUnit, TourStep, View
-from geartrain.train.periods import CalendarDate, julian_day, period_table, read_date
+from geartrain.train.periods import julian_day, period_table, read_date
 from geartrain.train.reconstruction import Reconstruction
 from geartrain.train.states import Clutch, Drive, Erratum, Escapement, Remove, State, StateCase
 
@@ -101,25 +101,16 @@ class Epoch(Declared):
     @model_validator(mode="after")
     def _check_date(self) -> Epoch:
         try:
-            self._read()
+            read_date(self.date, self.calendar)
         except ValueError as error:
-            raise PydanticCustomError(
-                "date",
-                "{problem}",
-                {
-                    "problem": str(error),
-                    "fix": "write year-month-day, such as 2000-01-01, or -204-05-12 for 12 May 205 BC",
-                },
-            ) from None
+            fix = "write year-month-day, such as 2000-01-01, or -204-05-12 for 12 May 205 BC"
+            raise bad("date", str(error), fix) from None
         return self
-
-    def _read(self) -> CalendarDate:
-        return read_date(self.date, self.calendar)
 
     @cached_property
     def julian_day(self) -> Fraction:
         """Julian day of the date [d]; day 0 begins at noon of -4712-01-01 in the Julian calendar."""
-        return julian_day(self._read())
+        return julian_day(read_date(self.date, self.calendar))
 
 
 DeclaredEpoch = Annotated[Epoch, short_for("date")]
@@ -160,10 +151,6 @@ def friction_in_force(declared: CoulombFriction | FrictionLaw | None) -> Frictio
 
 
 # ---------------------------------------------------------------------------------------------------------- declaration
-
-
-def _read_source(raw: object) -> object:
-    return {"cite": raw} if isinstance(raw, str) else raw
 
 
 class Train(Declared):
@@ -221,8 +208,7 @@ class Train(Declared):
         None, description="Expected verdict of all states, which does not count as a failure; default `determined`"
     )
     friction: DeclaredFriction | None = Field(
-        None,
-        description="Default friction of all gear pairs: a coefficient, or the keys of a friction law",
+        None, description="Default friction of all gear pairs: a coefficient, or the keys of a friction law"
     )
     tooth_form: DeclaredToothForm | None = Field(None, description="Default tooth form of all gear pairs")
     restitution: DeclaredRestitution | None = Field(
@@ -268,8 +254,8 @@ class Train(Declared):
         description="Declaration to extend: a file in the same folder, or the name of a shipped train or evidence",
     )
     remove: Remove | None = Field(None, description="Parts of the declaration in `extends` to remove")
-    sources: ByName[Annotated[Source, BeforeValidator(_read_source)]] = Field(
-        {}, validate_default=True, description="Sources by key"
+    sources: ByName[Annotated[Source, BeforeValidator(lambda raw: {"cite": raw} if isinstance(raw, str) else raw)]] = (
+        Field({}, validate_default=True, description="Sources by key")
     )
     errata: tuple[Erratum, ...] = Field((), description="Errors in published sources")
     reconstruct: Reconstruction | None = Field(
@@ -301,9 +287,7 @@ class Train(Declared):
 
     @cached_property
     def tour_parts(self) -> Mapping[str, str]:
-        """Kind of each part that a tour can show (output, link, wheel, dial or coupling), keyed by the name of the
-        part. If several parts have the same name, the first kind in this order is used.
-        """
+        """Kind (output, link, wheel, dial or coupling, in this order) of each part that a tour can show, by name."""
         outputs = chain(self.outputs, *(state.outputs for state in self.states.values()))
         couplings = (coupling.id for coupling in self.couplings)
         kinds = {"coupling": couplings, "dial": self.dials, "wheel": self.wheels, "link": self.links, "output": outputs}
@@ -502,14 +486,8 @@ class Train(Declared):
             Name of a state; None for the only state, or for a train without states.
         """
         if state is None and len(self.states) > 1:
-            names = ", ".join(self.states)
-            raise QuestionError(
-                Problem(
-                    f"'{self.name}' has several states",
-                    "the result depends on the state",
-                    f"give one of these states: {names}",
-                )
-            )
+            what, why = f"'{self.name}' has several states", "the result depends on the state"
+            raise QuestionError(Problem(what, why, f"give one of these states: {', '.join(self.states)}"))
         self.check_state(state)
         return next(iter(self.states), None) if state is None else state
 
@@ -577,18 +555,14 @@ class Train(Declared):
         return in_unit(speed, self.input_unit)
 
     def _is_exact(self, speed: Quantity) -> bool:
-        """Return True if a speed can be expressed exactly in the train's unit; False if radians are converted to turns,
-        or turns to radians.
-        """
+        """Return True if a speed is exact in the train's unit; False if radians are converted to turns or back."""
         return not speed.value or same_kind(
             as_rotation(speed).unit, None if self.unit is not None else self.input_unit or None
         )
 
     @cached_property
     def input_unit(self) -> str:
-        """Unit in which the speeds of inputs are shown: the unit of the first input whose speed is not 0, else of the
-        first input; "" if inputs have no unit.
-        """
+        """Unit of input speeds: that of the first input that is not 0, else of the first input; "" if there is none."""
         groups = [own.inputs for own in self.states.values() if own.inputs is not None]
         # the train's inputs are unused if every state has its own
         if len(groups) == len(self.states) and groups:
@@ -662,9 +636,7 @@ class Train(Declared):
 
     @property
     def travel_unit(self) -> str:
-        """Unit of the speeds of sliding links, such as `mm per tropical year` or `mm/min`; `mm`, for mm per turn, if
-        speeds have no unit.
-        """
+        """Unit of the speeds of sliding links, such as `mm/min`; `mm`, for mm per turn, if speeds have no unit."""
         name = self.unit_name.replace("rpm", "turn/min")
         return re.sub("^turns?", "mm", name) or "mm"
 
@@ -696,16 +668,12 @@ class Train(Declared):
 
 
 def wheel_thickness(train: Train, wheel: Wheel) -> Quantity | None:
-    """Return the thickness of a wheel along its axis: its declared thickness, else its face width, else the thickness
-    or face width of the train; None if none of them is declared.
-    """
+    """Return the first declared value of: thickness and face width of the wheel, then of the train; else None."""
     return wheel.thickness or wheel.face_width or train.thickness or train.face_width
 
 
 def face_width(train: Train, wheel: Wheel) -> Quantity | None:
-    """Return the face width of a wheel: its declared face width, else its thickness, else the face width or thickness
-    of the train; None if none of them is declared.
-    """
+    """Return the first declared value of: face width and thickness of the wheel, then of the train; else None."""
     return wheel.face_width or wheel.thickness or train.face_width or train.thickness
 
 

@@ -53,7 +53,11 @@ def read_declaration(source: str | Path | Mapping[str, Any]) -> Train:
     a reconstruction.
     """
     train = _read_source(source, shipped())
-    check_is_train(train)
+    if train.reconstruct is not None:
+        what = f"'{train.name}' is evidence, not a train"
+        why = "its key `reconstruct` leaves gear pairs undetermined"
+        fix = "run `geartrain reconstruct`, which finds the trains that are consistent with it"
+        raise DeclarationError(Problem(what, why, fix, train.place("reconstruct")))
     return train
 
 
@@ -88,15 +92,6 @@ def read_evidence(source: str | Path | Mapping[str, Any]) -> Train:
     return evidence
 
 
-def check_is_train(train: Train) -> None:
-    """Raise `DeclarationError` if the declaration is evidence for a reconstruction."""
-    if train.reconstruct is not None:
-        what = f"'{train.name}' is evidence, not a train"
-        why = "its key `reconstruct` leaves gear pairs undetermined"
-        fix = "run `geartrain reconstruct`, which finds the trains that are consistent with it"
-        raise DeclarationError(Problem(what, why, fix, train.place("reconstruct")))
-
-
 def _read_source(source: str | Path | Mapping[str, Any], known: Mapping[str, Path]) -> Train:
     if isinstance(source, Mapping):
         if "extends" not in source and "remove" not in source:
@@ -115,11 +110,7 @@ def write_declaration(train: Train) -> str:
 
 
 def formatted(path: Path, long: bool = False) -> tuple[str, str]:
-    """Return the text of a declaration file, and its text with turning pairs, gear pairs and belts in short (or long)
-    form.
-
-    Raises `DeclarationError` if the file cannot be read, or if the new text would change the declaration.
-    """
+    """Return the text of a declaration file, and its text in short (or long) form, checked to have the same meaning."""
     from geartrain.train.declaration_style import with_long_forms, with_short_forms
 
     def declared(text: str) -> dict[str, Any]:
@@ -140,7 +131,14 @@ def formatted(path: Path, long: bool = False) -> tuple[str, str]:
 
 
 def _build(root: YamlNode, folder: Path, chain: tuple[Path, ...], stem: str) -> Train:
-    node = _with_parents(root, folder, chain)
+    """Return the train of a declaration, merged with the chain of its parents, beginning with the oldest ancestor."""
+    # short forms are expanded first, because entries are merged key by key
+    line = [written_out(root), *(written_out(parent) for _, parent in _parents(root, folder, chain))]
+    node = line.pop()
+    if line:
+        from geartrain.train.inheritance import merge_parent
+    while line:
+        node = merge_parent(node, line.pop())
     _complete_table_paths(node)
     data = node.plain()
     data.setdefault("name", stem)
@@ -159,30 +157,13 @@ def _complete_table_paths(node: YamlNode) -> None:
 
 
 def files_of(path: Path) -> tuple[Path, ...]:
-    """Return a YAML file and all files that it extends, directly or indirectly.
-
-    Raises `DeclarationError` if one of the files is missing or cannot be read.
-    """
+    """Return a YAML file and all files that it extends, directly or indirectly."""
     child = parse_yaml(_read(path), str(path))
     return path, *(parent for parent, _ in _parents(child, path.parent, (path.resolve(),)))
 
 
-def _with_parents(child: YamlNode, folder: Path, chain: tuple[Path, ...]) -> YamlNode:
-    """Return a declaration merged with the chain of its parents, beginning with the oldest ancestor."""
-    # short forms are expanded first, because entries are merged key by key
-    line = [written_out(child), *(written_out(node) for _, node in _parents(child, folder, chain))]
-    result = line.pop()
-    if line:
-        from geartrain.train.inheritance import merge_parent
-    while line:
-        result = merge_parent(result, line.pop())
-    return result
-
-
 def _parents(node: YamlNode, folder: Path, chain: tuple[Path, ...]) -> Iterator[tuple[Path, YamlNode]]:
-    """Yield the path and the node of each ancestor reached by `extends`. Raises `DeclarationError` for a cycle or a
-    chain that is too long.
-    """
+    """Yield path and root node of each ancestor; raise `DeclarationError` for a cycle or for too many ancestors."""
     met = dict.fromkeys(chain)
     for at in count():
         if "extends" not in node.mapping:
@@ -196,14 +177,8 @@ def _parents(node: YamlNode, folder: Path, chain: tuple[Path, ...]) -> Iterator[
             )
         if at == _MOST_PARENTS:
             why = f"at most {_MOST_PARENTS} levels of inheritance are allowed"
-            raise DeclarationError(
-                Problem(
-                    "the chain of `extends` is too long",
-                    why,
-                    "write the keys of one of the parents into its child",
-                    place,
-                )
-            )
+            fix = "write the keys of one of the parents into its child"
+            raise DeclarationError(Problem("the chain of `extends` is too long", why, fix, place))
         met[path.resolve()] = None
         folder, node = path.parent, parse_yaml(_read(path), str(path))
         yield path, node
@@ -211,14 +186,9 @@ def _parents(node: YamlNode, folder: Path, chain: tuple[Path, ...]) -> Iterator[
 
 def _parent(name: str, folder: Path, place: str) -> Path:
     if not name:
-        raise DeclarationError(
-            Problem(
-                "`extends` is empty",
-                "it names the file, shipped train or shipped evidence that this declaration changes",
-                "give a name, such as `extends: parent.yaml`, or remove the key",
-                place,
-            )
-        )
+        why = "it names the file, shipped train or shipped evidence that this declaration changes"
+        fix = "give a name, such as `extends: parent.yaml`, or remove the key"
+        raise DeclarationError(Problem("`extends` is empty", why, fix, place))
     if _exists(folder / name):
         return folder / name
     known = {**shipped_evidence(), **shipped()}
@@ -226,19 +196,10 @@ def _parent(name: str, folder: Path, place: str) -> Path:
         return known[name]
     siblings = [*known, *(path.name for path in folder.glob("*.yaml"))]
     where = "the current folder" if folder == Path() else folder
-    raise DeclarationError(
-        Problem(
-            f"`extends` names the unknown parent '{name}'",
-            f"{where} contains no such file, and no shipped train or evidence has that name",
-            suggest(
-                name,
-                siblings,
-                otherwise="`geartrain list` and `geartrain list --evidence` show the shipped names",
-                wide=True,
-            ),
-            place,
-        )
-    )
+    why = f"{where} contains no such file, and no shipped train or evidence has that name"
+    otherwise = "`geartrain list` and `geartrain list --evidence` show the shipped names"
+    fix = suggest(name, siblings, otherwise=otherwise, wide=True)
+    raise DeclarationError(Problem(f"`extends` names the unknown parent '{name}'", why, fix, place))
 
 
 def _exists(path: Path) -> bool:
@@ -260,32 +221,24 @@ def _find_file(source: str | Path, known: Mapping[str, Path]) -> Path:
     if within is not None:
         return within
     evidence = known is shipped_evidence()
-    kind = "evidence" if evidence else "train"
-    raise DeclarationError(
-        Problem(
-            "the file does not exist",
-            f"'{path.stem}' is not the name of a shipped {kind} either",
-            f"give the name with its suffix: {path.name}.yaml"
-            if path.name and _exists(path.with_name(f"{path.name}.yaml"))
-            else _suggestion(path.stem, evidence),
-            str(source),
-        )
-    )
+    why = f"'{path.stem}' is not the name of a shipped {'evidence' if evidence else 'train'} either"
+    if path.name and _exists(path.with_name(f"{path.name}.yaml")):
+        fix = f"give the name with its suffix: {path.name}.yaml"
+    else:
+        fix = _suggestion(path.stem, evidence)
+    raise DeclarationError(Problem("the file does not exist", why, fix, str(source)))
 
 
 def _suggestion(name: str, evidence: bool) -> str:
-    """Return a suggestion for a name that is neither a shipped train nor shipped evidence."""
-    if evidence and name in shipped():
-        return f"it is a shipped train: name lost arbors by `--lost ARBOR`, or give evidence: {_evidence_names()}"
-    if not evidence and name in shipped_evidence():
-        return f"it is evidence: `geartrain reconstruct {name}` finds the trains that are consistent with it"
+    """Return a suggestion for a name that is not the name of shipped evidence, or not the name of a shipped train."""
     if evidence:
-        return suggest(name, shipped_evidence(), otherwise=f"give a file, or one of: {_evidence_names()}", wide=True)
+        names = ", ".join(shipped_evidence())
+        if name in shipped():
+            return f"it is a shipped train: name lost arbors by `--lost ARBOR`, or give evidence: {names}"
+        return suggest(name, shipped_evidence(), otherwise=f"give a file, or one of: {names}", wide=True)
+    if name in shipped_evidence():
+        return f"it is evidence: `geartrain reconstruct {name}` finds the trains that are consistent with it"
     return suggest(name, shipped(), otherwise="check the path; `geartrain list` shows the shipped trains", wide=True)
-
-
-def _evidence_names() -> str:
-    return ", ".join(shipped_evidence())
 
 
 def _read(path: Path) -> str:
@@ -297,28 +250,17 @@ def _read(path: Path) -> str:
             why = "a device or a pipe may be endless, and cannot be read twice"
             raise DeclarationError(Problem("this is not a regular file", why, "save the declaration as a file", place))
         if status.st_size > _MOST_BYTES:
-            raise DeclarationError(
-                Problem(
-                    "the file is too large",
-                    f"a declaration has at most {_MOST_BYTES >> 20} MB",
-                    "build the train in Python with `GearTrain.declare`",
-                    place,
-                )
-            )
+            why = f"a declaration has at most {_MOST_BYTES >> 20} MB"
+            fix = "build the train in Python with `GearTrain.declare`"
+            raise DeclarationError(Problem("the file is too large", why, fix, place))
         raw = path.read_bytes()
     except IsADirectoryError:
         raise DeclarationError(
             Problem("this is a directory", "a declaration is read from a single file", "name a .yaml file in it", place)
         ) from None
     except OSError as error:
-        raise DeclarationError(
-            Problem(
-                "the file cannot be read",
-                error.strerror or str(error),
-                "check its path and permissions",
-                place,
-            )
-        ) from None
+        why, fix = error.strerror or str(error), "check its path and permissions"
+        raise DeclarationError(Problem("the file cannot be read", why, fix, place)) from None
     try:
         # utf-8-sig, because some editors write a byte order mark
         text = raw.decode("utf-8-sig")

@@ -1,8 +1,7 @@
 """Rewriting of a declaration's turning, sliding and gear pairs and belts in short or in long forms.
 
-Only these sections are rewritten, entry by entry. All other lines are unchanged, and comments stay with their entries.
-An entry with keys that its short form cannot express remains in long form. The section `couplings` is renamed to
-`belts`, or the reverse, only if all couplings of the train are belts around two wheels.
+All other lines are unchanged, and comments stay with their entries. The section `couplings` is renamed to `belts`, or
+the reverse, only if all couplings of the train are belts around two wheels.
 """
 
 from __future__ import annotations
@@ -35,9 +34,7 @@ class _Entry:
 
 
 def with_short_forms(text: str) -> str:
-    """Rewrite a declaration in short form: turning pairs are grouped by axis, and gear pairs and belts without other
-    keys are written as `a ~ b`.
-    """
+    """Rewrite a declaration: turning pairs grouped by axis, gear pairs and belts without other keys as `a ~ b`."""
     joints = {key: partial(_short_joints, key=key) for key in JOINTS}
     gears = partial(_pairs, write=_short_pair)
     return _rewritten(text, {**joints, "gears": gears, "couplings": _short_belts})
@@ -106,10 +103,6 @@ class _SectionSource:
     def source(self, node: yaml.Node) -> str:
         """Return the source text of a YAML node."""
         return self.text[node.start_mark.index : node.end_mark.index].strip()
-
-    def is_written_as(self, entries: Sequence[_Entry]) -> bool:
-        """Return True if the section is a list that is already written as `entries`."""
-        return [each.text for each in entries] == [self.source(node) for node in self.items]
 
     def entry(self, text: str, node: yaml.Node) -> _Entry:
         """Return an entry with a text, and with the comments before and after a node; each comment is used once."""
@@ -219,7 +212,8 @@ def _long_belts(written: _SectionSource) -> list[str] | None:
 def _pairs(written: _SectionSource, write: Callable[[_SectionSource, yaml.Node], str]) -> list[str] | None:
     """Return the lines of the section of gear pairs, with each entry rewritten by `write`; None if no entry changes."""
     entries = [written.entry(write(written, node), node) for node in written.items]
-    if written.is_written_as(entries) or any("\n" in each.text for each in entries):
+    unchanged = [each.text for each in entries] == [written.source(node) for node in written.items]
+    if unchanged or any("\n" in each.text for each in entries):
         return None
     all_short = not any(each.text.startswith("{") for each in entries)
     return list(_section("gears", entries, written.head, "[]" if all_short else "", "- "))

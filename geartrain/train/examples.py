@@ -17,9 +17,7 @@ from geartrain.train.yaml_nodes import on_one_line, parse_yaml
 
 @cache
 def examples() -> Mapping[str, tuple[str, ...]]:
-    """Return the examples as YAML texts, by the name of the part that they declare, or by the key if parts of several
-    kinds have that key. The reference prints the first example of each.
-    """
+    """Return the examples as YAML texts, by the part that they declare, or by the key of parts of several kinds."""
     text = files("geartrain.train").joinpath("examples.yaml").read_text(encoding="utf-8")
     return {name: tuple(part.split("\n---\n")) for name, part in yaml.safe_load(text).items()}
 
@@ -53,11 +51,7 @@ _OF_NAMES = ("links", "wheels", "axes", "outputs", "states", "dials", "clutches"
 
 
 def example_line(loc: Loc, kind: type) -> str:
-    """Return a line of YAML with an example of the mapping or list at the path `loc`; empty without an example.
-
-    The examples are searched for the last key of `loc` at any level. For a name that users choose, such as the link `a`
-    in `links.a`, any entry of that mapping is an example.
-    """
+    """Return a line of YAML with an example of the mapping or list at the path `loc`; "" without an example."""
     keys = [step for step in loc if isinstance(step, str)]
     if not keys:
         return ""

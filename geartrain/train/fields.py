@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, TypeVar
@@ -19,11 +19,12 @@ from pydantic import (
     ValidationError,
     WithJsonSchema,
 )
-from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+from pydantic_core import CoreSchema, core_schema
 
 from geartrain.errors import DeclarationError, Problem, dotted, nearest_names
 from geartrain.numerics.containers import FrozenDict
 from geartrain.numerics.plain_values import whole_number
+from geartrain.numerics.quantity import bad
 from geartrain.numerics.results import summary_line, values_summary
 from geartrain.teeth.any_tooth_form import form_names, tooth_form
 from geartrain.teeth.contact_coefficients import CoulombFriction, DeclaredCoulombFriction
@@ -86,13 +87,9 @@ def exactly_one(part: DeclaredPart, what: str, keys: Sequence[str], noun: str = 
     """Return the part unchanged if exactly one of the keys is given; otherwise raise `PydanticCustomError`."""
     given = [key for key in keys if getattr(part, key) is not None]
     if len(given) != 1:
-        context = {
-            "what": what,
-            "noun": noun,
-            "given": " and ".join(given) or "nothing",
-            "fix": f"give exactly one of {', '.join(keys)}",
-        }
-        raise PydanticCustomError("keys", "{what} needs exactly one {noun}; found: {given}", context)
+        found = " and ".join(given) or "nothing"
+        fix = f"give exactly one of {', '.join(keys)}"
+        raise bad("keys", f"{what} needs exactly one {noun}; found: {found}", fix)
     return part
 
 
@@ -113,7 +110,7 @@ def read_count(raw: object) -> int:
     shown = str(raw) if len(str(raw)) <= 30 else str(raw)[:27] + "..."
     digits = re.fullmatch(r"(\d{1,12}) *[a-zA-Z]+", shown)
     fix = f"write the number only: {digits[1]}" if digits else "write a whole number from 1 to 10^12, such as 20"
-    raise PydanticCustomError("teeth", "'{shown}' is not a tooth count", {"shown": shown, "fix": fix})
+    raise bad("teeth", f"'{shown}' is not a tooth count", fix)
 
 
 def side(raw: object) -> object:
@@ -130,10 +127,6 @@ def short_for(key: str) -> BeforeValidator:
         return raw if isinstance(raw, dict | BaseModel) else {key: raw}
 
     return BeforeValidator(expand)
-
-
-def _empty_for_nothing(raw: object) -> object:
-    return {} if raw is None else raw
 
 
 def also(kind: Any, schema: dict[str, Any]) -> dict[str, Any]:
@@ -158,14 +151,13 @@ Part = TypeVar("Part")
 ByName = Annotated[dict[Id, Part], AfterValidator(FrozenDict)]
 """Immutable mapping from names to parts."""
 Count = Annotated[int, BeforeValidator(read_count)]
-Nothing = BeforeValidator(_empty_for_nothing)
+Nothing = BeforeValidator(lambda raw: {} if raw is None else raw)
+"""Validator that reads null as an empty mapping."""
 
 
 @cache
 def _union_reader(key: str, *names: str) -> TypeAdapter[Any]:
-    """Return the validator of the union of the named tooth forms (key `form`) or couplings (key `kind`). Only the
-    models of these names are imported.
-    """
+    """Return the validator of the named tooth forms (key `form`) or couplings (key `kind`), importing only these."""
     model = tooth_form if key == "form" else coupling_model
 
     class Models:
@@ -191,9 +183,7 @@ def read_friction(raw: object) -> Any:
 
 
 def _has_law_keys(keys: Mapping[Any, Any]) -> bool:
-    """Return True if the key `law` is given, possibly misspelt, or if most keys belong to friction laws; False if all
-    keys belong to Coulomb friction.
-    """
+    """Return True if a key is `law`, possibly misspelt, or if most keys are those of friction laws."""
     if any(key == "law" or nearest_names(str(key), ("law",)) for key in keys):
         return True
     if all(key in CoulombFriction.model_fields for key in keys):
@@ -209,29 +199,22 @@ def _serialize_friction(friction: Any) -> Any:
 
 
 def _read_tooth_form(raw: Any) -> Any:
-    """Read a tooth form from a mapping of its keys, or from its name, with default values.
-
-    An unknown name is validated against all forms, so that the error lists their names.
-    """
+    """Read a tooth form from its keys or its name; an unknown name is validated against all forms, to list them."""
     keys = {"form": raw} if isinstance(raw, str) else raw
-    return _read_model(keys, "form", form_names(_tag(keys, "form")))
+    return _read_model(keys, "form", form_names)
 
 
 def _read_coupling(raw: Any) -> Any:
-    """Read a coupling from a mapping of its keys. An unknown kind is validated against all kinds, so that the error
-    lists them. A coupling with `ratio` and without `kind` has the kind `ratio`.
-    """
+    """Read a coupling from its keys; a coupling with `ratio` and without `kind` is of the kind `ratio`."""
     if isinstance(raw, dict) and "ratio" in raw and "kind" not in raw:
         raw = {"kind": "ratio", **raw}
-    return _read_model(raw, "kind", COUPLINGS)
+    return _read_model(raw, "kind", lambda _: COUPLINGS)
 
 
-def _tag(keys: Any, key: str) -> Any:
-    return keys.get(key) if isinstance(keys, dict) else getattr(keys, key, None)
-
-
-def _read_model(keys: Any, key: str, known: Iterable[str]) -> Any:
-    name, known = _tag(keys, key), tuple(known)
+def _read_model(keys: Any, key: str, names: Callable[[Any], Iterable[str]]) -> Any:
+    """Read a model whose class is selected by the value of `key`; `names` returns all values allowed for this key."""
+    name = keys.get(key) if isinstance(keys, dict) else getattr(keys, key, None)
+    known = tuple(names(name))
     read = _union_reader(key, *([name] if isinstance(name, str) and name in known else known)).validate_python(keys)
     # pydantic builds only the validators of a union's members; writing a model needs its serializer
     type(read).model_rebuild()

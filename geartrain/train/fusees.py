@@ -103,9 +103,7 @@ class FuseeSpring(NamedTuple):
         return found
 
     def state(self, phi: float) -> tuple[float, float]:
-        """Return the wound angle of the spring [rad] and the radius of the fusee [m] after the fusee has turned by
-        `phi` [rad].
-        """
+        """Return the wound angle of the spring [rad] and the radius of the fusee [m] at a fusee angle `phi` [rad]."""
         if self.constant is None:
             sections = self._sections()
             return next((each for each in sections if phi <= each.start + each.width), sections[-1]).state(phi)

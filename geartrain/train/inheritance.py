@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from geartrain.errors import DeclarationError, Loc, Problem, suggest
@@ -15,15 +15,12 @@ if TYPE_CHECKING:
 
 _NOT_INHERITED = ("name", "title", "note", "tour", "extends", "remove")
 _BY_NAME = ("sources", "links", "axes", "outputs", "dials", "clutches", "states")
+_REMOVED_BY_NAME = ("links", "outputs", "dials", "states", "axes")
 _SHORT = {"wheels": "teeth", "sources": "cite"}
 
 
 def merge_parent(parent: YamlNode, child: YamlNode) -> YamlNode:
-    """Return a new node in which a child declaration is merged into its parent.
-
-    Raises `DeclarationError` if `remove` names a part that does not exist, or if a wheel of the parent is declared on
-    another link.
-    """
+    """Return a declaration merged with its parent: entries with a name replace or extend the parent's entries."""
     base = {key: node for key, node in parent.mapping.items() if key not in _NOT_INHERITED}
     keys = {key: parent.keys[key] for key in base}
     root = YamlNode(base, child.place, keys)
@@ -38,7 +35,7 @@ def merge_parent(parent: YamlNode, child: YamlNode) -> YamlNode:
         elif old is not None and key in _BY_NAME:
             result[key] = _merge_mappings(old, node, key)
         elif old is not None and key in ("gears", "couplings", *JOINTS):
-            result[key] = _merge_lists(old, node, _identity(key))
+            result[key] = _merge_lists(old, node, key)
         else:
             result[key] = node
     merged = YamlNode(result, child.place, keys)
@@ -120,42 +117,28 @@ def _expanded(node: YamlNode, kind: str) -> YamlNode:
     return YamlNode({key: node}, node.place, {key: node.place})
 
 
-def _identity(kind: str) -> Callable[[YamlNode], object]:
-    """Return the function for the key by which list entries of a child are matched with those of the parent."""
-    return {**dict.fromkeys(JOINTS, _joined_links), "gears": _pair_name, "couplings": _coupling_name}[kind]
-
-
-def _joined_links(node: YamlNode) -> frozenset[str]:
-    return frozenset(texts(node.mapping.get("pair")))
-
-
-def _pair_name(node: YamlNode) -> str:
+def _identity(key: str, node: YamlNode) -> object:
+    """Return the value by which an entry of the list `key` of a child is matched with an entry of the parent."""
+    if key in JOINTS:
+        return frozenset(_ends(key, node))
     given = node.mapping.get("id")
-    return given.text if given else "~".join(texts(node.mapping.get("pair")))
+    return given.text if given else "~".join(_ends(key, node)[:2])
 
 
-def _pair_ends(node: YamlNode) -> Iterator[str]:
-    return texts(node.mapping.get("pair"))
-
-
-def _coupling_name(node: YamlNode) -> str:
-    given = node.mapping.get("id")
-    return given.text if given else "~".join(_coupling_ends(node)[:2])
-
-
-def _coupling_ends(node: YamlNode) -> list[str]:
-    """Return the names of the links or wheels that a coupling connects, beginning with the driving one."""
-    given = (node.mapping[key] for key in COUPLING_ENDS if key in node.mapping)
+def _ends(key: str, node: YamlNode) -> list[str]:
+    """Return the links or wheels that an entry of the list `key` connects; of a coupling, first the driving one."""
+    keys = COUPLING_ENDS if key == "couplings" else ("pair",)
+    given = (node.mapping[each] for each in keys if each in node.mapping)
     return [name for each in given for name in (each.mapping or texts(each))]
 
 
-def _merge_lists(old: YamlNode, new: YamlNode, identity: Callable[[YamlNode], object]) -> YamlNode:
+def _merge_lists(old: YamlNode, new: YamlNode, key: str) -> YamlNode:
     if not isinstance(old.value, list) or not isinstance(new.value, list):
         return new
     result = list(old.value)
-    at = {identity(node): position for position, node in enumerate(result)}
+    at = {_identity(key, node): position for position, node in enumerate(result)}
     for node in new.value:
-        position = at.get(identity(node))
+        position = at.get(_identity(key, node))
         if position is None:
             result.append(node)
         else:
@@ -164,9 +147,7 @@ def _merge_lists(old: YamlNode, new: YamlNode, identity: Callable[[YamlNode], ob
 
 
 def _apply_remove(root: YamlNode, remove: YamlNode) -> YamlNode:
-    """Return the parent without the parts named by `remove`. A link is removed together with its wheels, joints, pairs
-    and couplings.
-    """
+    """Remove parts from the parent; a link is removed together with its wheels, joints, pairs and couplings."""
     gone: dict[str, list[object]] = {key: list(texts(node)) for key, node in remove.mapping.items()}
     for key in (key for key in JOINTS if key in remove.mapping):
         # joints have no names, and are removed by their two links
@@ -176,21 +157,23 @@ def _apply_remove(root: YamlNode, remove: YamlNode) -> YamlNode:
     for link in links:
         wheels.update(_child(root, "links", str(link), "wheels"))
     result = dict(root.mapping)
-    for key in ("links", "outputs", "dials", "states", "axes"):
+    for key in _REMOVED_BY_NAME:
         if key in gone and key in result:
             result[key] = _drop(result[key], gone[key])
     if "links" in result:
         kept = result["links"]
-        parts = {name: _without_wheels(node, wheels) for name, node in kept.mapping.items()}
+        parts = dict(kept.mapping)
+        for name, link in parts.items():
+            if wheels.intersection(_child(link, "wheels")):
+                own = {**link.mapping, "wheels": _drop(link.mapping["wheels"], wheels)}
+                parts[name] = YamlNode(own, link.place, link.keys)
         result["links"] = YamlNode(parts, kept.place, kept.keys)
-    for key, ends, removed in (
-        *((key, _pair_ends, links) for key in JOINTS),
-        ("gears", _pair_ends, wheels),
-        ("couplings", _coupling_ends, links | wheels),
-    ):
+    for key, removed in {**dict.fromkeys(JOINTS, links), "gears": wheels, "couplings": links | wheels}.items():
         if key in result:
             entries, named = result[key].items, gone.get(key, ())
-            left = [node for node in entries if removed.isdisjoint(ends(node)) and _identity(key)(node) not in named]
+            left = [
+                node for node in entries if removed.isdisjoint(_ends(key, node)) and _identity(key, node) not in named
+            ]
             result[key] = YamlNode(left, result[key].place)
     return YamlNode(result, root.place, root.keys)
 
@@ -206,32 +189,21 @@ def _drop(node: YamlNode, names: Iterable[object]) -> YamlNode:
     return YamlNode({name: part for name, part in node.mapping.items() if name not in gone}, node.place, node.keys)
 
 
-def _without_wheels(link: YamlNode, wheels: set[object]) -> YamlNode:
-    """Return a link without the wheels named in `wheels`; if it has none of these wheels, return it unchanged."""
-    if "wheels" not in link.mapping or not wheels.intersection(link.mapping["wheels"].mapping):
-        return link
-    return YamlNode({**link.mapping, "wheels": _drop(link.mapping["wheels"], wheels)}, link.place, link.keys)
-
-
 def _check_known(root: YamlNode, remove: YamlNode, gone: Mapping[str, list[object]]) -> None:
     """Raise `DeclarationError` if `remove` names parts that do not exist in the parent."""
-    known: dict[str, set[Any]] = {
-        key: set(_child(root, key)) for key in ("links", "outputs", "dials", "states", "axes")
-    }
+    known: dict[str, set[Any]] = {key: set(_child(root, key)) for key in _REMOVED_BY_NAME}
     known["wheels"] = {wheel for link in _child(root, "links").values() for wheel in _child(link, "wheels")}
     for key in (*JOINTS, "gears", "couplings"):
-        known[key] = {_identity(key)(node) for node in root.mapping.get(key, YamlNode([], "")).items}
+        known[key] = {_identity(key, node) for node in root.mapping.get(key, YamlNode([], "")).items}
     problems = []
     for key, names in gone.items():
         for at, name in enumerate(names):
             if key in known and name not in known[key]:
+                part, fix = f"part '{name}'", "delete this entry"
                 if isinstance(name, frozenset):
-                    part, fix = (
-                        f"{'turning' if key == 'revolutes' else 'sliding'} pair of {' and '.join(sorted(name))}",
-                        "delete this entry",
-                    )
+                    part = f"{'turning' if key == 'revolutes' else 'sliding'} pair of {' and '.join(sorted(name))}"
                 else:
-                    part, fix = f"part '{name}'", suggest(str(name), known[key], otherwise="delete this entry")
+                    fix = suggest(str(name), known[key], otherwise=fix)
                 why = f"the parent has no such entry in {key}"
                 problems.append(Problem(f"`remove` names the unknown {part}", why, fix, remove.place_of((key, at))))
     if problems:

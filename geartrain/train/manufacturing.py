@@ -16,7 +16,6 @@ from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from geartrain.numerics.quantity import (
     Angle,
@@ -88,9 +87,7 @@ class Material(Declared):
 
     @property
     def hardness_pressure(self) -> float | None:
-        """Vickers hardness expressed as a pressure [Pa]: force divided by the surface area of the indentation; None if
-        it is not declared.
-        """
+        """Vickers hardness as a pressure [Pa]: force divided by the area of the indentation; None if not declared."""
         return None if self.hardness is None else float(self.hardness.value) * _VICKERS
 
 
@@ -111,10 +108,7 @@ class ArborSizes(Declared):
 
 @cache
 def material_table() -> Mapping[str, Material]:
-    """Return the materials of the shipped table, by name.
-
-    A material that a train declares takes precedence over a material of the table with the same name.
-    """
+    """Return the materials of the shipped table by name; a declared material of the same name takes precedence."""
     text = files("geartrain.train").joinpath("materials.csv").read_text(encoding="utf-8")
     rows = csv.DictReader(text.splitlines())
     return {row.pop("name"): Material.model_validate(row) for row in rows}
@@ -138,11 +132,8 @@ class _DeclaredError(Declared):
         for key in ("normal", "uniform"):
             width: Quantity | None = getattr(self, key)
             if width is not None and width.value < 0:
-                raise PydanticCustomError(
-                    "error",
-                    "{key}: {text} is negative",
-                    {"key": key, "text": width.text, "fix": "give the width of the distribution, 0 or more"},
-                )
+                fix = "give the width of the distribution, 0 or more"
+                raise bad("error", f"{key}: {width.text} is negative", fix)
         return exactly_one(self, "an error", ("value", "normal", "uniform"), "key")
 
 
@@ -296,12 +287,9 @@ class WheelManufacture(Declared):
     @model_validator(mode="after")
     def _is_consistent(self) -> WheelManufacture:
         if self.stepping is not None and self.stepping.value is not None:
-            what, why = (
-                "`stepping` is a fixed error",
-                "the even division of the gap removes an error that all steps share",
-            )
+            why = "the even division of the gap removes an error that all steps share"
             fix = f"give a standard deviation, such as `stepping: {{normal: {self.stepping.value}}}`"
-            raise bad("stepping", what, fix, why)
+            raise bad("stepping", "`stepping` is a fixed error", fix, why)
         doubled = [key for key in ("pitch_deviation", "stepping", "eccentricity") if getattr(self, key) is not None]
         if doubled and self.measured is not None and self.measured.angles is not None:
             what, why = f"`{doubled[0]}` is counted twice", "the measured angles contain it already"

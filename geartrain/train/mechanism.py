@@ -15,15 +15,7 @@ from math import cos, hypot
 from types import MappingProxyType
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import (
-    AfterValidator,
-    BeforeValidator,
-    Discriminator,
-    Field,
-    Tag,
-    model_validator,
-)
-from pydantic_core import PydanticCustomError
+from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag, model_validator
 
 from geartrain.errors import suggest
 from geartrain.numerics.containers import FrozenDict
@@ -149,17 +141,15 @@ class BearingFriction(Declared):
         if self.static is None:
             return self
         # a torque of 0 needs no unit
-        if (self.static.unit is None) != (self.sliding.unit is None) and self.static.value and self.sliding.value:
-            what = "sliding {sliding} and static {static} mix a number without a unit and a torque with a unit"
-            fix = "give both with a unit, or both without"
-        elif self.static.base < self.sliding.base:
-            what = "the static friction torque {static} is below the sliding friction torque {sliding}"
+        sliding, static = self.sliding, self.static
+        if (static.unit is None) != (sliding.unit is None) and static.value and sliding.value:
+            what = f"sliding {sliding} and static {static} mix a number without a unit and a torque with a unit"
+            raise bad("bearing", what, "give both with a unit, or both without")
+        if static.base < sliding.base:
+            what = f"the static friction torque {static} is below the sliding friction torque {sliding}"
             fix = "give `static` as `sliding` or more: static friction is never less than sliding friction"
-        else:
-            return self
-        raise PydanticCustomError(
-            "bearing", what, {"static": self.static.text, "sliding": self.sliding.text, "fix": fix}
-        )
+            raise bad("bearing", what, fix)
+        return self
 
     @property
     def at_rest(self) -> Quantity:
@@ -191,11 +181,6 @@ def _known(name: str) -> str:
     return name
 
 
-def _form(raw: object) -> str:
-    """Return the form in which the value of `of` is written: a name, numbers of wheels, or a list of tooth counts."""
-    return "name" if isinstance(raw, str) else "numbers" if isinstance(raw, Mapping) else "list"
-
-
 class OwnedWheels(Declared):
     """Stock of wheels from which a wheel of the train is chosen."""
 
@@ -203,7 +188,9 @@ class OwnedWheels(Declared):
         Annotated[str, AfterValidator(_known), Tag("name")]
         | Annotated[dict[Count, Count], Field(min_length=1), AfterValidator(FrozenDict), Tag("numbers")]
         | Annotated[tuple[Count, ...], Field(min_length=1), Tag("list")],
-        Discriminator(_form),
+        Discriminator(
+            lambda raw: "name" if isinstance(raw, str) else "numbers" if isinstance(raw, Mapping) else "list"
+        ),
     ] = Field(
         description="Tooth counts: a list, a mapping from tooth count to the number of such wheels, or the name of a "
         "construction set (lego, meccano). Wheels with the same mapping share its wheels"
@@ -260,35 +247,21 @@ class Teeth(Declared):
     def _check_counts(self) -> Teeth:
         bounds = self.range or self.search
         if isinstance(bounds, tuple) and len(bounds) == 2 and bounds[0] > bounds[1]:
-            raise PydanticCustomError(
-                "teeth",
-                "the range {low} to {high} is empty",
-                {"low": bounds[0], "high": bounds[1], "fix": "write the smaller count first"},
-            )
+            raise bad("teeth", f"the range {bounds[0]} to {bounds[1]} is empty", "write the smaller count first")
         if self.value is None and self.search is None:
-            raise PydanticCustomError(
-                "teeth", "the tooth count has no value", {"fix": "give `value`, such as `value: 20`, or `search`"}
-            )
+            raise bad("teeth", "the tooth count has no value", "give `value`, such as `value: 20`, or `search`")
         counts = self.allowed
         if self.value is not None and counts and self.value not in counts:
-            raise PydanticCustomError(
-                "teeth",
-                "the value {value} is outside its range or choices",
-                {"value": self.value, "fix": "widen the range or choices, or correct the value"},
-            )
+            what = f"the value {self.value} is outside its range or choices"
+            raise bad("teeth", what, "widen the range or choices, or correct the value")
         if self.weights is not None and len(self.weights) != len(counts):
-            raise PydanticCustomError(
-                "teeth",
-                "{given} weights are given for {count} counts",
-                {"given": len(self.weights), "count": len(counts), "fix": "give one weight for each count"},
-            )
+            what = f"{len(self.weights)} weights are given for {len(counts)} counts"
+            raise bad("teeth", what, "give one weight for each count")
         return self
 
     @property
     def allowed(self) -> tuple[int, ...]:
-        """All tooth counts that the evidence allows. It is empty if the tooth count is certain, or if `range` contains
-        more than 10^6 counts.
-        """
+        """All tooth counts that the evidence allows; empty if the count is certain or `range` has over 10^6 counts."""
         if self.choices is not None:
             return self.choices
         # a wider range is not enumerated, because its tuple would need much memory
@@ -317,9 +290,7 @@ class Teeth(Declared):
         >>> Teeth(value=64, range=(63, 65), weights=(1, 3, 0)).probabilities
         {63: Fraction(1, 4), 64: Fraction(3, 4)}
         """
-        counts = self.allowed
-        if not counts:
-            counts = tuple(self.searched)
+        counts = self.allowed or self.searched
         weights = [Fraction(1)] * len(counts) if self.weights is None else [figure.value for figure in self.weights]
         whole, found = sum(weights), dict.fromkeys(sorted(counts), Fraction(0))
         for count, weight in zip(counts, weights, strict=True):  # a count may be listed twice
@@ -356,10 +327,6 @@ class Source(Declared):
     note: str | None = Field(None, description="Remark on access to the source or its reliability")
 
 
-def _teeth_kind(raw: object) -> str:
-    return "doubt" if isinstance(raw, dict | Teeth) else "count"
-
-
 HelixAngle = Annotated[
     Angle, not_below_zero("give its magnitude, and its `hand`"), below_right_angle("measure it from the axis")
 ]
@@ -382,9 +349,10 @@ class Wheel(Declared):
 
     SHORT: ClassVar = {"type": "integer", "minimum": 1}
 
-    teeth: Annotated[Annotated[Count, Tag("count")] | Annotated[Teeth, Tag("doubt")], Discriminator(_teeth_kind)] = (
-        Field(description="Tooth count, or an uncertain count with its range; for a worm, the number of starts")
-    )
+    teeth: Annotated[
+        Annotated[Count, Tag("count")] | Annotated[Teeth, Tag("doubt")],
+        Discriminator(lambda raw: "doubt" if isinstance(raw, dict | Teeth) else "count"),
+    ] = Field(description="Tooth count, or an uncertain count with its range; for a worm, the number of starts")
     internal: Boolean = Field(
         False, description="True for a ring (internal teeth); a mesh with a ring preserves the sense of rotation"
     )
@@ -438,26 +406,14 @@ class Wheel(Declared):
         return self.teeth if isinstance(self.teeth, Teeth) and len(self.teeth.allowed) > 1 else None
 
     @model_validator(mode="after")
-    def _check_helix_angle(self) -> Wheel:
+    def _check_kind(self) -> Wheel:
         if self.helix_angle is not None and self.kind in ("bevel", "contrate"):
-            raise PydanticCustomError(
-                "helix_angle",
-                "a {kind} wheel cannot have a helix angle",
-                {"kind": self.kind, "fix": "remove `helix_angle`: only spur wheels, rings and worms have one"},
-            )
-        return self
-
-    @model_validator(mode="after")
-    def _check_flexible(self) -> Wheel:
+            fix = "remove `helix_angle`: only spur wheels, rings and worms have one"
+            raise bad("helix_angle", f"a {self.kind} wheel cannot have a helix angle", fix)
         if self.flexible and (self.internal or self.kind != "spur"):
-            raise PydanticCustomError(
-                "flexible",
-                "a {kind} cannot be flexible",
-                {
-                    "kind": "ring" if self.internal else f"{self.kind} wheel",
-                    "fix": "write `flexible: true` for the spur wheel (flexspline) that meshes with the ring",
-                },
-            )
+            kind = "ring" if self.internal else f"{self.kind} wheel"
+            fix = "write `flexible: true` for the spur wheel (flexspline) that meshes with the ring"
+            raise bad("flexible", f"a {kind} cannot be flexible", fix)
         return self
 
     @property
@@ -526,9 +482,7 @@ class Link(Declared):
 
     @property
     def friction_radius(self) -> float:
-        """Radius of the friction circle of the link's bearing [m], which is f/sqrt(1 + f^2) times the radius of the
-        pivot with the coefficient of friction f; 0 if the friction of the bearing does not depend on the load.
-        """
+        """Radius of the friction circle [m]: r f/sqrt(1 + f^2) for pivot radius r and friction f; 0 if undeclared."""
         if self.bearing is None or not self.bearing.coefficient or not self.bearing.coefficient.value:
             return 0.0
         mu, radius = float(self.bearing.coefficient.value), self.bearing.radius

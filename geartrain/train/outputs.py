@@ -10,7 +10,6 @@ from math import atan2, pi
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Field, ValidationInfo, model_validator
-from pydantic_core import PydanticCustomError
 
 from geartrain.errors import suggest
 from geartrain.numerics.containers import FrozenDict
@@ -42,7 +41,7 @@ _EXTRA_DIGITS = 2  # of a computed period, more than the source prints
 
 @dataclass(frozen=True, slots=True)
 class PrintedPeriod(Figure):
-    """Time as printed in a source. `value` and `half`, half a unit of its last digit [s], do not include its years."""
+    """Time as printed in a source. `value` [s] is the time without its years, which are a separate field."""
 
     years: Fraction
     """Number of years in the printed time; 0 if it has none."""
@@ -77,10 +76,7 @@ class PrintedPeriod(Figure):
         return cls(seconds, last / 10**decimals / 2, text, years, units, decimals)
 
     def in_seconds(self, year: Fraction | None) -> Figure:
-        """Return the time, and half a unit of its last digit as its uncertainty [s].
-
-        year   length of a year [s], which is used only if the time has years
-        """
+        """Return the time, with half a unit of its last digit as uncertainty [s]; `year` is the year's length [s]."""
         length = year or Fraction(0)
         half = length / 10**self.decimals / 2 if self.units == (_YEAR,) else self.half
         return Figure(self.value + self.years * length, half, self.text)
@@ -133,9 +129,7 @@ def _read_whole(raw: object) -> int:
         return number
     shown = text if len(text) <= 30 else f"{text[:27]}..."
     fix = f"write `names: {text}`" if text in NAMED_SCALES else f"give a whole number from 1 to {_MOST:,}"
-    raise PydanticCustomError(
-        "dial", "{shown} is not a valid number of divisions or turns", {"shown": shown, "fix": fix}
-    )
+    raise bad("dial", f"{shown} is not a valid number of divisions or turns", fix)
 
 
 Whole = Annotated[int, BeforeValidator(_read_whole)]
@@ -203,10 +197,9 @@ class Graduation(Declared):
         names, own = raw["names"], dict(raw)
         if isinstance(names, str):
             if names not in NAMED_SCALES:
-                fix = suggest(
-                    names, NAMED_SCALES, otherwise=f"use one of {', '.join(NAMED_SCALES)}, or a list of names"
-                )
-                raise PydanticCustomError("dial", "the scale '{names}' is unknown", {"names": names, "fix": fix})
+                otherwise = f"use one of {', '.join(NAMED_SCALES)}, or a list of names"
+                fix = suggest(names, NAMED_SCALES, otherwise=otherwise)
+                raise bad("dial", f"the scale '{names}' is unknown", fix)
             cell, parts = NAMED_SCALES[names]
             own.setdefault("divisions", sum(span for _, span in parts))
             # a division is a degree or a day only if the scale keeps its number of divisions
@@ -228,34 +221,21 @@ class Graduation(Declared):
         given = [span for span in spans if span is not None]
         if given and len(given) < len(spans):
             missing = next(each.name for each in self.names if each.span is None)
-            fix = {"name": missing, "fix": "give a span to every name, or to none"}
-            raise PydanticCustomError("dial", "'{name}' has no span, but other names have one", fix)
-        if given and sum(given) != self.divisions:
-            off = sum(given) - self.divisions
-            raise PydanticCustomError(
-                "dial",
-                "the spans of its names add up to {total}, {off} too {way} for {divisions} divisions",
-                {
-                    "total": sum(given),
-                    "off": abs(off),
-                    "way": "many" if off > 0 else "few",
-                    "divisions": self.divisions,
-                    "fix": "make the spans add up to `divisions`, or omit `divisions`",
-                },
-            )
+            fix = "give a span to every name, or to none"
+            raise bad("dial", f"'{missing}' has no span, but other names have one", fix)
+        if given and (off := sum(given) - self.divisions):
+            excess = f"{abs(off)} too {'many' if off > 0 else 'few'} for {self.divisions} divisions"
+            fix = "make the spans add up to `divisions`, or omit `divisions`"
+            raise bad("dial", f"the spans of its names add up to {sum(given)}, {excess}", fix)
         for cell in (*self.glyphs, *self.doubled):
             if cell > self.divisions:
-                context = {
-                    "cell": cell,
-                    "divisions": self.divisions,
-                    "fix": f"give a number from 1 to {self.divisions}",
-                }
-                raise PydanticCustomError("dial", "cell {cell} is beyond the {divisions} divisions", context)
+                what = f"cell {cell} is beyond the {self.divisions} divisions"
+                raise bad("dial", what, f"give a number from 1 to {self.divisions}")
         known = {*self.cell_names, *(each.name for each in self.names)}
         for name in self.inscriptions:
             if name not in known:
-                near = suggest(name, sorted(known), otherwise="write one of the names of the dial")
-                raise PydanticCustomError("dial", "the dial has no name '{name}'", {"name": name, "fix": near})
+                fix = suggest(name, sorted(known), otherwise="write one of the names of the dial")
+                raise bad("dial", f"the dial has no name '{name}'", fix)
         return self
 
     @property
@@ -279,12 +259,12 @@ class Graduation(Declared):
 
 
 def _distribute_names(name: str, parts: tuple[tuple[str, int], ...], divisions: object) -> list[tuple[str, int]]:
-    """Return the labels of a scale, each with its share of another total number of divisions."""
+    """Return the labels of a scale, each with its number of divisions if the scale has `divisions` divisions."""
     total, count = sum(span for _, span in parts), _read_whole(divisions)
     shares = [(part, Fraction(span * count, total)) for part, span in parts]
     if any(share.denominator > 1 for _, share in shares):
-        context = {"name": name, "divisions": count, "fix": f"give `divisions: {total}`, or omit `divisions`"}
-        raise PydanticCustomError("dial", "{divisions} divisions cannot be distributed over the scale {name}", context)
+        what = f"{count} divisions cannot be distributed over the scale {name}"
+        raise bad("dial", what, f"give `divisions: {total}`, or omit `divisions`")
     return [(part, int(share)) for part, share in shares]
 
 
@@ -358,12 +338,7 @@ class Dial(Graduation):
         return outer - DEPTH
 
     def reach(self, right: float, up: float) -> float:
-        """Return the extent of the engraving in a direction, divided by the radius of the dial. A spiral reaches this
-        radius only at its outer end.
-
-        right   component of the direction to the right of the reader; its length is arbitrary
-        up      component of the direction upwards
-        """
+        """Return how far the engraving extends in a direction (right, up) of any length, in radii of the dial."""
         if self.turns == 1 or self.around is not None:
             return 1.0
         turn = atan2(right if self.counted == "clockwise" else -right, up) / (2 * pi) % 1
@@ -374,10 +349,7 @@ _BEHIND = ("back", "rear", "behind")  # words for the far side; other dials face
 
 
 def looks_away(face: str | None, seen_from: str | None) -> bool:
-    """Return True if a dial faces away from an observer; `face` is as in `Dial.face`, `seen_from` as in `View.from_`.
-
-    A dial with face None faces the observer.
-    """
+    """Return True if the given face of the train is not visible from the given side; False if no face is given."""
     return face is not None and (face in _BEHIND) != (seen_from in _BEHIND)
 
 
@@ -398,11 +370,7 @@ def _check_calendar_unit(raw: object) -> object:
     if found := _CALENDAR_PERIOD.fullmatch(str(raw)[:100]):
         name = "month_synodic_J2000" if found[2] == "month" else "year_tropical_J2000"
         fix = f"write `{{name: {name}, turns: 1/{found[1]}}}` or another name of `geartrain periods`, or a time in days"
-        raise PydanticCustomError(
-            "unit",
-            "'{text}' has an unknown unit",
-            {"text": str(raw), "why": "years and months have several lengths", "fix": fix},
-        )
+        raise bad("unit", f"'{raw}' has an unknown unit", fix, "years and months have several lengths")
     return raw
 
 
@@ -441,31 +409,15 @@ class Target(Declared):
     note: str | None = Field(None, description="Remark for readers")
 
     @model_validator(mode="after")
-    def _has_one_key(self) -> Target:
-        return exactly_one(self, "a target", ("name", "period", "speed"))
-
-    @model_validator(mode="after")
-    def _check_sign(self) -> Target:
-        if self.sense is not None and self.speed is not None:
-            raise PydanticCustomError(
-                "target",
-                "the speed {speed} and `sense` are both given",
-                {"speed": self.speed.text, "fix": "omit `sense`, and write a retrograde speed with a minus sign"},
-            )
-        return self
-
-    @model_validator(mode="after")
-    def _check_tolerance(self) -> Target:
+    def _check_keys(self) -> Target:
+        exactly_one(self, "a target", ("name", "period", "speed"))
         tolerance = self.tolerance
+        if self.sense is not None and self.speed is not None:
+            fix = "omit `sense`, and write a retrograde speed with a minus sign"
+            raise bad("target", f"the speed {self.speed} and `sense` are both given", fix)
         if tolerance and tolerance.unit is not None and self.speed is not None and not self.speed.value:
-            raise PydanticCustomError(
-                "target",
-                "a relative tolerance of {tolerance} is 0 for a speed of 0",
-                {
-                    "tolerance": tolerance.text,
-                    "fix": "give the maximum difference as a number in the train's unit",
-                },
-            )
+            fix = "give the maximum difference as a number in the train's unit"
+            raise bad("target", f"a relative tolerance of {tolerance} is 0 for a speed of 0", fix)
         return self
 
 
@@ -485,10 +437,7 @@ class Expect(Declared):
     )
 
     def holds(self, speed: Any) -> bool:
-        """Return True if a speed agrees with the expected value within the tolerance.
-
-        speed   exact speed [unit of the train]
-        """
+        """Return True if a speed [unit of the train] agrees with the expected value within the tolerance."""
         return self.value.holds(speed, self.tolerance.value if self.tolerance else None)
 
 
@@ -541,19 +490,12 @@ class Published(Declared):
         return self.magnitude or (self.as_ == "period" and self.sense is None)
 
     @model_validator(mode="after")
-    def _check_ratio(self) -> Published:
+    def _check_value(self) -> Published:
         # a printed 0.0 is rounded, and permits a small ratio
         exact = self.value.half is None and (self.tolerance is None or not self.tolerance.value)
         if self.as_ == "input/output" and not self.value.value and exact:
-            raise PydanticCustomError(
-                "published",
-                "an input/output ratio of 0 would mean that the input is at rest",
-                {"fix": "write `{value: 0, as: output/input}` for an output at rest"},
-            )
-        return self
-
-    @model_validator(mode="after")
-    def _check_sign(self) -> Published:
+            what = "an input/output ratio of 0 would mean that the input is at rest"
+            raise bad("published", what, "write `{value: 0, as: output/input}` for an output at rest")
         period = self.as_ == "period"
         if period and not (isinstance(self.value, PrintedPeriod) and self.value.above_zero):
             fix = "write `{value: 0, as: speed}` for a link at rest"

@@ -14,7 +14,7 @@ from fractions import Fraction
 from functools import cache
 from importlib import resources
 from types import MappingProxyType
-from typing import Literal
+from typing import Literal, cast
 
 from geartrain.errors import suggest
 
@@ -92,20 +92,14 @@ def read_date(text: str, calendar: Calendar | None = None) -> CalendarDate:
 
 
 def _split_julian(days: int) -> tuple[int, int]:
-    """Split a number of days since 1 March into whole Julian years and remaining days.
-
-    Every four years have 1461 days; the last of them is the leap year.
-    """
+    """Return the number of whole Julian years in a number of days since 1 March, and the remaining days."""
     fours, rest = divmod(days, 1461)
     years = min(rest // 365, 3)
     return 4 * fours + years, rest - 365 * years
 
 
 def _split_gregorian(days: int) -> tuple[int, int]:
-    """Split a number of days since 1 March of the year 0 into whole Gregorian years and remaining days.
-
-    Every 400 years have 146097 days; the last of their four centuries is one day longer than the others.
-    """
+    """Return the whole Gregorian years in a number of days since 1 March of the year 0, and the remaining days."""
     rounds, rest = divmod(days, 146097)
     hundreds = min(rest // 36524, 3)
     year, rest = _split_julian(rest - 36524 * hundreds)
@@ -147,15 +141,8 @@ def period_table() -> Mapping[str, Period]:
     text = resources.files(__package__).joinpath("periods.csv").read_text(encoding="utf-8")
     rows = {}
     for row in csv.DictReader(text.splitlines()):
-        value = Fraction(row["exact"] or row["value"])
-        rows[row["name"]] = Period(
-            row["name"],
-            row["kind"],  # type: ignore[arg-type]
-            value,
-            row["what"],
-            row["source"],
-            row["confidence"],
-        )
+        value, kind = Fraction(row["exact"] or row["value"]), cast(Literal["period", "speed", "count"], row["kind"])
+        rows[row["name"]] = Period(row["name"], kind, value, row["what"], row["source"], row["confidence"])
     return MappingProxyType(rows)
 
 

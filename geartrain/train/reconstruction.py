@@ -6,10 +6,9 @@ from collections.abc import Mapping
 from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from geartrain.numerics.plain_values import Boolean, whole_from
-from geartrain.numerics.quantity import Figure, MeasuredLength, Quantity, Share, above_zero
+from geartrain.numerics.quantity import Figure, MeasuredLength, Quantity, Share, above_zero, bad
 from geartrain.train.fields import Count, Declared, Id
 
 MOST_ADDED = 1000
@@ -19,8 +18,7 @@ NEW_ARBOR = "new"
 
 def _ordered(bounds: tuple[int, int]) -> tuple[int, int]:
     if bounds[0] > bounds[1]:
-        context = {"low": bounds[0], "high": bounds[1], "fix": "write the smaller count first"}
-        raise PydanticCustomError("teeth", "the range {low} to {high} is empty", context)
+        raise bad("teeth", f"the range {bounds[0]} to {bounds[1]} is empty", "write the smaller count first")
     return bounds
 
 
@@ -45,11 +43,8 @@ class AddedParts(Declared):
     @model_validator(mode="after")
     def _check_bounds(self) -> AddedParts:
         if self.wheels and self.teeth is None:
-            raise PydanticCustomError(
-                "add",
-                "no range of tooth counts is given for added wheels",
-                {"fix": "for example, add `teeth: [12, 225]`"},
-            )
+            what = "no range of tooth counts is given for added wheels"
+            raise bad("add", what, "for example, add `teeth: [12, 225]`")
         return self
 
 

@@ -22,9 +22,7 @@ from geartrain.train.states import Drive, State
 
 
 def mixed_inputs(train: Train) -> Iterator[Problem]:
-    """Yield a problem if inputs with and without units are mixed, or if inputs are per time although the train's unit
-    is not a time. Inputs of 0 are accepted with or without a unit.
-    """
+    """Yield a problem if inputs with and without units are mixed, or have units that do not fit the train's unit."""
     inputs = [
         ((*loc, "inputs", link), speed)
         for loc, part in train.cases_declared
@@ -37,9 +35,8 @@ def mixed_inputs(train: Train) -> Iterator[Problem]:
     if plain is not None:
         kind = "number without a unit" if plain[1].unit is None else "travel per unit of the train, not per time"
         why = f"'{plain[1]}' is a {kind} and '{named[1]}' has a unit"
-        yield Problem(
-            "inputs with and without units are mixed", why, "give all inputs a unit, or none", train.place(*plain[0])
-        )
+        what, fix = "inputs with and without units are mixed", "give all inputs a unit, or none"
+        yield Problem(what, why, fix, train.place(*plain[0]))
     if train.unit is not None and train.unit_days is None:
         what = f"the input '{named[1]}' does not match the unit of the train"
         why = f"the input is a speed per time, but `unit` is one turn per {train.unit.per}, which is not a time"
@@ -67,13 +64,6 @@ def mixed_torques(train: Train) -> Iterator[Problem]:
             return
 
 
-def rates(train: Train) -> Iterator[Problem]:
-    """Yield a problem if the rate of the train is declared both by `rate` and by `drive`."""
-    if train.rate is not None and train.drive is not None and train.drive.rate is not None:
-        why = f"`rate` is {train.rate}, and the rate of `drive` is {train.drive.rate}"
-        yield Problem("the rate is declared twice", why, "remove one of them", train.place("drive", "rate"))
-
-
 _TARGET_KEYS = "write a speed as `{speed: 5/19}`, a time as `{period: 365.25 d}`, turns as `{name: NAME, turns: 5}`"
 
 
@@ -89,38 +79,26 @@ def target_units(train: Train, target: Target, loc: Loc) -> Iterator[Problem]:
             yield Problem(what, "a target given as a string is a name in the table of periods", fix, place)
             return
         if row.kind == "count":
-            yield Problem(
+            what, fix = (
                 f"'{target.name}' is a count and cannot be a target",
-                "a target is a speed or a period",
                 "choose a period or a speed listed by `geartrain periods`",
-                place,
             )
+            yield Problem(what, "a target is a speed or a period", fix, place)
             return
         # speeds of the table are in turns per year
         if row.kind == "speed" and not (train.unit and train.unit.per.startswith("year")):
-            yield Problem(
-                f"'{target.name}' is a speed in turns per year",
-                "the train's unit is not a year",
-                "add `unit: {per: year_tropical_J2000}`, or give a period",
-                place,
-            )
+            what, why = f"'{target.name}' is a speed in turns per year", "the train's unit is not a year"
+            yield Problem(what, why, "add `unit: {per: year_tropical_J2000}`, or give a period", place)
             return
     length = train.unit_quantity is not None and train.unit_quantity.dimension == "length"
     if target.period is not None and target.period.dimension == "length":
         if not length:
-            yield Problem(
-                f"the target '{target.period}' is a length",
-                "the train's unit is not a length",
-                "for example, add `unit: {per: 18 ft}`",
-                place,
-            )
+            what, why = f"the target '{target.period}' is a length", "the train's unit is not a length"
+            yield Problem(what, why, "for example, add `unit: {per: 18 ft}`", place)
     elif target.speed is None and train.unit_days is None:
-        yield Problem(
-            "a period cannot be a target of this train",
-            "the train's unit is not a time" if train.unit else "the train has no unit of time",
-            "for example, add `unit: {per: 1 d}`: a speed of 1 is then one turn per day",
-            place,
-        )
+        why = "the train's unit is not a time" if train.unit else "the train has no unit of time"
+        fix = "for example, add `unit: {per: 1 d}`: a speed of 1 is then one turn per day"
+        yield Problem("a period cannot be a target of this train", why, fix, place)
 
 
 def published_units(train: Train, published: Published, loc: Loc) -> Iterator[Problem]:
@@ -138,17 +116,6 @@ def published_units(train: Train, published: Published, loc: Loc) -> Iterator[Pr
         what = f"the length of the years of '{printed}' is not known"
         why = "years have several lengths, and y is the unit of the train only if that is a year"
         yield Problem(what, why, "write the period in days, or declare `unit: {per: 365.25 d}`", train.place(*loc))
-
-
-def _epoch_units(train: Train) -> Iterator[Problem]:
-    """Yield a problem if an epoch is declared but the train's unit is not a time."""
-    if train.epoch is not None and train.unit_days is None:
-        yield Problem(
-            "the epoch needs a unit of time",
-            f"`unit` converts turns to days; {f'{train.unit.per} is not a time' if train.unit else 'none is declared'}",
-            "for example, add `unit: {per: year_tropical_J2000}`",
-            train.place("epoch"),
-        )
 
 
 def set_outputs(train: Train) -> Iterator[Problem]:
@@ -177,50 +144,33 @@ def _suggested_unit(train: Train, per: str) -> str:
 
 
 def declared_units(train: Train) -> Iterator[Problem]:
-    """Yield a problem if the unit is invalid, if an epoch is declared without a unit of time, or if lengths with and
-    without units are mixed.
-    """
-    yield from _epoch_units(train)
-    if train.unit is not None and train.unit.per not in period_table() and train.unit_quantity is None:
-        yield Problem(
-            f"'{train.unit.per}' is not a unit",
-            "`per` is a time, a length, or a period listed by `geartrain periods`",
-            _suggested_unit(train, train.unit.per),
-            train.place("unit"),
-        )
-    elif (
-        train.unit is not None and train.unit.per in period_table() and period_table()[train.unit.per].kind != "period"
-    ):
-        yield Problem(
-            f"'{train.unit.per}' is not a period",
-            "a speed of 1 is one turn per period, time or length",
-            "give a time, a length or a period listed by `geartrain periods`",
-            train.place("unit"),
-        )
-    elif train.unit_quantity is not None and train.unit_quantity.value <= 0:
-        yield Problem(
-            f"a unit must be greater than 0, not '{train.unit_quantity}'",
-            "a speed of 1 means one turn per unit",
-            "give a time or a length above 0",
-            train.place("unit"),
-        )
-    plain: list[Loc] = []
-    named: list[Loc] = []
-    for label, axis in train.axes.items():
-        for length in axis.position or ():
-            if length.value:
-                (plain if length.unit is None else named).append(("axes", label))
-    for at, coupling in enumerate(train.couplings):
-        for size in coupling.lengths:
-            if size.value:
-                (plain if size.unit is None else named).append(("couplings", at))
-    if plain and named:
-        yield Problem(
-            "lengths with and without units are mixed",
-            f"`{dotted(named[0])}` has a unit, but this value has none",
-            "give all lengths a unit, or none",
-            train.place(*plain[0]),
-        )
+    """Yield a problem for an invalid unit, an epoch without a unit of time, and lengths with and without units."""
+    if train.epoch is not None and train.unit_days is None:
+        reason = f"{train.unit.per} is not a time" if train.unit else "none is declared"
+        fix = "for example, add `unit: {per: year_tropical_J2000}`"
+        place = train.place("epoch")
+        yield Problem("the epoch needs a unit of time", f"`unit` converts turns to days; {reason}", fix, place)
+    if train.unit is not None:
+        per, quantity, place = train.unit.per, train.unit_quantity, train.place("unit")
+        row = period_table().get(per)
+        if row is None and quantity is None:
+            why = "`per` is a time, a length, or a period listed by `geartrain periods`"
+            yield Problem(f"'{per}' is not a unit", why, _suggested_unit(train, per), place)
+        elif row is not None and row.kind != "period":
+            why = "a speed of 1 is one turn per period, time or length"
+            fix = "give a time, a length or a period listed by `geartrain periods`"
+            yield Problem(f"'{per}' is not a period", why, fix, place)
+        elif quantity is not None and quantity.value <= 0:
+            what, why = f"a unit must be greater than 0, not '{quantity}'", "a speed of 1 means one turn per unit"
+            yield Problem(what, why, "give a time or a length above 0", place)
+    lengths: list[tuple[Loc, Quantity]]
+    lengths = [(("axes", label), length) for label, axis in train.axes.items() for length in axis.position or ()]
+    lengths += [(("couplings", at), size) for at, coupling in enumerate(train.couplings) for size in coupling.lengths]
+    plain = next((loc for loc, length in lengths if length.value and length.unit is None), None)
+    named = next((loc for loc, length in lengths if length.value and length.unit is not None), None)
+    if plain is not None and named is not None:
+        what, why = "lengths with and without units are mixed", f"`{dotted(named)}` has a unit, but this value has none"
+        yield Problem(what, why, "give all lengths a unit, or none", train.place(*plain))
 
 
 # ----------------------------------------------------------------------------------------------------------- references
@@ -229,18 +179,23 @@ def declared_units(train: Train) -> Iterator[Problem]:
 def find_problems(train: Train) -> Iterator[Problem]:
     """Yield a problem for every unresolved reference and every invalid combination in a train."""
     if train.remove is not None and train.extends is None:
-        why = "it removes parts of a parent, and no parent is named"
-        yield Problem(
-            "`remove` is given without `extends`",
-            why,
-            "add `extends: parent.yaml`, or delete `remove`",
-            train.place("remove"),
-        )
+        what, why = "`remove` is given without `extends`", "it removes parts of a parent, and no parent is named"
+        yield Problem(what, why, "add `extends: parent.yaml`, or delete `remove`", train.place("remove"))
     yield from _links(train)
     yield from _wheels(train)
     yield from _materials(train)
     yield from _couplings(train)
-    yield from _unresolved(train)
+    known: dict[str, Collection[str]] = {
+        "link": train.links,
+        "wheel": train.wheels,
+        "dial": train.dials,
+        "clutch": train.clutches,
+        "source": train.sources,
+        "output, link, wheel, dial or coupling": train.tour_parts,
+    }
+    for kind, name, loc in _references(train):
+        if name is not None and name not in known[kind]:
+            yield _unknown(train, kind, name, known[kind], *loc)
     yield from _prescriptions(train)
     yield from _one_way(train)
     yield from _dials(train)
@@ -290,12 +245,9 @@ def _links(train: Train) -> Iterator[Problem]:
     if train.reconstruct is not None:  # evidence need not declare the frame
         links = {train.frame, *links}
     if train.frame not in links and "frame" not in train.model_fields_set:
-        yield Problem(
-            "no link 'frame'",
-            "it is the fixed link, unless the key `frame` names another one",
-            f"add `frame: {{}}` to `links`, or name the fixed link: `frame: {next(iter(links), 'case')}`",
-            train.place("links"),
-        )
+        why = "it is the fixed link, unless the key `frame` names another one"
+        fix = f"add `frame: {{}}` to `links`, or name the fixed link: `frame: {next(iter(links), 'case')}`"
+        yield Problem("no link 'frame'", why, fix, train.place("links"))
     elif train.frame not in links:
         yield _unknown(train, "link", train.frame, links, "frame")
     labels = set()
@@ -308,12 +260,8 @@ def _links(train: Train) -> Iterator[Problem]:
             if link not in links and link != train.frame:
                 yield _unknown(train, "link", link, links, key, at, "pair")
         if joint.pair[0] == joint.pair[1]:
-            yield Problem(
-                f"a {kind} pair connects '{joint.pair[0]}' to itself",
-                f"a {kind} pair connects two different links",
-                "name the other link",
-                train.place(key, at),
-            )
+            what, why = f"a {kind} pair connects '{joint.pair[0]}' to itself", "its two links must be different"
+            yield Problem(what, why, "name the other link", train.place(key, at))
     for label in train.axes:
         if label not in labels:
             yield _unknown(train, "turning pair with the axis", label, labels, "axes", label)
@@ -337,9 +285,7 @@ def _materials(train: Train) -> Iterator[Problem]:
 
 
 def _measured(train: Train, link: str, wheel: str) -> Iterator[Problem]:
-    """Yield a problem for each table of measurements whose length differs from the tooth count, and for measured angles
-    that do not increase from tooth to tooth.
-    """
+    """Yield a problem for measurements that are not one per tooth, and for measured angles that do not increase."""
     count, cutting = train.links[link].wheels[wheel].count, train.links[link].wheels[wheel].cutting
     if cutting is None or cutting.measured is None or count is None:
         return
@@ -374,12 +320,9 @@ def _wheels(train: Train) -> Iterator[Problem]:
     for link, part in train.links.items():
         for wheel in part.wheels:
             if wheel in owner:
-                yield Problem(
-                    f"wheel '{wheel}' is declared twice",
-                    f"it is on link '{owner[wheel]}' and on link '{link}'",
-                    "rename one, because wheel ids are unique in a train",
-                    train.place("links", link, "wheels", wheel),
-                )
+                why, fix = f"it is on link '{owner[wheel]}' and on link '{link}'", "give one of the wheels another name"
+                place = train.place("links", link, "wheels", wheel)
+                yield Problem(f"wheel '{wheel}' is declared twice", why, fix, place)
             owner[wheel] = link
             yield from _measured(train, link, wheel)
     wheels, names = train.wheels, set()
@@ -401,28 +344,17 @@ def _wheels(train: Train) -> Iterator[Problem]:
             continue
         place = train.place("gears", at, "pair")
         if link_1 == link_2:
-            yield Problem(
-                f"gear pair '{gear.name}' connects two wheels of the same link",
-                f"'{first}' and '{second}' are both on link '{link_1}', so they cannot turn relative to each other",
-                "put one of them on another link",
-                place,
-            )
+            what = f"gear pair '{gear.name}' connects two wheels of the same link"
+            why = f"'{first}' and '{second}' are both on link '{link_1}', so they cannot turn relative to each other"
+            yield Problem(what, why, "put one of them on another link", place)
         elif wheel_1.internal and wheel_2.internal:
-            yield Problem(
-                f"gear pair '{gear.name}' connects two rings",
-                "two wheels with internal teeth cannot mesh",
-                "remove `internal: true` from one of them",
-                place,
-            )
+            what, why = f"gear pair '{gear.name}' connects two rings", "two wheels with internal teeth cannot mesh"
+            yield Problem(what, why, "remove `internal: true` from one of them", place)
         elif wheel_1.kind == wheel_2.kind == "worm" or (
             "worm" in (wheel_1.kind, wheel_2.kind) and (wheel_1.internal or wheel_2.internal)
         ):
-            yield Problem(
-                f"gear pair '{gear.name}' is not a valid worm drive",
-                "a worm meshes with an external wheel",
-                "declare one worm and one external wheel",
-                place,
-            )
+            what, why = f"gear pair '{gear.name}' is not a valid worm drive", "a worm meshes with an external wheel"
+            yield Problem(what, why, "declare one worm and one external wheel", place)
     for at, coupling in enumerate(train.couplings):
         for name in dict.fromkeys((coupling.name, *coupling.row_names)):
             if name in names:
@@ -431,12 +363,8 @@ def _wheels(train: Train) -> Iterator[Problem]:
 
 
 def _duplicate(train: Train, kind: str, name: str, *loc: str | int) -> Problem:
-    return Problem(
-        f"{kind} '{name}' is declared twice",
-        "the ids of all pairs and couplings must be different",
-        "give one of them another `id`",
-        train.place(*loc),
-    )
+    why = "the ids of all pairs and couplings must be different"
+    return Problem(f"{kind} '{name}' is declared twice", why, "give one of them another `id`", train.place(*loc))
 
 
 def _couplings(train: Train) -> Iterator[Problem]:
@@ -445,21 +373,6 @@ def _couplings(train: Train) -> Iterator[Problem]:
         # unknown names are reported as such
         if all(name in known[kind] for kind, name, _ in coupling.references()):
             yield from (Problem(*each, train.place("couplings", at)) for each in coupling.problems(train.wheels))
-
-
-def _unresolved(train: Train) -> Iterator[Problem]:
-    """Yield a problem for each reference to a link, wheel, dial, clutch or source that is not declared."""
-    known: dict[str, Collection[str]] = {
-        "link": train.links,
-        "wheel": train.wheels,
-        "dial": train.dials,
-        "clutch": train.clutches,
-        "source": train.sources,
-        "output, link, wheel, dial or coupling": train.tour_parts,
-    }
-    for kind, name, loc in _references(train):
-        if name is not None and name not in known[kind]:
-            yield _unknown(train, kind, name, known[kind], *loc)
 
 
 def _references(train: Train) -> Iterator[tuple[str, str | None, Loc]]:
@@ -543,12 +456,8 @@ def _dials(train: Train) -> Iterator[Problem]:
 def _prescriptions(train: Train) -> Iterator[Problem]:
     for loc, part in train.cases_declared:
         if train.frame in (part.inputs or ()):
-            yield Problem(
-                f"the frame '{train.frame}' is an input",
-                "its speed is 0 by definition",
-                "prescribe the speed of another link",
-                train.place(*loc, "inputs"),
-            )
+            what, why = f"the frame '{train.frame}' is an input", "its speed is 0 by definition"
+            yield Problem(what, why, "prescribe the speed of another link", train.place(*loc, "inputs"))
         for name, output in part.outputs.items():
             for at, target in enumerate(output.targets):
                 yield from target_units(train, target, (*loc, "outputs", name, "targets", at))
@@ -557,15 +466,13 @@ def _prescriptions(train: Train) -> Iterator[Problem]:
     yield from mixed_inputs(train)
     yield from mixed_torques(train)
     yield from sliding_problems(train)
-    yield from rates(train)
+    if train.rate is not None and train.drive is not None and train.drive.rate is not None:
+        why = f"`rate` is {train.rate}, and the rate of `drive` is {train.drive.rate}"
+        yield Problem("the rate is declared twice", why, "remove one of them", train.place("drive", "rate"))
     if train.escapement is not None and train.escapement.link == train.frame in train.links:
         what = f"the escapement is on the frame '{train.frame}', which does not turn"
-        yield Problem(
-            what,
-            "an escapement acts on a link that turns",
-            "name the link of the escape wheel",
-            train.place("escapement", "link"),
-        )
+        why, fix = "an escapement acts on a link that turns", "name the link of the escape wheel"
+        yield Problem(what, why, fix, train.place("escapement", "link"))
 
 
 def _one_way(train: Train) -> Iterator[Problem]:
@@ -587,32 +494,24 @@ def _reconstruction(train: Train) -> Iterator[Problem]:
     if requested is None:
         return
     if NEW_ARBOR in train.links:
-        yield Problem(
-            f"'{NEW_ARBOR}' is not allowed as the name of a surviving link",
-            f"in evidence `of: {NEW_ARBOR}` means that the arbor of a pointer does not survive",
-            "rename the link",
-            train.place("links", NEW_ARBOR),
-        )
+        what = f"'{NEW_ARBOR}' is not allowed as the name of a surviving link"
+        why = f"in evidence `of: {NEW_ARBOR}` means that the arbor of a pointer does not survive"
+        yield Problem(what, why, "rename the link", train.place("links", NEW_ARBOR))
     if requested.carrier is not None and requested.carrier not in (*train.links, train.frame):
         yield _unknown(train, "link", requested.carrier, train.links, "reconstruct", "carrier")
     seen = {frozenset(gear.pair) for gear in train.gears}
     for at, pair in enumerate(requested.apart):
         if frozenset(pair) in seen:
-            yield Problem(
+            what, why = (
                 f"'{pair[0]}' and '{pair[1]}' are declared to mesh and not to mesh",
                 "the pair is also in `gears`",
-                "remove it from one of the two lists",
-                train.place("reconstruct", "apart", at),
             )
+            yield Problem(what, why, "remove it from one of the two lists", train.place("reconstruct", "apart", at))
     for wheel in requested.geometry.radii if requested.geometry is not None else ():
         if wheel in train.wheels and train.wheels[wheel][1].module is not None:
-            why = "one follows from the other and the tooth count"
-            yield Problem(
-                f"both a module and a pitch radius are given for '{wheel}'",
-                why,
-                "give only the one that was measured",
-                train.place("reconstruct", "geometry", "radii", wheel),
-            )
+            what = f"both a module and a pitch radius are given for '{wheel}'"
+            why, fix = "one follows from the other and the tooth count", "give only the one that was measured"
+            yield Problem(what, why, fix, train.place("reconstruct", "geometry", "radii", wheel))
 
 
 # ----------------------------------------------------------------------------------------------------- links that slide

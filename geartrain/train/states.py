@@ -12,7 +12,6 @@ from math import inf, pi, tau
 from typing import TYPE_CHECKING, Annotated, ClassVar, Literal, NamedTuple
 
 from pydantic import BeforeValidator, Field, model_validator
-from pydantic_core import PydanticCustomError
 
 from geartrain.errors import Loc, Problem
 from geartrain.numerics.exact import abridged_text, decimal
@@ -133,10 +132,7 @@ class SpringDrive(Declared):
         )
 
     def torque(self, unwound: float) -> float:
-        """Return the torque on the driving link after it has turned by a given angle in the driving direction [N m].
-
-        unwound   angle by which the link has turned [rad]
-        """
+        """Return the torque on the driving link [N m] after this link has turned by `unwound` [rad] since the start."""
         if (chained := self.chained) is not None:
             return chained.torque(unwound)
         return self.stiffness.si * (tau * float(self.turns.value) - unwound)
@@ -168,11 +164,8 @@ class HandDrive(Declared):
     def _has_one_key(self) -> HandDrive:
         exactly_one(self, "a hand", ("torque", "rate"))
         if self.torque is not None and self.stiffness is not None:
-            raise PydanticCustomError(
-                "drive",
-                "`stiffness` applies only to a hand with a `rate`",
-                {"fix": "omit `stiffness`, or give `rate` instead of `torque`"},
-            )
+            fix = "omit `stiffness`, or give `rate` instead of `torque`"
+            raise bad("drive", "`stiffness` applies only to a hand with a `rate`", fix)
         check_range("drive", self.torque, self.range)
         return self
 
@@ -238,9 +231,7 @@ class Drive(Declared):
 
     @property
     def arm(self) -> float | None:
-        """Descent of the weight per radian of its drum [m]: lever arm of the line divided by the number of falls of the
-        line. None for other drives, and for a weight that is a link of the train.
-        """
+        """Descent of the weight per radian of its drum [m]; None for other drives, and for a weight that is a link."""
         return None if self.drum is None else self.drum.si / self.falls
 
     @property
@@ -322,20 +313,15 @@ class Escapement(Declared):
 
     @model_validator(mode="after")
     def _check_pendulum(self) -> Escapement:
-        """Check that the length l of the pendulum agrees with the beat, pi sqrt(l/g), where g is the gravity; a rod
-        with mass makes the beat slightly shorter.
-        """
+        """Check that the pendulum's length l agrees with the beat pi sqrt(l/g); a rod with mass shortens the beat."""
         if self.deadbeat is not None and self.recoil is not None:
             exactly_one(self, "an escapement", ("deadbeat", "recoil"), "kind")
         if self.pendulum is not None:
             # simple pendulum whose half period is one beat
             length = GRAVITY * (self.beat.si / pi) ** 2
             if abs(self.pendulum.length.si / length - 1) > _NEAR:
-                raise PydanticCustomError(
-                    "escapement",
-                    "the length of the pendulum does not match the beat",
-                    {"fix": f"give {1000 * length:.4g} mm, which follows from pi sqrt(l/g), or another `beat`"},
-                )
+                fix = f"give {1000 * length:.4g} mm, which follows from pi sqrt(l/g), or another `beat`"
+                raise bad("escapement", "the length of the pendulum does not match the beat", fix)
         return self
 
     @property
@@ -344,25 +330,15 @@ class Escapement(Declared):
         return 1 / (2 * self.teeth * self.beat.base)
 
     def has_wheel(self, link: str, count: int | None) -> bool:
-        """Return True if a wheel is the escape wheel, which requires no gear pair.
-
-        link    link of the wheel
-        count   tooth count of the wheel; None if it is not known
-        """
+        """Return True if a wheel on `link` with `count` teeth is the escape wheel; False if `count` is None."""
         return (link, count) == (self.link, self.teeth)
 
 
 def _read_sense(raw: object) -> object:
     if raw in ("forward", "backward", None):
         return raw
-    raise PydanticCustomError(
-        "one_way",
-        "`one_way` needs a sense of rotation",
-        {
-            "why": f"{raw!r} is not a sense of rotation",
-            "fix": "write `one_way: forward` or `one_way: backward`: the sense in which it may turn",
-        },
-    )
+    fix = "write `one_way: forward` or `one_way: backward`: the sense in which it may turn"
+    raise bad("one_way", "`one_way` needs a sense of rotation", fix, f"{raw!r} is not a sense of rotation")
 
 
 class Clutch(Declared):
@@ -384,9 +360,8 @@ class Clutch(Declared):
     @model_validator(mode="after")
     def _has_one_key(self) -> Clutch:
         if self.teeth is not None and self.one_way is None:
-            raise PydanticCustomError(
-                "teeth", "`teeth` applies only to a one-way clutch", {"fix": "add `one_way: forward`, or omit `teeth`"}
-            )
+            fix = "add `one_way: forward`, or omit `teeth`"
+            raise bad("teeth", "`teeth` applies only to a one-way clutch", fix)
         return exactly_one(self, "a clutch", ("fixes", "locks"))
 
     @property
@@ -493,10 +468,7 @@ class OneWayAction(Result):
         return self.required and not self.holds
 
     def text(self, unit: str = "") -> str:
-        """Return the behaviour as text, such as `F holds (1.48 N m)` or `F overruns at 0.473`.
-
-        unit   unit of speeds
-        """
+        """Return the behaviour as text, with speeds in `unit`: `F holds (1.48 N m)` or `F overruns at 0.473`."""
         if self.holds:
             amount = "" if self.torque is None else f" ({f'{decimal(self.torque, 6)} {self.torque_unit}'.strip()})"
             amount = " without torque" if self.torque == 0 else amount
@@ -568,9 +540,7 @@ class StateCase(Shown):
     problems: tuple[Problem, ...] = ()
     """Problems that prevent the calculation of speeds in this state; empty if speeds can be calculated."""
     senses: Mapping[tuple[str, ...], int] = field(default_factory=dict)
-    """Sign of the torque that a brake or lock can exert on its last link, by its links; only for brakes and locks that
-    consist of one-way clutches of a single sense.
-    """
+    """Sign of the torque that a brake or lock of one-way clutches with one sense can exert on its last link."""
     one_way: tuple[OneWayAction, ...] = ()
     """One-way clutches that are active in the state, in the order of declaration."""
     notes: tuple[str, ...] = ()
@@ -630,8 +600,6 @@ class StateCase(Shown):
         # an indirect brake or lock is described by the declaration that causes it
         links = self.causes.get(links, links)
         by = f" by {self.clutches[links]}" if links in self.clutches else ""
-        return (
-            f"'{links[0]}' is fixed{by}"
-            if len(links) == 1
-            else f"'{links[0]}' and '{links[1]}' are locked together{by}"
-        )
+        if len(links) == 1:
+            return f"'{links[0]}' is fixed{by}"
+        return f"'{links[0]}' and '{links[1]}' are locked together{by}"

@@ -153,12 +153,8 @@ def _problem_of(error: Mapping[str, Any], place: Marks) -> Problem:
             fix = f"write `{loc[-2]}: {{wheels: {{w: {error['input']}}}}}`: teeth belong to a wheel, here named w"
         return Problem(f"unknown key '{key}'", f"{_where(loc[:-1])} has no such key", fix, place(loc))
     if kind == "missing" and isinstance(loc[-1], int):
-        return Problem(
-            f"{_where(loc[:-1])} is too short",
-            f"entry {loc[-1] + 1} is missing",
-            "add the missing entry",
-            place(loc[:-1]),
-        )
+        what, why = f"{_where(loc[:-1])} is too short", f"entry {loc[-1] + 1} is missing"
+        return Problem(what, why, "add the missing entry", place(loc[:-1]))
     if kind == "missing":
         fix = f"add `{_wheel_pair(error['input'])}`" if _is_wheel_pair(loc) else f"add `{key}:`"
         return Problem(f"key '{key}' is missing", f"{_where(loc[:-1])} requires it", fix, place(loc[:-1]))
@@ -169,7 +165,6 @@ def _problem_of(error: Mapping[str, Any], place: Marks) -> Problem:
     if kind == "union_tag_not_found":
         tag = context["discriminator"].strip("'")
         return Problem(f"key '{tag}' is missing", f"it selects the kind of {_where(loc)}", f"add `{tag}:`", place(loc))
-    what = f"{_where(loc)}: {error['msg'][0].lower()}{error['msg'][1:]}"
     if "fix" in context:
         return Problem(f"{_where(loc)}: {error['msg']}", context.get("why", ""), context["fix"], place(loc))
     shown = repr(error["input"])
@@ -183,6 +178,7 @@ def _problem_of(error: Mapping[str, Any], place: Marks) -> Problem:
         return Problem(f"{_where(loc)} is not {shape}", got, fix, place(loc))
     if kind == "literal_error":
         return Problem(f"{_where(loc)} is not one of the allowed values", got, f"use {context['expected']}", place(loc))
+    what = f"{_where(loc)}: {error['msg'][0].lower()}{error['msg'][1:]}"
     return Problem(what, got, "see `geartrain inspect schema`", place(loc))
 
 
@@ -198,9 +194,7 @@ def _wheel_pair(raw: Any) -> str:
 
 
 def _without_space(loc: Loc, value: Any) -> str:
-    """Return the first key in a path that was probably written without a space after its colon. Such a key contains a
-    colon, and it has no value or begins with a known key. The result is empty if there is none.
-    """
+    """Return the first key of a path that probably lacks a space after its colon; "" if there is none."""
     for at, step in enumerate(loc):
         start, colon, _ = str(step).partition(":")
         if colon and (value is None or isinstance(value, dict) or start in _keys_at(loc[:at])):
@@ -215,20 +209,16 @@ def unknown_tag(error: Mapping[str, Any]) -> tuple[str, tuple[str, ...]]:
 
 
 def _where(loc: Loc) -> str:
-    return f"`{dotted(_real_steps(loc))}`" if loc else "the declaration"
-
-
-def _real_steps(loc: Loc) -> Loc:
-    """Return the path without the tags that pydantic inserts for unions, which do not occur in the file."""
+    """Return the path of a value, without the tags that pydantic inserts for unions, which do not occur in the file."""
+    if not loc:
+        return "the declaration"
     tags = {"count", "doubt", *COUPLINGS, *form_names(), *_laws()}
-    return tuple(
-        step
-        for at, step in enumerate(loc)
-        if not (
-            (step in tags and at > 0 and loc[at - 1] in ("teeth", "tooth_form", "friction"))
-            or (step in tags and at > 1 and loc[at - 2] == "couplings")
-        )
-    )
+
+    def is_inserted(at: int) -> bool:
+        after_union = at > 0 and loc[at - 1] in ("teeth", "tooth_form", "friction")
+        return loc[at] in tags and (after_union or (at > 1 and loc[at - 2] == "couplings"))
+
+    return f"`{dotted(tuple(step for at, step in enumerate(loc) if not is_inserted(at)))}`"
 
 
 def _keys_at(loc: Loc) -> Iterator[str]:
@@ -284,10 +274,7 @@ def has_short_forms(data: Mapping[str, Any]) -> bool:
 
 
 def written_out(root: YamlNode) -> YamlNode:
-    """Return the declaration with all short forms expanded; the new parts have the places of the short forms.
-
-    Raises `DeclarationError` for invalid short forms.
-    """
+    """Return the declaration with expanded short forms, which keep their places; raise an error for invalid ones."""
     joints = {key: root.mapping[key] for key in JOINTS if key in root.mapping}
     gears = root.mapping.get("gears")
     short_joints = {key: each for key, each in joints.items() if isinstance(each.value, dict)}
@@ -302,9 +289,7 @@ def written_out(root: YamlNode) -> YamlNode:
 
 
 def _with_belts(root: YamlNode) -> YamlNode:
-    """Return the declaration with the entries of `belts` added to its couplings. Raises `DeclarationError` for entries
-    that are not two wheels separated by a tilde.
-    """
+    """Return the declaration with `belts` added to its couplings; raise an error if an entry is not `a ~ b`."""
     belts = root.mapping.get("belts")
     if belts is None or not belts.items:
         return root
@@ -315,16 +300,13 @@ def _with_belts(root: YamlNode) -> YamlNode:
     couplings = root.mapping.get("couplings", YamlNode([], belts.place))
     if not isinstance(couplings.value, list):
         return root  # validation reports it
-    added = [_belt(each) for each in belts.items]
+    added = []
+    for belt in belts.items:
+        parts = {"kind": YamlNode("belt", belt.place), "around": _pair(belt).mapping["pair"]}
+        added.append(YamlNode(parts, belt.place, dict.fromkeys(parts, belt.place)))
     rest = {key: node for key, node in root.mapping.items() if key != "belts"}
     merged = {**rest, "couplings": YamlNode([*couplings.items, *added], couplings.place)}
     return YamlNode(merged, root.place, {"couplings": belts.place, **root.keys})
-
-
-def _belt(belt: YamlNode) -> YamlNode:
-    wheels = _pair(belt).mapping["pair"]
-    parts = {"kind": YamlNode("belt", belt.place), "around": wheels}
-    return YamlNode(parts, belt.place, dict.fromkeys(parts, belt.place))
 
 
 def _check_short_forms(
@@ -338,8 +320,11 @@ def _check_short_forms(
     lists += [each for key, part in joints.items() for each in _lists(key, part, "{{pair: [{}, {}], axis: A}}")]
     wrong = [gear for gear in short_gears if len(names := _wheels(gear.value)) != 2 or not all(names)]
     for joint in short_joints.values():
-        single = [axis for axis, links in joint.mapping.items() if len(links.items) < 2]
-        lists += [_single_link(axis, joint.keys.get(axis, joint.place)) for axis in single]
+        for axis in (axis for axis, links in joint.mapping.items() if len(links.items) < 2):
+            why = "the first link of its list carries the other links"
+            fix = f"for example, write `{axis}: [frame, arbor]`"
+            place = joint.keys.get(axis, joint.place)
+            lists.append(Problem(f"axis '{axis}' has fewer than two links", why, fix, place))
     if len(wrong) == 2 == len(short_gears) and all(_MARK not in gear.value for gear in wrong):  # gears: [a, b]
         raise DeclarationError(_invalid_pair(YamlNode(" ".join(gear.value for gear in wrong), wrong[0].place)))
     if lists or wrong:  # texts are composed only for the problems that are shown
@@ -355,13 +340,6 @@ def _lists(key: str, parts: YamlNode | None, form: str) -> Iterator[Problem]:
         what = f"{len(listed)} entries of `{key}` are lists" if several else f"an entry of `{key}` is a list"
         fix = f"write `{form.format(*names)}`" + (", and the other entries likewise" if several else "")
         yield Problem(what, f"each entry has the form `{form.format('a', 'b')}`", fix, listed[0].place)
-
-
-def _single_link(axis: str, place: str) -> Problem:
-    why = "the first link of its list carries the other links"
-    return Problem(
-        f"axis '{axis}' has fewer than two links", why, f"for example, write `{axis}: [frame, arbor]`", place
-    )
 
 
 def _joints(joints: YamlNode) -> Iterator[YamlNode]:

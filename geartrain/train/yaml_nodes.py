@@ -1,8 +1,7 @@
 """YAML 1.2 (core schema) parsed to nodes with line numbers.
 
 Every scalar is kept as a string, so that `1:30`, `010`, `no` and `1.0000` reach the models unchanged; only a plain null
-becomes None. Nesting depth, number of values and expansion of aliases are limited, keys must be unique, and tags are
-rejected. Plain Python data can also be converted to nodes, and a declaration can be written as YAML text.
+becomes None. Nesting depth, number of values and expansion of aliases are limited.
 """
 
 from __future__ import annotations
@@ -77,9 +76,7 @@ class YamlNode:
 
 @collector_paused()
 def parse_yaml(text: str, name: str) -> YamlNode:
-    """Parse `text` as one YAML document; `name` is the file name in the places of the nodes. Raises `DeclarationError`
-    for invalid YAML.
-    """
+    """Parse one YAML document; the places of its nodes contain the file name `name`. Invalid YAML raises an error."""
     reader = _Reader(name, yaml.parse(text, Loader=_Loader))
     try:
         node = reader.document()
@@ -149,9 +146,7 @@ class _Reader:
         return node
 
     def _node(self, event: Any, depth: int) -> YamlNode:
-        """Convert the value that begins with an event, inside `depth` collections. An alias is replaced by the node to
-        which it refers.
-        """
+        """Convert the value that begins with an event, inside `depth` collections, or return the node of an alias."""
         place = f"{self.name}:{event.start_mark.line + 1}"
         self.values += 1
         if self.values > MOST_VALUES:
@@ -227,10 +222,7 @@ class _Reader:
 
 
 def node_from_data(data: Any, loc: Loc = (), marks: Marks = dotted) -> YamlNode:
-    """Convert plain data or parts of a declaration to nodes. By default, the place of a node is its path.
-
-    Raises `DeclarationError` for data that are nested too deeply.
-    """
+    """Convert plain data or parts of a declaration to nodes; `marks` returns the place of a path in the file."""
     place = marks(loc)
     if isinstance(data, BaseModel):
         data = data.model_dump(mode="json", exclude_unset=True, by_alias=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -9,6 +10,8 @@ from commands import call
 
 import geartrain
 from geartrain.errors import DeclarationError
+
+Write = Callable[..., Path]
 
 STATES = """
 name: box
@@ -19,9 +22,8 @@ states:
 """
 
 
-def test_neutral_and_park_are_as_expected(tmp_path: Path) -> None:
-    file = tmp_path / "box.yaml"
-    file.write_text(STATES, encoding="utf-8")
+def test_neutral_and_park_are_as_expected(train_file: Write) -> None:
+    file = train_file(STATES)
     train = geartrain.load(str(file))
     found = {answer.state: (answer.verdict.kind, bool(answer)) for answer in train.answers()}
     assert found["N"] == ("free", True)
@@ -32,12 +34,10 @@ def test_neutral_and_park_are_as_expected(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("state", "wrong"), [("N", "locked"), ("N", "determined"), ("P", "free"), ("1", "free")])
-def test_another_verdict_than_the_expected_one_fails(state: str, wrong: str, tmp_path: Path) -> None:
-    file = tmp_path / "box.yaml"
+def test_another_verdict_than_the_expected_one_fails(state: str, wrong: str, train_file: Write) -> None:
     said = {"N": "expect: free", "P": "expect: locked"}
     text = STATES + f"  {state}: {{expect: {wrong}}}\n" if state not in said else STATES
-    file.write_text(text.replace(said.get(state, "nothing"), f"expect: {wrong}"), encoding="utf-8")
-    result = call("check", file)
+    result = call("check", train_file(text.replace(said.get(state, "nothing"), f"expect: {wrong}")))
     assert result.exit_code == 1
     assert wrong == "determined" or f"where `expect` says {wrong}" in result.output
 

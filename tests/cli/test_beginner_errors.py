@@ -7,6 +7,8 @@ from pathlib import Path
 import pytest
 from commands import ended
 
+pytestmark = pytest.mark.usefixtures("here")
+
 SOUND = """\
 links:
   frame: {}
@@ -202,11 +204,6 @@ error: quux.yaml: the file does not exist
   fix: check the path; `geartrain list` shows the shipped trains
 """,
 }
-
-
-@pytest.fixture(autouse=True)
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
 
 
 @pytest.mark.parametrize("mistake", MISTAKES[3:].split("\n\n# "), ids=lambda text: text.partition(":")[0])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -10,11 +11,14 @@ from commands import RIGHT, call
 
 from geartrain import load
 
+Write = Callable[..., Path]
+Written = Callable[[str], Path]
 
-def written(tmp_path: Path, outputs: str) -> Path:
-    path = tmp_path / "t.yaml"
-    path.write_text(RIGHT.split("outputs:")[0] + f"outputs:\n{outputs}\n", encoding="utf-8")
-    return path
+
+@pytest.fixture
+def written(train_file: Write) -> Callable[[str], Path]:
+    """Return a function that writes a train with some outputs."""
+    return lambda outputs: train_file(RIGHT.split("outputs:")[0] + f"outputs:\n{outputs}\n")
 
 
 # b turns at -2/3 of the input, c at 1/2; the wheel x meshes with y and z nowhere else
@@ -41,8 +45,8 @@ EXPECT, PUBLISHED = "  c: {expect: 1/2}", "  b: {published: {value: -1.50, as: i
         ),
     ],
 )
-def test_every_figure_that_was_looked_at_is_counted(tmp_path: Path, outputs: str, said: str) -> None:
-    path = written(tmp_path, outputs)
+def test_every_figure_that_was_looked_at_is_counted(written: Written, outputs: str, said: str) -> None:
+    path = written(outputs)
     done = call("check", path)
     assert done.exit_code == 0
     assert done.stdout == f"ok   {path}: mobility 1, {said}\n"
@@ -58,8 +62,8 @@ def test_every_figure_that_was_looked_at_is_counted(tmp_path: Path, outputs: str
         ("{value: 2, as: speed}", "found -2/3 = -0.66666667"),
     ],
 )
-def test_a_figure_that_fails_is_told_beside_what_was_found(tmp_path: Path, figure: str, found: str) -> None:
-    path = written(tmp_path, f"  b: {{published: {figure}}}")
+def test_a_figure_that_fails_is_told_beside_what_was_found(written: Written, figure: str, found: str) -> None:
+    path = written(f"  b: {{published: {figure}}}")
     for verb in ("check", "report"):
         done = call(verb, path)
         assert done.exit_code == 1
@@ -78,8 +82,8 @@ def test_a_figure_that_fails_is_told_beside_what_was_found(tmp_path: Path, figur
         ("{speed: 0, tolerance: 0.49}", "target speed 0 missed by 0.5 (tolerance 0.49)"),
     ],
 )
-def test_a_missed_tolerance_of_a_target_fails_in_every_command(tmp_path: Path, target: str, missed: str) -> None:
-    path = written(tmp_path, f"  c: {{targets: [{target}]}}")
+def test_a_missed_tolerance_of_a_target_fails_in_every_command(written: Written, target: str, missed: str) -> None:
+    path = written(f"  c: {{targets: [{target}]}}")
     done = {verb: call(verb, path) for verb in ("check", "report", "solve")}
     assert [each.exit_code for each in done.values()] == [1, 1, 1]
     assert f"output 'c' is 1/2; {missed}" in done["check"].stdout
@@ -87,7 +91,7 @@ def test_a_missed_tolerance_of_a_target_fails_in_every_command(tmp_path: Path, t
     assert "FAILS" in done["solve"].stdout
     assert not load(path).solve()
     relaxed = target[: target.index(", tolerance")] + "}"  # without a tolerance the target is information
-    assert call("check", written(tmp_path, f"  c: {{targets: [{relaxed}]}}")).exit_code == 0
+    assert call("check", written(f"  c: {{targets: [{relaxed}]}}")).exit_code == 0
 
 
 @pytest.mark.parametrize(
@@ -103,28 +107,23 @@ def test_a_missed_tolerance_of_a_target_fails_in_every_command(tmp_path: Path, t
         ("frame: {expect: 1}", False),
     ],
 )
-def test_a_miss_of_the_sign_only_is_said_to_be_one(tmp_path: Path, outputs: str, sign: bool) -> None:
-    path = written(tmp_path, f"  {outputs}")
-    done = call("check", path)
+def test_a_miss_of_the_sign_only_is_said_to_be_one(written: Written, outputs: str, sign: bool) -> None:
+    done = call("check", written(f"  {outputs}"))
     assert done.exit_code == 1
     assert ("only the sign differs" in done.stdout) == sign
 
 
-def test_a_ratio_that_there_is_not_is_said_to_be_none(tmp_path: Path) -> None:
-    path = tmp_path / "t.yaml"
-    path.write_text(
-        "extends: planetary\noutputs: {ring: {published: {value: 3, as: input/output}}}\n", encoding="utf-8"
-    )
+def test_a_ratio_that_there_is_not_is_said_to_be_none(train_file: Write) -> None:
+    path = train_file("extends: planetary\noutputs: {ring: {published: {value: 3, as: input/output}}}\n")
     said = call("check", path).stdout
     assert "published 3 as input/output, undefined: a ratio" in said
 
 
-def test_notes_are_told_when_a_figure_fails(tmp_path: Path) -> None:
+def test_notes_are_told_when_a_figure_fails(train_file: Write) -> None:
     train = load("prague-orloj")
     assert train.build_findings
-    path = tmp_path / "t.yaml"
     name = next(iter(train.declaration.outputs))
-    path.write_text(f"extends: prague-orloj\noutputs: {{{name}: {{expect: 77}}}}\n", encoding="utf-8")
+    path = train_file(f"extends: prague-orloj\noutputs: {{{name}: {{expect: 77}}}}\n")
     for more in ((), ("--quiet",)):
         done = call("check", path, *more)
         assert done.exit_code == 1
@@ -135,15 +134,11 @@ def test_notes_are_told_when_a_figure_fails(tmp_path: Path) -> None:
 
 # -------------------------------------------------------------------------------------- what motion in time contradicts
 
-FAST = "extends: moon-triangular-inertia\n"
-
 
 @pytest.mark.parametrize(("rate", "noted"), [("rate: 1 turn/s", True), ("drive: {rate: 1 turn/s}", True),
                                              ("rate: 0.45 turn/s", False), ("", False)])  # fmt: skip
-def test_a_rate_at_which_teeth_part_is_noted(rate: str, noted: bool, tmp_path: Path) -> None:
-    file = tmp_path / "fast.yaml"
-    file.write_text(f"{FAST}{rate}\n", encoding="utf-8")
-    told = call("check", file).stdout
+def test_a_rate_at_which_teeth_part_is_noted(rate: str, noted: bool, train_file: Write) -> None:
+    told = call("check", train_file(f"extends: moon-triangular-inertia\n{rate}\n")).stdout
     assert ("the teeth of d2~e separate from 0.48188 turn/s of 'crank' on" in told) == noted
     assert "ok " in told
 
@@ -151,14 +146,11 @@ def test_a_rate_at_which_teeth_part_is_noted(rate: str, noted: bool, tmp_path: P
 @pytest.mark.parametrize(
     ("beat", "said"), [("1 s", ""), ("0.5 s", "gives a beat of 1 s"), ("61/60 s", "a beat of 1 s")]
 )
-def test_an_escapement_that_beats_at_another_speed_is_noted(beat: str, said: str, tmp_path: Path) -> None:
-    file = tmp_path / "clock.yaml"
+def test_an_escapement_that_beats_at_another_speed_is_noted(beat: str, said: str, train_file: Write) -> None:
     escapement = f"escapement: {{link: escape, teeth: 30, beat: {beat}}}"
-    file.write_text(f"extends: longcase-clock\n{escapement}\n", encoding="utf-8")
-    told = call("check", file).stdout
+    told = call("check", train_file(f"extends: longcase-clock\n{escapement}\n")).stdout
     assert ("half a tooth of 30" in told) == bool(said)
     assert said in told
     # speeds are real by a rate too: the crank of this train is to make a turn a minute
     escapement = escapement.replace("escape,", "crank,")
-    file.write_text(f"extends: moon-triangular\n{escapement}\nrate: 1 rpm\n", encoding="utf-8")
-    assert said in call("check", file).stdout
+    assert said in call("check", train_file(f"extends: moon-triangular\n{escapement}\nrate: 1 rpm\n")).stdout

@@ -10,6 +10,8 @@ from typing import Any
 import pytest
 from commands import call
 
+pytestmark = pytest.mark.usefixtures("here")
+
 PAIR = """
     name: pair
     links: {frame: {}, a: {wheels: {p: {teeth: 20, module: 1 mm}}}, b: {wheels: {w: {teeth: 30, module: 1 mm}}}}
@@ -30,11 +32,6 @@ Write = Callable[..., Path]
 
 def ask(*words: object) -> Any:
     return call("feasibility", *words)
-
-
-@pytest.fixture(autouse=True)
-def _here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
 
 
 def test_text_and_json_have_the_same_outcomes_for_any_number_of_workers(train_file: Write) -> None:
@@ -62,18 +59,3 @@ def test_the_curve_is_drawn(train_file: Write) -> None:
     found = ask(train_file(PAIR), "--trials", 8, "--accuracy", "0.1:2:3", "--plot", "curve.svg")
     assert found.exit_code == 0, found.output
     assert 'id="turns"' in Path("curve.svg").read_text(encoding="utf-8")
-
-
-@pytest.mark.parametrize(
-    ("words", "why"),
-    [
-        (("--accuracy", "0.3:0.1:4"), "is not a sweep of values"),
-        (("--accuracy", "many"), "is not a sweep of values"),
-        (("--plot", "curve.svg"), "the curve that it shows is missing"),
-        (("--trials", "0"), "is not a valid number of trials"),
-    ],
-)
-def test_what_cannot_be_computed_is_refused(train_file: Write, words: tuple[str, ...], why: str) -> None:
-    found = ask(train_file(PAIR), *words)
-    assert found.exit_code != 0
-    assert why in f"{found.stderr}{found.exception}"

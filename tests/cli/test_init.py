@@ -10,13 +10,10 @@ from places import ROOT
 
 import geartrain
 
+pytestmark = pytest.mark.usefixtures("here")
+
 TEMPLATES = ROOT / "geartrain" / "cli" / "templates"
 KINDS = sorted(path.stem for path in TEMPLATES.glob("*.yaml"))
-
-
-@pytest.fixture(autouse=True)
-def _here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
 
 
 @pytest.mark.parametrize("kind", KINDS)

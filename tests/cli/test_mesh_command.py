@@ -9,7 +9,7 @@ from math import degrees, hypot, pi
 from pathlib import Path
 
 import pytest
-from commands import call, without
+from commands import call
 from sampling import first_few
 
 PAIR = ("mesh", 48, 96, "--form", "triangular", "-p", "half_angle=30deg", "--friction", 0.2)
@@ -139,15 +139,6 @@ def test_pictures_are_written_whole(tmp_path: Path, suffix: str) -> None:
     for path in (transmission, teeth):
         assert path.read_bytes().startswith(starts[suffix])
     assert sorted(tmp_path.iterdir()) == sorted([transmission, teeth])
-
-
-def test_a_page_of_a_pair_needs_no_plots() -> None:
-    requested: list[object] = [*PAIR, "-p", "clearance_factor=1.01"]
-    done = without("matplotlib", "scipy", arguments=requested)
-    assert (done.returncode, done.stderr) == (0, "")
-    refused = without("matplotlib", "scipy", arguments=[*requested, "--plot", "x.svg"])
-    assert refused.returncode == 2
-    assert "pip install 'matplotlib>=3.8'" in refused.stderr
 
 
 def test_a_pin_has_a_page() -> None:

@@ -112,22 +112,7 @@ def test_faults_are_told_with_what_would_fit_and_the_exit_code_is_that_of_a_verd
     assert call("mesh", 8, 60, "--form", "involute", "-p", f"addendum=1,{fits - 0.001}").exit_code in (0, 1)
 
 
-@pytest.mark.parametrize(
-    ("missing", "package", "option", "file"),
-    [("ezdxf", "ezdxf>=1.3", "--profile", "w.dxf"), ("matplotlib", "matplotlib>=3.8", "--plot", "w.svg")],
-)
-def test_a_missing_library_is_named_with_its_package(
-    missing: str, package: str, option: str, file: str, tmp_path: File
-) -> None:
-    arguments: list[object] = ["mesh", *PAIR, "--module", "2mm", option, tmp_path / file]
-    done = without(missing, arguments=arguments)
-    assert done.returncode == 2
-    assert f"{missing} is not installed" in done.stderr
-    assert f"pip install '{package}'" in done.stderr
-    assert not list(tmp_path.iterdir())
-
-
-def test_an_outline_as_svg_needs_neither(tmp_path: File) -> None:
+def test_an_outline_as_svg_needs_no_scipy(tmp_path: File) -> None:
     arguments: list[object] = ["mesh", *PAIR, "--module", "2mm", "--profile", tmp_path / "w.svg"]
     done = without("scipy", arguments=arguments)
     assert done.returncode == 0, done.stderr

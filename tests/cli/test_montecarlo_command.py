@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import os
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -13,7 +14,7 @@ import pytest
 from commands import call
 
 from geartrain import GearTrainError, load
-from geartrain.errors import MissingExtraError, QuestionError
+from geartrain.errors import QuestionError
 from geartrain.numerics.files import ColumnTable
 from geartrain.workshop import find_trial_plan, read_error_overrides, run_trials
 
@@ -32,12 +33,6 @@ Write = Callable[..., Path]
 
 def ask(*words: object) -> Any:
     return call("montecarlo", *words)
-
-
-@pytest.fixture
-def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
 
 
 # -------------------------------------------------------------------------------------------------------------- answers
@@ -183,12 +178,10 @@ def test_trains_that_cannot_be_cut_are_refused_without_a_journal(train_file: Wri
     assert find_trial_plan(closed, without=("two",)).pairs[0].name == "one"
 
 
-def test_without_its_extra_it_says_which_one(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    import sys
-
+def test_without_its_extra_it_says_which_one(train_file: Write, here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "pyarrow", None)
-    with pytest.raises(MissingExtraError, match=r"pip install 'pandas>=2\.2' 'pyarrow>=16'"):
-        ColumnTable(here / "t.parquet", {})
+    refused = ask(train_file(PAIR), "--trials", 2, "-o", here / "t.parquet")
+    assert "pip install 'pandas>=2.2' 'pyarrow>=16'" in str(refused.exception)
 
 
 def test_a_few_wheels_that_cannot_be_cut_are_left_out_and_said(train_file: Write) -> None:

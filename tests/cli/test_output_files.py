@@ -16,7 +16,7 @@ import pytest
 from commands import HEAVY, RIGHT, UNUSABLE, call, functions
 
 from geartrain.errors import GearTrainError
-from geartrain.numerics.files import LongTable, check_folder, destination, write_bytes, write_folder
+from geartrain.numerics.files import LongTable, check_folder, write_folder
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="no FIFO, no socket in a folder")
 
@@ -267,38 +267,38 @@ def test_two_results_of_one_command_never_share_a_file(here: Path) -> None:
 
 # --------------------------------------------------------------------------------------------------------- the writer
 
+WRITTEN = ("init", "clock", "-o")
+
 
 def test_a_link_to_nothing_leads_to_the_new_file(here: Path) -> None:
-    (here / "link.md").symlink_to("new.md")
-    write_bytes(here / "link.md", b"new")
-    assert (here / "link.md").is_symlink()
-    assert (here / "new.md").read_bytes() == b"new"
-    (here / "round.md").symlink_to("round.md")
-    with pytest.raises(GearTrainError, match="not a valid file name"):
-        destination(here / "round.md", force=True)
+    (here / "link.yaml").symlink_to("new.yaml")
+    assert call(*WRITTEN, "link.yaml").exit_code == 0
+    assert (here / "link.yaml").is_symlink()
+    assert (here / "new.yaml").is_file()
+    (here / "round.yaml").symlink_to("round.yaml")
+    assert "not a valid file name" in refused(call(*WRITTEN, "round.yaml", "--force"))
 
 
 def test_a_file_that_appears_while_a_result_is_worked_out_is_kept(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     write = os.fdopen
 
     def late(*given: Any) -> Any:
-        (here / "x.md").write_text("mine", encoding="utf-8")
+        (here / "x.yaml").write_text("mine", encoding="utf-8")
         return write(*given)
 
     monkeypatch.setattr(os, "fdopen", late)
-    with pytest.raises(GearTrainError, match="the file exists"):
-        write_bytes(here / "x.md", b"ours")
-    assert (here / "x.md").read_text(encoding="utf-8") == "mine"
-    assert [path.name for path in here.iterdir()] == ["x.md"]
+    assert "the file exists" in refused(call(*WRITTEN, "x.yaml"))
+    assert (here / "x.yaml").read_text(encoding="utf-8") == "mine"
+    assert [path.name for path in here.iterdir()] == ["x.yaml"]
 
 
 def test_a_new_file_heeds_the_umask(here: Path) -> None:
     before = os.umask(0o027)
     try:
-        write_bytes(here / "x.md", b"new")
+        call(*WRITTEN, "x.yaml")
     finally:
         os.umask(before)
-    assert stat.S_IMODE((here / "x.md").stat().st_mode) == 0o640
+    assert stat.S_IMODE((here / "x.yaml").stat().st_mode) == 0o640
 
 
 def test_what_is_written_is_on_the_disk_before_it_takes_its_name(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -307,8 +307,8 @@ def test_what_is_written_is_on_the_disk_before_it_takes_its_name(here: Path, mon
     monkeypatch.setattr(os, "fsync", lambda handle: (done.append("sync"), sync(handle))[1])
     monkeypatch.setattr(os, "link", lambda *names: (done.append("name"), link(*names))[1])
     monkeypatch.setattr(os, "replace", lambda *names: (done.append("name"), replace(*names))[1])
-    write_bytes(here / "x.md", b"new")
-    write_bytes(here / "x.md", b"newer", force=True)
+    call(*WRITTEN, "x.yaml")
+    call(*WRITTEN, "x.yaml", "--force")
     assert done == ["sync", "name", "sync"] * 2
 
 

@@ -32,6 +32,15 @@ montecarlo pair.yaml --trials 64 --state fast | no state
 montecarlo pair.yaml --trials 64 --vary clearance_factor=1.03:1.01:3 | not a sweep
 montecarlo pair.yaml --trials 64 --vary window=0.5:1.5:3 | not a sweep
 montecarlo pair.yaml --trials 64 --vary clearance_factor=a:b | not a sweep
+montecarlo pair.yaml --workers 0 | error: --workers:
+montecarlo pair.yaml --workers x | error: --workers:
+montecarlo pair.yaml --workers 2.5 | error: --workers:
+
+# feasibility
+feasibility pair.yaml --accuracy 0.3:0.1:4 | is not a sweep of values
+feasibility pair.yaml --accuracy many | is not a sweep of values
+feasibility pair.yaml --plot curve.svg | the curve that it shows is missing
+feasibility pair.yaml --trials 0 | is not a valid number of trials
 
 # posterior
 posterior doubt.yaml --free w=22:18 | --free: the range 22:18 is reversed

@@ -29,13 +29,6 @@ EVIL = "</script><script>alert(1)</script><!-- \u2028 &amp; <img src=x onerror=a
 Written = Callable[..., Path]
 
 
-@pytest.fixture
-def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """An empty folder, which is the current one."""
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
-
-
 def data_of(read: Read) -> dict[str, Any]:
     """Return the scenes and options of a page."""
     data: dict[str, Any] = json.loads(zlib.decompress(b64decode(read.scripts[0])))

@@ -88,20 +88,6 @@ def test_the_examples_in_docstrings_are_true() -> None:
     assert [test.name for test in told if runner.run(test).failed] == []
 
 
-def test_every_field_of_the_declaration_has_a_description() -> None:
-    from geartrain.train import Train
-
-    schema = Train.model_json_schema()
-    bare = [
-        f"{kind}.{name}"
-        for kind, part in [("Train", schema), *schema["$defs"].items()]
-        for options in [part, *part.get("anyOf", ())]
-        for name, field in options.get("properties", {}).items()
-        if not field.get("description")
-    ]
-    assert bare == []
-
-
 def test_every_default_of_the_schema_can_be_written_in_a_declaration() -> None:
     """Each default satisfies the schema of its own field, and each keyword is one of JSON Schema."""
     jsonschema = pytest.importorskip("jsonschema")

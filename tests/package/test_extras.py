@@ -34,6 +34,7 @@ def normal(*arguments: object) -> subprocess.CompletedProcess[str]:
         (["scipy", "numpy", "networkx", "matplotlib", "jinja2"], ["compare", "freeth-2006", "freeth-2008"]),
         (["scipy", "numpy", "networkx", "matplotlib", "jinja2"], ["periods", "saros"]),
         (["scipy", "numpy", "networkx", "matplotlib", "jinja2"], ["inspect", "equations", "zf-8hp70"]),
+        (["scipy", "matplotlib"], ["mesh", "48", "96", "--form", "triangular", "-p", "window=0.5"]),
     ],
     ids=lambda words: " ".join(words),
 )
@@ -82,6 +83,28 @@ def test_a_page_that_cannot_be_made_is_refused_before_anything_is_read_or_drawn(
     assert done.returncode == 2
     assert "jinja2 is not installed" in done.stderr
     assert "no such train" not in done.stderr
+
+
+PAIR = ("mesh", "24", "36", "--module", "2mm")
+
+
+@pytest.mark.parametrize(
+    ("missing", "package", "arguments"),
+    [
+        ("ezdxf", "ezdxf>=1.3", (*PAIR, "--profile", "w.dxf")),
+        ("matplotlib", "matplotlib>=3.8", (*PAIR, "--plot", "w.svg")),
+        ("OCP", "cadquery-ocp-novtk>=7.8", ("export", "planetary-24-18-60", "-o", "set.step")),
+    ],
+)
+def test_a_missing_library_is_named_with_its_package(
+    missing: str, package: str, arguments: tuple[str, ...], here: Path
+) -> None:
+    done = without(missing, arguments=[*arguments])
+    assert done.returncode == 2
+    assert "is not installed" in done.stderr
+    assert f"pip install '{package}'" in done.stderr
+    assert "Traceback" not in done.stderr
+    assert list(here.iterdir()) == []
 
 
 def test_what_is_missing_is_told_with_what_it_weighs() -> None:

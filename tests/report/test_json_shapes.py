@@ -9,12 +9,12 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from answer_schemas import holds
+from answer_schemas import answer_schema, holds
 from commands import HEAVY, LOCKED, RIGHT, WRONG, call
 from jsonschema import Draft202012Validator, SchemaError
 from sampling import all_but
 
-from geartrain.report.json_schema import answer_schema, describe_answer
+from geartrain.report.json_schema import describe_answer
 
 ANSWERS = answer_schema()["$defs"]
 ONE_STATE = RIGHT.replace("inputs: {a: 1}", "states: {only: {inputs: {a: 1}}}")
@@ -276,10 +276,8 @@ def _undescribed(schema: Any) -> Any:
     return [_undescribed(part) for part in schema] if isinstance(schema, list) else schema
 
 
-def test_the_schema_is_printed_and_is_one(files: Path) -> None:
-    schema = data("inspect", "schema", "--as", "answers")
-    assert schema == answer_schema()
-    Draft202012Validator.check_schema(schema)
+def test_the_schema_is_one() -> None:
+    Draft202012Validator.check_schema(answer_schema())
     with pytest.raises(SchemaError):  # each of $defs has been looked into
         Draft202012Validator.check_schema({"$defs": {"solve": {"type": "no type"}}})
 

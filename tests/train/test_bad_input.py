@@ -64,7 +64,6 @@ MISTAKES = {
     "teeth as a fraction": (changed("p: 20", "p: 41/2"), 3, ["'41/2' is not a tooth count"]),
     "too many teeth": (changed("p: 20", "p: 1000000000001"), 3, ["'1000000000001' is not a tooth count"]),
     "a tooth count of many digits": (changed("p: 20", "p: 1" + "0" * 5000), 3, ["is not a tooth count"]),
-    "teeth in words": (changed("p: 20", "p: twenty"), 3, ["'twenty' is not a tooth count"]),
     "a pair on one link": (changed("[p, w]", "[p, p2]").replace("{p: 20}", "{p: 20, p2: 9}"), 9, ["same link", "'a'"]),
     "two rings": (
         changed("p: 20", "p: {teeth: 20, internal: true}").replace("w: 60", "w: {teeth: 60, internal: true}"),
@@ -82,7 +81,6 @@ MISTAKES = {
     "a cycle of turning pairs": (changed("gears:", "  - {pair: [a, b], axis: A}\ngears:"), 8, ["cycle"]),
     "a turning pair twice": (changed("gears:", "  - {pair: [frame, b], axis: B}\ngears:"), 8, ["cycle"]),
     "a turning pair with itself": (changed("[frame, b]", "[b, b]"), 7, ["connects 'b' to itself"]),
-    "a link left out": (changed("  - {pair: [frame, b], axis: B}\n", ""), 4, ["link 'b' is not connected"]),
     "one label for two axes": (
         changed("  b: {wheels", "  c: {}\n  b: {wheels").replace(
             "- {pair: [frame, b], axis: B}", "- {pair: [a, c], axis: C}\n  - {pair: [c, b], axis: A}"
@@ -92,9 +90,7 @@ MISTAKES = {
     ),
     "a missing key": (changed(", axis: B", ""), 7, ["key 'axis' is missing"]),
     "a pair of three": (changed("[p, w]", "[p, w, p]"), 9, ["pair"]),
-    "a list for a mapping": (changed("inputs: {a: 1}", "inputs: [a, 1]"), 10, ["inputs"]),
     "a mapping for a list": (changed("  - {pair: [p, w]}", "  {pair: [p, w]}"), 8, ["gears"]),
-    "a text for a link": (changed("  frame: {}", "  frame: wood"), 2, ["links.frame"]),
     "yes for true": (changed("w: 60", "w: {teeth: 60, internal: yes}"), 4, ["'yes' is neither true nor false"]),
     "no number": (changed("expect: -1/3", "expect: 1/3/5"), 12, ["'1/3/5' is not a number"]),
     "infinity": (changed("inputs: {a: 1}", "inputs: {a: .inf}"), 10, ["not a number"]),
@@ -110,7 +106,6 @@ MISTAKES = {
     "an anchor twice": (changed("p: 20", "p: &t 20").replace("w: 60", "w: &t 60"), 4, ["'&t' is given twice"]),
     "an alias within itself": (changed("  frame: {}", "  frame: &f {wheels: *f}"), 2, ["contains itself"]),
     "broken brackets": (changed("{pair: [p, w]}", "{pair: [p, w}"), 9, ["invalid YAML syntax"]),
-    "a tab for indentation": (changed("  frame: {}", "\tframe: {}"), 2, ["the line contains a tab"]),
 }  # fmt: skip
 
 
@@ -297,7 +292,6 @@ def test_a_mistake_in_plain_data_is_reported_with_its_path(data: Any, place: str
 @pytest.mark.parametrize(
     ("old", "new", "what", "fix"),
     [
-        ("  - {pair: [p, w]}\n", "  - [p, w]\n", "an entry of `gears` is a list", "write `p ~ w`"),
         ("  - {pair: [p, w]}\n", "  - [p, w]\n" * 40, "40 entries of `gears` are lists", "write `p ~ w`"),
         (
             "{pair: [frame, a], axis: A}\n  - {pair: [frame, b], axis: B}",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
@@ -275,12 +276,10 @@ MISTAKES |= {
 
 
 @pytest.mark.parametrize("mistake", MISTAKES)
-def test_a_mistake_is_reported_with_its_line(mistake: str, tmp_path: Path) -> None:
+def test_a_mistake_is_reported_with_its_line(mistake: str, train_file: Callable[..., Path]) -> None:
     text, line, words = MISTAKES[mistake]
-    path = tmp_path / "evidence.yaml"
-    path.write_text(text, encoding="utf-8")
     with pytest.raises(GearTrainError) as caught:
-        evidence_question(read_evidence(path))
+        evidence_question(read_evidence(train_file(text, "evidence.yaml")))
     said = str(caught.value)
     for word in (*([words] if isinstance(words, str) else words), "fix:", f"evidence.yaml:{line}"):
         assert word in said, said

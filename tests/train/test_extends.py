@@ -235,20 +235,15 @@ def test_states_and_clutches_merge_by_name(tmp_path: Path) -> None:
     ("name", "said"),
     [("nowhere.yaml", "no such file"), ("planetry", "did you mean 'planetary'"), ("''", "`extends` is empty")],
 )
-def test_a_parent_that_is_missing_is_refused(tmp_path: Path, name: str, said: str) -> None:
-    path = tmp_path / "orphan.yaml"
-    path.write_text(f"title: orphan\nextends: {name}\n", encoding="utf-8")
-    with pytest.raises(GearTrainError) as caught:
-        load(path)
-    assert said in str(caught.value)
-    assert f"{path}:2" in str(caught.value)
+def test_a_parent_that_is_missing_is_refused(refused: Callable[..., GearTrainError], name: str, said: str) -> None:
+    refused(f"title: orphan\nextends: {name}\n", said, line=2)
 
 
 @pytest.mark.parametrize("length", [1, 2, 3])
 def test_a_circle_of_parents_is_refused(tmp_path: Path, length: int) -> None:
     for at in range(length):
         (tmp_path / f"t{at}.yaml").write_text(f"extends: t{(at + 1) % length}.yaml\n", encoding="utf-8")
-    with pytest.raises(GearTrainError, match="circle") as caught:
+    with pytest.raises(GearTrainError, match="forms a cycle") as caught:
         load(tmp_path / "t0.yaml")
     assert "t0.yaml:1" in str(caught.value) or f"t{length - 1}.yaml:1" in str(caught.value)
 

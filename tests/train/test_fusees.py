@@ -13,12 +13,13 @@ from models import refusal
 from scipy.integrate import solve_ivp
 
 from geartrain import load
-from geartrain.train.states import SpringDrive
+from geartrain.train import Drive
 
 
-def spring(turns: float = 5.5, **fusee: Any) -> SpringDrive:
+def spring(turns: float = 5.5, **fusee: Any) -> Any:
     """The spring of both cases: 0.02 N m/rad in a barrel of 15 mm."""
-    return SpringDrive(stiffness="0.02 N m/rad", turns=str(turns), barrel="15 mm", fusee={"turns": 6, **fusee})
+    wound = {"stiffness": "0.02 N m/rad", "turns": str(turns), "barrel": "15 mm", "fusee": {"turns": 6, **fusee}}
+    return Drive.model_validate({"spring": wound}).spring
 
 
 def test_case_f1_an_equalised_fusee() -> None:
@@ -47,9 +48,7 @@ def test_case_f2_a_straight_fusee() -> None:
 @given(st.lists(st.floats(4, 16), min_size=2, max_size=6))
 def test_the_torque_of_any_fusee_is_that_of_its_chain_step_by_step(radii: list[float]) -> None:
     """The barrel gives the chain that the fusee takes: integrated by Runge and Kutta from the radii."""
-    drive = SpringDrive(
-        stiffness="0.02 N m/rad", turns="9", barrel="15 mm", fusee={"turns": 6, "radii": [f"{r:.9f} mm" for r in radii]}
-    )
+    drive = spring(9, radii=[f"{r:.9f} mm" for r in radii])
     run, ends = drive.chained.run(), np.linspace(0, 6 * tau, len(radii))
 
     def slope(phi: float, _: Any) -> Any:

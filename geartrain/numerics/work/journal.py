@@ -257,7 +257,7 @@ def _only_writer(path: Path) -> Iterator[None]:
 
 
 def another_question(path: Path, question: Mapping[str, Any]) -> Problem:
-    """Return the problem that the data in a journal differ from `question`, so that it is from another run."""
+    """Return the problem of a journal from another run, with the first difference of its question from `question`."""
     try:
         with path.open("rb") as file:
             theirs = json.loads(file.readline(_MOST_HEADER_BYTES))["question"]

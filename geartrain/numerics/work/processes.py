@@ -1,8 +1,6 @@
 """Worker processes on this machine.
 
-Processes are spawned, not forked. A fork copies locks that other threads hold (such as those of numpy or of a progress
-bar), and a worker that waits for such a lock waits forever. Spawning works in the same way on all systems. Each worker
-imports its modules once.
+Processes are spawned, not forked: a fork copies locks that other threads hold, on which a worker would wait forever.
 """
 
 from __future__ import annotations
@@ -61,7 +59,11 @@ class ProcessPool(WorkerPool):
         try:
             future = self._submit_to_pool(fn, *args, **kwargs)
         except BrokenExecutor:
-            self._discard_pool()
+            pool, self._pool = self._pool, None
+            if pool is not None:
+                pool.shutdown(wait=False, cancel_futures=True)
+            for pending in list(self._open):  # a future that was submitted while the pool broke would never complete
+                pending.set_exception(BrokenExecutor("a worker process died"))
             future = self._submit_to_pool(fn, *args, **kwargs)
         self._open.add(future)
         future.add_done_callback(self._open.discard)
@@ -75,14 +77,6 @@ class ProcessPool(WorkerPool):
             future = self._pool.submit(fn, *args, **kwargs)
         _ignore_late_failure(future)
         return future
-
-    def _discard_pool(self) -> None:
-        """Discard a broken pool and fail its futures, because a future submitted then would never complete."""
-        pool, self._pool = self._pool, None
-        if pool is not None:
-            pool.shutdown(wait=False, cancel_futures=True)
-        for future in list(self._open):
-            future.set_exception(BrokenExecutor("a worker process died"))
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
         """Stop the pool, as `Executor.shutdown` does. If `wait` is True, all workers have ended on return."""
@@ -101,11 +95,9 @@ class ProcessPool(WorkerPool):
 
 
 def _ignore_late_failure(future: Future[Any]) -> None:
-    """Make a future that has already ended ignore a later exception.
-
-    When workers die, the pool's thread sets an exception on all of its futures. If one of them was cancelled or failed
-    just before, this would end the thread with a traceback, and the other futures would never complete.
-    """
+    """Make a future that has already ended ignore a later exception."""
+    # when workers die, the pool's thread sets an exception on all of its futures; if one of them was cancelled or
+    # failed just before, this would end the thread with a traceback, and the other futures would never complete
     fail = future.set_exception
 
     def set_exception(error: BaseException | None) -> None:
@@ -117,11 +109,7 @@ def _ignore_late_failure(future: Future[Any]) -> None:
 
 @contextmanager
 def _interrupts_blocked() -> Iterator[None]:
-    """Start processes in this context with SIGINT blocked, so that only the parent process handles Ctrl-C.
-
-    A process inherits the blocked signals of its parent. A signal that arrives in this context is delivered to the
-    parent afterwards.
-    """
+    """Start processes in this context with SIGINT blocked, so that only the parent process handles Ctrl-C."""
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
@@ -134,12 +122,12 @@ def _interrupts_blocked() -> Iterator[None]:
 
 def _start_worker(leash: Connection) -> None:
     """Prepare a new worker: SIGINT is ignored, and the pipe to the parent process is watched."""
+
+    def exit_with_parent() -> None:
+        """Exit this process when the parent's end of the pipe is closed."""
+        with suppress(OSError, EOFError):
+            leash.poll(None)
+        os._exit(1)
+
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    Thread(target=_watch_leash, args=(leash,), daemon=True).start()
-
-
-def _watch_leash(leash: Connection) -> None:
-    """Exit this process when the parent's end of the pipe is closed."""
-    with suppress(OSError, EOFError):
-        leash.poll(None)
-    os._exit(1)
+    Thread(target=exit_with_parent, daemon=True).start()

@@ -195,7 +195,7 @@ class _Run:
                     self._fill()
                 if not self.pending and not self.again and self.exhausted:
                     break
-                self._process(self._wait())
+                self._process_next()
             self.pace.end()
         finally:
             self._cancel()
@@ -225,9 +225,7 @@ class _Run:
         return self.executor.width if isinstance(self.executor, WorkerPool) else cores()
 
     def _fill(self) -> None:
-        """Submit as many tasks as the limits allow. A task during which a worker died is run without others, so that a
-        task that kills workers is identified.
-        """
+        """Submit as many tasks as the limits allow; a task during which a worker died runs without other tasks."""
         if any(each.deaths for each in self.pending.values()):
             return
         if self.again:
@@ -269,16 +267,16 @@ class _Run:
         self.pending[future] = submission
         future.add_done_callback(self.ended.put)
 
-    def _wait(self) -> Future[Any]:
-        """Wait for the next future that ends and return it."""
-        while True:
-            if isinstance(self.executor, WorkerPool) and monotonic() - self.checked > _CHECK_INTERVAL:
-                self.executor.check()
+    def _process_next(self) -> None:
+        """Wait for the next future that ends; store its result, or queue its task again if its worker died."""
+        pool = self.executor if isinstance(self.executor, WorkerPool) else None
+        future = None
+        while future is None:
+            if pool is not None and monotonic() - self.checked > _CHECK_INTERVAL:
+                pool.check()
                 self.checked = monotonic()
             with suppress(Empty):
-                return self.ended.get(timeout=_CHECK_INTERVAL)
-
-    def _process(self, future: Future[Any]) -> None:
+                future = self.ended.get(timeout=_CHECK_INTERVAL)
         submission = self.pending.pop(future)
         try:
             outcome = future.result()
@@ -287,11 +285,13 @@ class _Run:
             fix = "run it again; finished tasks are in the journal, if there is one"
             raise GearTrainError(Problem("the work was interrupted", why, fix)) from None
         except Exception as error:
-            pool = self.executor
-            deaths = pool.deaths(error) if isinstance(pool, WorkerPool) else int(isinstance(error, BrokenExecutor))
+            deaths = pool.deaths(error) if pool is not None else int(isinstance(error, BrokenExecutor))
             if not deaths:
                 raise
-            self._repeat(submission, deaths)
+            submission.deaths += deaths
+            if submission.deaths >= _MOST_DEATHS:
+                raise _killer_error(submission) from None
+            self.again.append(submission)
         else:
             if isinstance(outcome, RemoteFailure):
                 raise outcome.error()
@@ -302,13 +302,6 @@ class _Run:
             self.journal.keep(submission.index, submission.mark, text)
         self.ready[submission.index] = text
         self.pace.step()
-
-    def _repeat(self, submission: _Submission, times: int) -> None:
-        """Put a task back into the queue after a worker died."""
-        submission.deaths += times
-        if submission.deaths >= _MOST_DEATHS:
-            raise _killer_error(submission)
-        self.again.append(submission)
 
     def _cancel(self) -> None:
         """Cancel all pending tasks, and store the results of tasks that finished in the meantime."""
@@ -356,20 +349,16 @@ class RemoteFailure:
 
     def error(self) -> Exception:
         """Return the exception, with the worker's traceback as a note."""
-        error = self._again()
-        error.add_note(f"raised in a worker:\n{self.trace}")
-        return error
-
-    def _again(self) -> Exception:
+        error: Exception
         if self.kind is not None:
             error = self.kind.__new__(self.kind)
             GearTrainError.__init__(error, self.problems)
-            return error
-        if self.pickled:
-            back = pickle.loads(self.pickled)
-            assert isinstance(back, Exception)
-            return back
-        return RuntimeError(self.trace.rstrip().rpartition("\n")[2])
+        elif self.pickled:
+            error = pickle.loads(self.pickled)
+        else:
+            error = RuntimeError(self.trace.rstrip().rpartition("\n")[2])
+        error.add_note(f"raised in a worker:\n{self.trace}")
+        return error
 
 
 def as_text(result: Any) -> str:
@@ -486,15 +475,14 @@ def _pool(workers: int | None, dask: str | None) -> WorkerPool | None:
         from geartrain.numerics.work.cluster import DaskPool
 
         return DaskPool(dask)
-    count = _default_count() if workers is None else workers
+    if workers is None:
+        # a worker of `multiprocessing.Pool` is a daemon, which must not start processes
+        started = sys.modules.get("multiprocessing.process")
+        count = 1 if started is not None and started.current_process().daemon else cores()
+    else:
+        count = workers
     if count == 1:
         return None
     from geartrain.numerics.work.processes import ProcessPool
 
     return ProcessPool(count, waits=workers is None)
-
-
-def _default_count() -> int:
-    """Return the number of available cores; 1 in a worker of `multiprocessing.Pool`, which must not start processes."""
-    started = sys.modules.get("multiprocessing.process")
-    return 1 if started is not None and started.current_process().daemon else cores()

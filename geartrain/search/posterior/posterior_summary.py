@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from geartrain.kinematics.formulas import Formula
 from geartrain.numerics.arrays import Floats
-from geartrain.numerics.confidence_intervals import deviations, wilson
+from geartrain.numerics.confidence_intervals import DEVIATIONS, wilson
 from geartrain.numerics.exact import as_float
 from geartrain.numerics.graphs import joined_groups
 from geartrain.search.join.inside_outside import GradedAssignment
@@ -167,7 +167,7 @@ def _share(question: InferenceProblem, tally: PosteriorTally) -> CountProbabilit
     if not question.soft or not tally.weight:
         return CountProbability(mean, *wilson(tally.weight, tally.examined))
     # rounding may make a variance negative
-    half = deviations() * sqrt(max(tally.square / tally.examined - mean**2, 0.0) / tally.examined)
+    half = DEVIATIONS * sqrt(max(tally.square / tally.examined - mean**2, 0.0) / tally.examined)
     return CountProbability(mean, max(0.0, mean - half), min(1.0, mean + half))
 
 

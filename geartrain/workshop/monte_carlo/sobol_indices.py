@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from geartrain.errors import Problem, QuestionError
-from geartrain.numerics.confidence_intervals import IntervalEstimate, deviations
+from geartrain.numerics.confidence_intervals import DEVIATIONS, IntervalEstimate
 from geartrain.numerics.results import Key, Result
 from geartrain.numerics.work import Execution
 from geartrain.workshop.cutting.declared_errors import ERROR_KINDS
@@ -161,7 +161,7 @@ def saltelli_indices(values: Floats, seed: int) -> list[tuple[IntervalEstimate, 
     rng, n = np.random.default_rng(seed), len(values)
     estimates = _saltelli(values)
     resampled = np.array([_saltelli(values[rng.integers(n, size=n)]) for _ in range(_RESAMPLES)])
-    halves = deviations() * resampled.std(axis=0, ddof=1)
+    halves = DEVIATIONS * resampled.std(axis=0, ddof=1)
     first, total = (
         [IntervalEstimate(value, value - half, value + half) for value, half in zip(*row, strict=True)]
         for row in zip(estimates.tolist(), halves.tolist(), strict=True)

@@ -63,8 +63,8 @@ def _forecast(factors: tuple[tuple[int, ...], ...]) -> tuple[int, int]:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ProductStep:
-    """Multiplication of all products of some wheels by the tooth counts of one more wheel, as a list of transitions
-    from one product to another.
+    """Table of the multiplications of the products of some wheels by the tooth counts of one more wheel. Each entry of
+    the arrays is one multiplication.
     """
 
     wheel: str
@@ -130,7 +130,8 @@ class Item:
         return owner, found
 
     def last_step(self, values: Ints, level: int = -1) -> ProductStep:
-        """Return the last step of the multiplication that leads from the empty product to the given distinct products.
+        """Return the multiplications by the tooth counts of the last wheel that produce the given distinct products.
+        They are linked to the multiplications by the tooth counts of all previous wheels.
 
         level   index of the last wheel in these products; by default the last wheel of the variable
         """
@@ -142,8 +143,8 @@ class Item:
 
 
 def _multiplied(values: Ints, times: Tallies, factors: Ints, weights: Tallies) -> tuple[Ints, Tallies]:
-    """Return the distinct products of an element of `values` and an element of `factors`, and the total weight of each
-    product. The products are computed block by block to save memory.
+    """Return the distinct products of an element of `values`, whose weights are `times`, and an element of `factors`,
+    whose weights are `weights`, and the sum of the products of the weights for each distinct product.
     """
     step = max(1, _LONGEST // len(values))
     found: list[tuple[Ints, Tallies]] = []
@@ -225,7 +226,7 @@ class PartialAssignments:
         return self.items[item].values[self.columns[item]]
 
     def pick(self, where: NDArray[Any]) -> PartialAssignments:
-        """Return the partial assignments selected by a mask or by indices."""
+        """Return the rows that are selected by `where`, a Boolean mask of shape (size,) or an array of row indices."""
         columns = {item: column[where] for item, column in self.columns.items()}
         size = int(where.sum()) if where.dtype == np.bool_ else len(where)
         return PartialAssignments(self.items, columns, size)

@@ -40,14 +40,14 @@ _WIDEST = Fraction(10**6)
 
 
 def solve(search: PartSearch) -> tuple[PassResult, tuple[Assignment, ...], bool]:
-    """Return the result of the pass that counts the solutions of a part of a train, the best assignments, and whether
+    """Search one part of a train. Return a result with the number of its solutions, its best assignments, and whether
     these are proved to be the best.
     """
     if any(requirement.approached for requirement in search.part.requirements):
         passed = widened(search)
         return passed, passed.best, passed.listed and passed.complete
     # only the order by error can be narrowed by a tolerance if there are too many solutions to list
-    by_error = search.order.by == "error" and not search.order.level
+    by_error = search.order.by == "error" and not search.order.only_exact
     # an assignment that is listed costs several times as much as a step of the count
     passed = search.run(None, _list_limit(search) if by_error else search.limit / 8)
     if passed.listed or not passed.complete:
@@ -341,8 +341,8 @@ def _found(search: PartSearch) -> PartFindings:
 
 
 def _reason(search: PartSearch, passed: PassResult, ranked: bool) -> str:
-    """Return the reason why the search of a part is not complete or its solutions are not ranked; empty if it is
-    complete and the solutions are ranked.
+    """Return the reason why a search is not complete, or why its listed solutions are not proved to be the best; empty
+    if it is complete and they are.
     """
     if passed.stopped:
         return "interrupted: the count covers only the finished part"

@@ -229,8 +229,8 @@ class ExactJoin:
         yield found, indices[found]
 
     def _counts(self, rule: CountConstraint, rows: PartialAssignments) -> AssignmentColumns:
-        """Return, for each wheel in a constraint whose variable is assigned, its tooth counts in all partial
-        assignments.
+        """Return the tooth counts of the wheels of a constraint in all partial assignments, as an array for each wheel.
+        Wheels whose variable is not assigned are omitted.
         """
         items = {wheel: self.wheel_of[wheel] for wheel in rule.wheels}
         return {wheel: rows.value(item) for wheel, item in items.items() if item in rows.columns}

@@ -179,7 +179,7 @@ class _Planner:
         self.likely = [probabilities.get(one.name, 1.0) for one in (*early, *self.polynomial_constraints)]
 
     def problem(self) -> JoinProblem:
-        """Return the join problem with the plan and its expected number of steps."""
+        """Return the join problem with the plan and the expected number of examined partial assignments."""
         plan, steps = self._grow(frozenset(range(len(self.recipes))), frozenset(), 1.0)
         # constraints without variables are evaluated at the root
         constant = tuple(at for at, scope in enumerate(self.scopes) if not scope)
@@ -298,7 +298,7 @@ def estimate_probabilities(
 
 
 def _as_float64(value: Fraction) -> float:
-    """Convert a fraction to float64. The result is infinite if the fraction is out of range."""
+    """Convert a fraction to float64. The result is 0 or infinite if the fraction is out of range."""
     number = as_float(value)
     if number is None:
         number = 0.0 if abs(value) < 1 else inf if value > 0 else -inf

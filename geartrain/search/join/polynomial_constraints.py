@@ -224,7 +224,7 @@ class PolynomialConstraint:
 
     def possible(self, rows: PartialAssignments, extents: Extents) -> Bools:
         """Return whether each row can satisfy the constraint. False is returned only if the row violates the constraint
-        for all values of the free variables.
+        for all values of the unassigned variables.
         """
         return self._in_any_case(rows, lambda inequality: inequality.possible(rows, extents))
 

@@ -189,7 +189,9 @@ _ITEMS: OrderedDict[Hashable, Item] = OrderedDict()
 
 
 def find_item(recipe: Factors, domains: Domains, weights: Weights, dtype: Any) -> Item:
-    """Return the variable whose values are the products of the wheels in `recipe`, from the cache if possible."""
+    """Return the variable whose values are the products of the tooth counts of the wheels in `recipe`, from the cache
+    if possible.
+    """
     key = recipe, tuple((domains[wheel], weights.get(wheel)) for wheel, _ in recipe), dtype is object
     if key not in _ITEMS:
         _ITEMS[key] = Item(recipe, domains, weights, dtype)
@@ -239,8 +241,8 @@ class PartialAssignments:
         return PartialAssignments(self.items, {**columns, item: indices}, len(parents))
 
     def distinct(self, items: Sequence[int]) -> tuple[PartialAssignments, Ints | slice]:
-        """Return the distinct rows with respect to the given variables, and for each original row the index of its
-        distinct row. The indices are `slice(None)` if the rows are unchanged.
+        """Return the distinct combinations of the values of some variables as rows, and for each original row the index
+        of its combination. The indices are `slice(None)` if the rows are unchanged.
         """
         if len(items) == len(self.columns):
             return self, slice(None)

@@ -94,8 +94,8 @@ def find_wheel_monomials(
 
 
 def find_recipes(monomials: Sequence[WheelMonomial], domains: Domains) -> tuple[Factors, ...]:
-    """Return, for each variable of a join, the wheels whose product it represents, each with its power. The numerator
-    and the denominator of each monomial are separate variables.
+    """Return the definition of each variable of a join: the wheels whose tooth counts are multiplied, each with its
+    power. The numerator and the denominator of each monomial are separate variables.
     """
     # a list of quotients would be longer, and `PartialAssignments.distinct` merges rows with equal quotients anyway
     return tuple(

@@ -173,8 +173,8 @@ def multisets(number: int, size: int) -> int:
 
 @lru_cache(maxsize=4)
 def products_of(counts: tuple[int, ...], size: int) -> ProductWindows:
-    """Build the products of all multisets of `size` tooth counts. `counts` must be ascending, and `size` must be from 1
-    to 5.
+    """Return the products of all multisets of `size` tooth counts. `counts` must be ascending, and `size` must be from
+    1 to 5.
 
     `RangeError` is raised if the products are too large, or if the tables would not fit in memory.
     """

@@ -139,8 +139,8 @@ def _multisets(number: int, size: int) -> Ints:
 
 
 def pieces(products: ProductWindows, low: int, high: int, most: int) -> Iterator[Range]:
-    """Split [low, high) into ascending ranges with at most `most` products each. Ranges without products are
-    omitted.
+    """Divide the half-open range from `low` to `high` into ascending ranges, each of which contains at most `most` of
+    the given products. Ranges without products are omitted.
     """
     number = products.below(high) - products.below(low) if low < high else 0
     if number > most and high - low > 1:

@@ -63,8 +63,7 @@ class SpeedRequirement:
     def within(self, share: Fraction | None) -> tuple[Interval, ...] | None:
         """Return the intervals of admissible speeds; None if all speeds are admissible.
 
-        share   additional maximum relative error of the speed, if `graded` is True; None if there is no additional
-        maximum
+        share   additional maximum relative error, used if `graded` is True; None if there is none
         """
         if share is None or not self.graded:
             return self.allowed

@@ -474,8 +474,8 @@ def _gap_conditions(planet: Planet, other: Planet, clearance: Fraction) -> Itera
 
 
 def _is_simple(planet: Planet, external: bool) -> bool:
-    """Return whether a planet consists of one wheel, meshes with exactly one other planet, and meshes with no central
-    wheels except suns (if `external` is True) or rings (if it is False).
+    """Return whether a planet consists of one wheel, meshes with exactly one other planet, and meshes with one or more
+    suns but no ring (if `external` is True) or with one or more rings but no sun (if it is False).
     """
     alone = len(planet.wheels) == 1 and len(planet.outward) + (planet.inward is not None) == 1
     return alone and bool(planet.central) and all((mesh.ring is None) == external for mesh in planet.central)

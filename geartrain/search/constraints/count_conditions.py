@@ -122,7 +122,9 @@ class LinearSum:
 
     @classmethod
     def of(cls, parts: Iterable[tuple[Fraction | int, CountRef]]) -> LinearSum:
-        """Return the sum of pairs (weight, part), where a part is the id of a varied wheel or a fixed tooth count."""
+        """Return the sum of weight * part over all given pairs (weight, part), where a part is the id of a varied wheel
+        or a fixed tooth count.
+        """
         total = cls({})
         for weight, part in parts:
             total += cls({part: Fraction(weight)}) if isinstance(part, str) else cls({}, Fraction(weight * part))

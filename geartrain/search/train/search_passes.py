@@ -201,13 +201,6 @@ class PassRunner:
         except KeyboardInterrupt:
             self.stopped = True
 
-    def release(self) -> None:
-        """Remove the executor, the journal and the progress function, so that later computations are executed in this
-        process.
-        """
-        self.executor = self.journal = self.tell = None
-        self.stopped = False
-
 
 class _Section:
     """Adapter for a journal, which adds a constant offset to the numbers of all tasks."""

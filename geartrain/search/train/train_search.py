@@ -176,21 +176,19 @@ def _relaxations(search: PartSearch) -> Iterator[str]:
     names = dict.fromkeys(rule.name for rule in search.part.rules)
     if len(names) + len(search.part.requirements) < 2:
         return
-    for name in names:
+    relaxed = [(f'the constraint "{name}"', search.without(rule=name)) for name in names]
+    relaxed += [
+        (f"the requirement on '{requirement.name}'", search.without(requirement=requirement))
+        for requirement in search.part.requirements
+    ]
+    for what, other in relaxed:
         # 0: the solutions are counted, not listed
-        passed = search.without(rule=name).run(None, 0)
-        if passed.count:
-            yield f'without the constraint "{name}" there {_solution_count(passed)}'
-    for requirement in search.part.requirements:
-        passed = search.without(requirement=requirement).run(None, 0)
-        if passed.count:
-            yield f"without the requirement on '{requirement.name}' there {_solution_count(passed)}"
-
-
-def _solution_count(passed: PassResult) -> str:
-    count = passed.count
-    minimum = "" if passed.complete else "at least "
-    return f"is {minimum}1 solution" if count == 1 else f"are {minimum}{count} solutions"
+        passed = other.run(None, 0)
+        minimum = "" if passed.complete else "at least "
+        if passed.count == 1:
+            yield f"without {what} there is {minimum}1 solution"
+        elif passed.count:
+            yield f"without {what} there are {minimum}{passed.count} solutions"
 
 
 def _rounded_up(error: Fraction) -> str:
@@ -312,7 +310,8 @@ def search_train(
         for part in parts
     ]
     findings = tuple(_found(one) for one in searches)
-    runner.release()
+    # later computations of ranks are executed in this process
+    searches = [replace(search, runner=PassRunner()) for search in searches]
     links = {wheel: train.wheels[wheel][0] for wheel in domains}
     return TrainFindings(train.name, by, best, findings, links, remarks, (), partial(_standing, searches))
 

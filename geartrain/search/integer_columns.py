@@ -45,9 +45,8 @@ def spread_in_blocks(starts: Ints, ends: Ints, most: int) -> Iterator[tuple[Ints
 
 
 def distinct_quotients(above: Integers, below: Integers) -> tuple[list[Fraction], Ints]:
-    """Return the distinct values of the quotients above / below, and for each quotient the index of its value.
-
-    No element of `below` may be 0.
+    """Return the list of the distinct values of the quotients above / below, and for each quotient the index of its
+    value in this list. No element of `below` may be 0.
     """
     # numpy would convert a mixture of int64 and Python integers to float64
     if above.dtype != below.dtype:
@@ -69,8 +68,8 @@ def distinct_quotients(above: Integers, below: Integers) -> tuple[list[Fraction]
 
 
 def sums_by(owners: Ints, values: NDArray[Any], size: int) -> NDArray[Any]:
-    """Return the sums of the values that have the same owner, shape (size,). Entry i is the sum of `values` whose entry
-    in `owners` is i. Python integers are added exactly.
+    """Return an array of shape (size,), whose entry i is the sum of all `values` for which the corresponding entry of
+    `owners` is i. Python integers are added exactly.
     """
     found: NDArray[Any] = np.zeros(size, dtype=values.dtype)
     np.add.at(found, owners, values)

@@ -102,5 +102,5 @@ class GearStages(CountSizes, Result):
 
     @property
     def sides(self) -> tuple[tuple[int, ...], tuple[int, ...]]:
-        """Two tuples: the tooth counts of the numerator and the tooth counts of the denominator."""
+        """Tooth counts of the numerator, and tooth counts of the denominator, as two tuples."""
         return self.top, self.beneath

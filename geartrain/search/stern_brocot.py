@@ -92,7 +92,7 @@ class SternBrocotRun:
     """
 
     def at(self, k: int) -> Fraction:
-        """Return the fraction with index k in the run, (p + k P)/(q + k Q)."""
+        """Return the fraction (p + k P)/(q + k Q) of the run, where (p, q) is `near` and (P, Q) is `far`."""
         return coprime(self.near[0] + k * self.far[0], self.near[1] + k * self.far[1])
 
     def kind(self, k: int) -> ApproximantKind:
@@ -203,8 +203,10 @@ def farey_neighbours(value: Fraction, most: int) -> tuple[Fraction, Fraction]:
 
 
 def _first_best(value: Fraction, near: IntegerPair, far: IntegerPair, length: int) -> int:
-    """Return the minimum index k for which (p + k P)/(q + k Q) is nearer to `value` than P/Q, where `near` is (p, q)
-    and `far` is (P, Q). The result is at most `length` + 1.
+    """Return the minimum index k, from 1 to `length`, for which the fraction (p + k P)/(q + k Q) has a smaller distance
+    from `value` than the fraction P/Q has; `length` + 1 if there is none.
+
+    near, far   numerator and denominator of two fractions, (p, q) and (P, Q)
     """
     # the fractions approach `value`, and all fractions between them and `value` have larger denominators, so each is
     # only compared with P/Q on the opposite side; towards infinity, the integers are compared with the next integer

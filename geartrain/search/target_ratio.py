@@ -81,8 +81,9 @@ class TargetRatio(Result):
 
 @dataclass(frozen=True, slots=True)
 class _Term:
-    """Term of a ratio: its kind, its exact value (times are in days), its unit or the name of the counted objects, and
-    a note on its origin.
+    """One side of a quotient that was parsed, or the whole text if there is no quotient. It contains the kind of the
+    term, its exact value (times are in days), its unit or the name of what is counted, such as "months", and a note on
+    its origin.
     """
 
     kind: TargetKind
@@ -239,8 +240,8 @@ def _figure(text: str) -> Fraction:
 
 
 def _single_term(term: _Term, label: str, per: str | None) -> tuple[Fraction, str]:
-    """Return the ratio that is given by one term, and by the second period `per` if it is not None, with a note on its
-    origin.
+    """Return a ratio without division sign, and a note on its origin: the value of a number or of a named speed or
+    count, or the number of periods `term` in one period `per`.
     """
     if term.kind == "time":
         if per is None:

@@ -61,7 +61,9 @@ class SearchGroup(LazyGroup):
 
 
 def _word(args: list[str]) -> tuple[str, list[str]]:
-    """Return the name of the search that was probably intended if its name is missing, and the arguments."""
+    """Return the name of the search that was probably intended, if the command line lacks it, and the arguments of this
+    search. `args` are the arguments after `geartrain teeth`.
+    """
     from geartrain.train.declaration_files import shipped
 
     if args[0] == "epicyclic":
@@ -178,8 +180,8 @@ class SearchAnswer:
 
     @classmethod
     def of(cls, json: bool, out: Path | None, force: bool, pick: int = 1) -> SearchAnswer:
-        """Build the destination from the command-line options. A file that cannot be written is rejected before the
-        search.
+        """Return the answer object for the command-line options `--json`, `-o`, `--force` and `--pick`. `QuestionError`
+        is raised before the search if the output file cannot be written.
         """
         return cls(json, sink(out, force, _FORMS), pick)
 

@@ -135,8 +135,9 @@ def describe_assignments(found: TrainFindings) -> Document:
 
 
 def _part(part: PartFindings) -> list[Section]:
-    """Return the sections on one independent part: its requirements, its number of solutions, and its best solutions.
-    If there are no solutions, the rejected candidates are described instead.
+    """Return the sections on one part of a train, whose varied wheels are independent of all other varied wheels: its
+    requirements, its number of solutions, and its best solutions. If there are no solutions, the rejected candidates
+    are described instead.
     """
     requested = "; ".join([*part.demands, *part.rules])
     lines = [f"Required: {requested}." if requested else "No requirements."]

@@ -47,7 +47,7 @@ from geartrain.search.constraints.count_conditions import (
     is_between,
     is_different,
     is_positive,
-    plainest,
+    primitive_sum,
     sine,
     whole,
 )
@@ -80,8 +80,11 @@ def find_constraints(
 
 @dataclass(frozen=True)
 class _ConstraintBuilder:
-    """Builder of all constraints of one train. `fitting` is the train `declared`, in which every varied wheel has the
-    first of its admissible tooth counts.
+    """Builder of all constraints of one train.
+
+    declared    train as declared
+    fitting     the same train, in which every varied wheel has the first of its admissible tooth counts
+    requested   options that select the constraints
     """
 
     declared: Train
@@ -152,8 +155,8 @@ class _ConstraintBuilder:
     # --------------------------------------------------------------------------------------------------------- coaxial
 
     def _coaxial(self) -> Iterator[CountConstraint]:
-        """Yield constraints that require equal centre distances of meshes between the same two axes. Only meshes whose
-        modules have the same unit are compared.
+        """Yield the constraints that all gear pairs between the same two parallel axes have equal centre distances.
+        Gear pairs are compared only if their modules are all lengths or all numbers without a unit.
         """
         if self.requested.coaxial is False:
             return
@@ -182,7 +185,7 @@ class _ConstraintBuilder:
                     )
                 )
             return
-        found = plainest(total)
+        found = primitive_sum(total)
         if not shift:
             yield CountEquation(f"coaxial closure: {equality(found)}", dict(found.terms), found.constant)
             return
@@ -191,9 +194,8 @@ class _ConstraintBuilder:
         yield from _condition(words, is_between, scaled, -room.constant, room.constant)
 
     def _is_broken(self, total: LinearSum, shift: Fraction | int) -> bool:
-        """Return whether the declared tooth counts contradict the requirement that `total`, the difference of two
-        centre distances, has a magnitude of at most `shift`. False if this requirement is explicit; otherwise it is
-        dropped, because the modules or the profile shifts of the wheels differ.
+        """Return True if equal centre distances are required only by default, and the declared tooth counts violate
+        this requirement: the magnitude of `total`, the difference of two centre distances, exceeds `shift`.
         """
         if self.requested.coaxial is not None:
             return False
@@ -245,8 +247,9 @@ class _ConstraintBuilder:
     # --------------------------------------------------------------------------------------------------------- planets
 
     def _planet_sets(self) -> Iterator[tuple[PlanetSet, int]]:
-        """Yield each set of planets with its number of copies around the central axis, as requested or, by default, as
-        declared by `copies`. Sets without such a number are omitted.
+        """Yield pairs (set of planets, number of copies of this set around the central axis). The number is the
+        requested number or, by default, the number declared by `copies`. Sets without a requested or declared number
+        are omitted.
         """
         requested = self.requested.planets
         if requested is None:
@@ -279,12 +282,12 @@ class _ConstraintBuilder:
             yield one, number
 
     def _equal(self) -> Iterator[CountConstraint]:
-        """Yield equations that require equal tooth counts of corresponding wheels of equal planets that are declared
-        individually.
+        """Yield equations that require equal tooth counts of the wheels at the same position in two copies of a planet,
+        for copies that are declared as separate planets.
         """
         for one, _ in self._planet_sets():
             for first, other in self._copied(one):
-                found = plainest(LinearSum.of([(1, self.fitting.part(first)), (-1, self.fitting.part(other))]))
+                found = primitive_sum(LinearSum.of([(1, self.fitting.part(first)), (-1, self.fitting.part(other))]))
                 if found.terms:
                     yield CountEquation(f"equal planets: {equality(found)}", dict(found.terms), found.constant)
 
@@ -328,8 +331,9 @@ def _wrong_planet_number(one: PlanetSet, number: int, declared: int) -> Problem:
 
 
 def can_mesh(number: int, first: Planet, columns: CandidateColumns) -> Bools:
-    """Return, for each candidate, whether `number` equal sets of planets, equally spaced around the central axis, can
-    mesh with the same central wheels. `first` is the first planet of a set.
+    """Return, for each candidate, whether `number` identical planets, equally spaced around the central axis, can mesh
+    with the same central wheels. A planet may consist of several links that mesh with each other; `first` is the first
+    of them.
 
     The condition is that `number` divides every integer returned by `phase_numbers`.
     """
@@ -342,8 +346,8 @@ def can_mesh(number: int, first: Planet, columns: CandidateColumns) -> Bools:
 
 
 def bezout(a: Ints, b: Ints) -> tuple[Ints, Ints, Ints]:
-    """Return g, u and v with u a + v b = g = gcd(a, b) for each pair of elements of the arrays a, b >= 0, by the
-    extended Euclidean algorithm.
+    """Return three arrays g, u and v of the shape to which a and b broadcast, with u a + v b = g = gcd(a, b), by the
+    extended Euclidean algorithm. All elements of a and b must be non-negative.
     """
     r, s, t, r2, s2, t2 = (np.array(one, dtype=np.int64) for one in np.broadcast_arrays(a, 1, 0, b, 0, 1))
     while np.any(r2):
@@ -358,11 +362,11 @@ def bezout(a: Ints, b: Ints) -> tuple[Ints, Ints, Ints]:
 
 
 def equal_planets(found: PlanetSet, number: int) -> Condition | None:
-    """Return the condition on tooth counts under which `number` copies of a set of planets can be assembled with equal
-    spacing around the central axis.
+    """Return the condition on the tooth counts of a set of planets and its central wheels under which `number` copies
+    of the set can be assembled with equal spacing around the central axis.
 
-    Return None if no wheel is varied, or if the planets mesh with fewer than two central wheels. In the latter case any
-    number of copies can be assembled.
+    Return None if none of these wheels is varied, or if the planets mesh with fewer than two central wheels. In the
+    latter case any number of copies can be assembled.
     """
     assert found.planets is not None
     planets = list(found.planets.walk())
@@ -392,19 +396,21 @@ def are_apart(number: int, reach: WholeSum, tips: WholeSum, columns: CandidateCo
 
     number   number of equally spaced planets
     reach    twice the distance of the axis of a planet from the central axis
-    tips     tip diameter of a planet plus the required clearance
+    tips     tip diameter of a planet plus the required clearance, in the same unit as `reach`
     """
     chord = sine(Fraction(1, 2 * number))
     return is_positive(neighbour_terms, [reach.of(columns), tips.of(columns)], [chord], True)
 
 
 def can_pass(number: int, A: WholeSum, B: WholeSum, D: WholeSum, tips: WholeSum, columns: CandidateColumns) -> Bools:
-    """Return, for each candidate, whether a planet and its mating planet can be assembled without overlap between the
-    planet and the mating planets of the other `number` - 1 equal sets.
+    """Return, for each candidate, whether a planet can mesh with its partner, a planet of a second kind, and has the
+    required clearance from the partners of the other `number` - 1 planets of its kind.
 
-    A, B   twice the distances of the axes of the planet and of its mating planet from the central axis
-    D      twice the centre distance of the planet and its mating planet
-    tips   sum of the tip diameters plus twice the required clearance
+    A, B   twice the distances of the axes of a planet and of its partner from the central axis
+    D      twice the centre distance of a planet and its partner
+    tips   sum of the tip diameters of a planet and its partner plus twice the required clearance
+
+    All lengths have the same unit.
     """
     a, b, d, tip = (one.of(columns) for one in (A, B, D, tips))
     # the triangle of the central axis and the two planets must close
@@ -416,13 +422,13 @@ def can_pass(number: int, A: WholeSum, B: WholeSum, D: WholeSum, tips: WholeSum,
 
 
 def clearance_conditions(found: PlanetSet, number: int, clearance: Fraction) -> Iterator[Condition]:
-    """Yield the clearance conditions of one set of `number` equal planets: first of neighbouring equal wheels, then of
-    planets that mesh with each other.
+    """Yield the clearance conditions of one set of planets of which `number` copies are required: first of equal wheels
+    of neighbouring copies, then of planets that mesh with each other.
 
     clearance   required minimum clearance between tip circles [modules]; the addendum is assumed to be 1 module
 
-    Wheels are assumed to be concentric with the axes of their planets. In a set of two planets, if one meshes only with
-    external central wheels and the other only with rings, all of these wheels are assumed to lie in one plane.
+    The clearance from central wheels is tested only in sets of two planets of which one meshes only with suns and the
+    other only with rings. Their wheels are assumed to lie in one plane.
     """
     assert found.planets is not None
     _check_clearance(found)
@@ -446,14 +452,14 @@ def clearance_conditions(found: PlanetSet, number: int, clearance: Fraction) -> 
             name = f"neighbours: {pair} of {number} planets mesh, with tip clearance above {shown}"
             yield from _condition(name, can_pass, number, *whole(A, B, distance_of(mesh), tips))
             for inner, outer in ((planet, other), (other, planet)):
-                if _is_plain(inner, True) and _is_plain(outer, False):
+                if _is_simple(inner, True) and _is_simple(outer, False):
                     yield from _gap_conditions(outer, inner, clearance)
                     yield from _gap_conditions(inner, outer, clearance)
 
 
 def _gap_conditions(planet: Planet, other: Planet, clearance: Fraction) -> Iterator[Condition]:
-    """Yield the conditions that a planet has more than the required clearance [modules] from each central wheel of the
-    other planet.
+    """Yield, for each central wheel with which the planet `other` meshes, the condition that the planet `planet` of the
+    same set has more than the required clearance [modules] from this central wheel.
     """
     reach, own = _reach(planet), planet.central[0]
     assert reach is not None
@@ -467,18 +473,18 @@ def _gap_conditions(planet: Planet, other: Planet, clearance: Fraction) -> Itera
         yield from _condition(name, is_between, *whole(gap), 1, inf)
 
 
-def _is_plain(planet: Planet, external: bool) -> bool:
-    """Return whether a planet consists of one wheel, meshes with exactly one other planet, and meshes only with
-    external central wheels (if `external` is True) or only with rings (if it is False).
+def _is_simple(planet: Planet, external: bool) -> bool:
+    """Return whether a planet consists of one wheel, meshes with exactly one other planet, and meshes with one or more
+    suns but no ring (if `external` is True) or with one or more rings but no sun (if it is False).
     """
     alone = len(planet.wheels) == 1 and len(planet.outward) + (planet.inward is not None) == 1
     return alone and bool(planet.central) and all((mesh.ring is None) == external for mesh in planet.central)
 
 
 def _reach(planet: Planet, wheel: str = "") -> LinearSum | None:
-    """Return twice the distance of the axis of a planet from the central axis; None if the planet meshes with no
-    central wheel. The distance is computed from a mesh of `wheel` with a central wheel if there is one, and from an
-    external mesh if possible.
+    """Return twice the distance of the axis of a planet from the central axis, in the unit of its module; None if the
+    planet meshes with no central wheel. The distance is computed from a central wheel that meshes with the wheel named
+    `wheel`, if there is one, and preferably from a sun.
     """
     meshes = sorted(planet.central, key=lambda mesh: (planet.own(mesh) != wheel, mesh.ring is not None))
     return distance_of(meshes[0]) if meshes else None
@@ -491,8 +497,8 @@ def _wheel_meshes(planet: Planet) -> list[AssemblyMesh]:
 
 
 def _condition(name: str, test: Callable[..., Bools], *arguments: float | WholeSum) -> Iterator[Condition]:
-    """Yield a condition with the given name, whose test is the function `test` with `arguments` as its first arguments.
-    Nothing is yielded if no sum in `arguments` contains a varied wheel.
+    """Yield a condition with the given name. Its test calls the function `test` with `arguments` and, as last argument,
+    the tooth counts of the candidates. Nothing is yielded if no sum in `arguments` contains a varied wheel.
     """
     sums = [one for one in arguments if isinstance(one, WholeSum)]
     wheels = tuple(dict.fromkeys(wheel for one in sums for wheel in one.wheels))

@@ -74,7 +74,9 @@ class CountEquation:
 
 @dataclass(frozen=True, slots=True)
 class Condition:
-    """Constraint that can be tested, but cannot be solved for the tooth count of a wheel."""
+    """Constraint on tooth counts that can only be tested for given tooth counts. Unlike a `CountEquation`, it does not
+    determine the tooth count of a wheel from the tooth counts of the other wheels.
+    """
 
     name: str
     """Name of the constraint in reports. Several conditions may have the same name."""
@@ -85,7 +87,7 @@ class Condition:
 
     def holds(self, columns: CandidateColumns) -> Bools:
         """Return whether each candidate satisfies the condition, as a read-only array of shape (candidates,). `columns`
-        may contain further wheels.
+        must include the wheels of the condition.
         """
         return np.broadcast_to(self.test(columns), columns[self.wheels[0]].shape)
 
@@ -120,7 +122,9 @@ class LinearSum:
 
     @classmethod
     def of(cls, parts: Iterable[tuple[Fraction | int, CountRef]]) -> LinearSum:
-        """Return the sum of pairs (weight, part), where a part is the id of a varied wheel or a fixed tooth count."""
+        """Return the sum of weight * part over all given pairs (weight, part), where a part is the id of a varied wheel
+        or a fixed tooth count.
+        """
         total = cls({})
         for weight, part in parts:
             total += cls({part: Fraction(weight)}) if isinstance(part, str) else cls({}, Fraction(weight * part))
@@ -157,8 +161,8 @@ class WholeSum:
         return tuple(wheel for wheel, _ in self.terms)
 
     def of(self, columns: CandidateColumns) -> Ints:
-        """Return the value of the sum for each candidate, shape (candidates,); a single number if the sum has no varied
-        wheel. Sums above 2^63 overflow.
+        """Return the value of the sum for each candidate as an array of shape (candidates,), or of shape () if the sum
+        has no varied wheel. Sums above 2^63 overflow.
         """
         total = np.asarray(self.constant, dtype=np.int64)
         for wheel, weight in self.terms:
@@ -177,8 +181,10 @@ def whole(*sums: LinearSum) -> tuple[WholeSum, ...]:
     )
 
 
-def plainest(one: LinearSum) -> WholeSum:
-    """Return the multiple of a sum whose weights and constant are coprime integers, with a positive first weight."""
+def primitive_sum(one: LinearSum) -> WholeSum:
+    """Return a sum multiplied by the factor for which its weights and its constant are coprime integers and its first
+    weight is positive.
+    """
     (found,) = whole(one)
     # the greatest common divisor of a zero sum is 0
     common = gcd(*(weight for _, weight in found.terms), found.constant) or 1
@@ -212,10 +218,11 @@ def are_coprime(first: CountRef, second: CountRef, columns: CandidateColumns) ->
 
 
 def are_owned(numbers: Sequence[tuple[int, int]], used: Mapping[str, int], columns: CandidateColumns) -> Bools:
-    """Return whether each candidate uses no more wheels of each tooth count than are available.
+    """Return, for each candidate, whether no tooth count is used for more wheels than are available with this tooth
+    count.
 
-    numbers   pairs of a tooth count and the number of available wheels with this tooth count
-    used      number of equal wheels that each varied wheel represents
+    numbers   pairs (tooth count, number of available wheels with this tooth count)
+    used      number of wheels, such as the copies of a planet, that have the tooth count of each varied wheel
     """
     total = {count: sum((columns[wheel] == count) * pieces for wheel, pieces in used.items()) for count, _ in numbers}
     return np.asarray(np.all([total[count] <= most for count, most in numbers], axis=0))
@@ -227,8 +234,8 @@ def is_different(wheel: str, others: Sequence[CountRef], columns: CandidateColum
 
 
 def distance_of(mesh: AssemblyMesh) -> LinearSum:
-    """Return twice the centre distance of a spur pair whose wheels have the same module [m, or dimensionless if the
-    module has no unit].
+    """Return twice the centre distance of a spur gear pair as a sum of tooth counts, in the unit of the module. Both
+    wheels must have the same module.
     """
     assert mesh.module is not None
     return LinearSum.of(mesh.terms).times(mesh.module)
@@ -266,19 +273,18 @@ def sine(turns: Fraction) -> Decimal:
 
 
 def cosine(turns: Fraction) -> Decimal:
-    """Return the cosine of an angle [turn] from -1 to 3/4 to fifty digits, computed as a sine."""
+    """Return the cosine of an angle [turn], which must be from -1 to 3/4, to fifty digits."""
     return sine(turns + Fraction(1, 4))
 
 
 def is_positive(kernel: Kernel, counts: Sequence[Ints], constants: Sequence[Decimal], strictly: bool) -> Bools:
-    """Return, for each candidate, whether the sum of the terms of a kernel is positive if `strictly` is True, or
-    non-negative if it is False.
+    """Return, for each candidate, whether the sum of the numbers that the function `kernel` returns is positive (if
+    `strictly` is True) or non-negative (if it is False).
 
-    counts     arrays of integers that broadcast to the shape (candidates,)
-    constants  numbers that are the same for all candidates
+    counts      arguments of `kernel` that differ between candidates: integer arrays that broadcast to (candidates,)
+    constants   arguments of `kernel` that are the same for all candidates
 
-    The sum is evaluated in floating point, and again with fifty digits where the floating-point result is near 0. Terms
-    may include roots of differences of products.
+    The sum is evaluated in floating point, and again with fifty digits where the floating-point result is near 0.
     """
     columns = np.broadcast_arrays(*counts)
     floats = (column.astype(float) for column in columns)

@@ -25,8 +25,8 @@ CARRIER = "carrier"
 
 @dataclass(frozen=True, slots=True)
 class CentralWheel:
-    """Sun or ring of an epicyclic set, with the planet wheel with which it meshes, and its contribution to the speed
-    ratios.
+    """Sun or ring of an epicyclic set, with the planet wheel with which it meshes. `sign` and `step` determine its
+    speed relative to the carrier.
     """
 
     link: str
@@ -109,7 +109,7 @@ class EpicyclicKind(Result):
 
     @property
     def wheels(self) -> tuple[str, ...]:
-        """Names of all central wheels and planet wheels, in a fixed order that is common to all types."""
+        """Names of all central wheels and planet wheels, in the order in which tooth counts are listed."""
         planets = [wheel for link in self.planets for wheel in link]
         return tuple(sorted([*(member.wheel for member in self.members), *planets], key=_ORDER.index))
 
@@ -135,8 +135,8 @@ class EpicyclicKind(Result):
         return next((member for member in self.members if member.link == link), None)
 
     def chosen(self, modes: str | Iterable[str | EpicyclicMode]) -> tuple[EpicyclicMode, ...]:
-        """Return the operating modes selected by "all" or by strings in the format `input:output:held`. `QuestionError`
-        is raised if a string is not a mode of this type.
+        """Return all operating modes if `modes` is "all", or the given modes, which are `EpicyclicMode` objects or
+        strings in the format `input:output:held`. `QuestionError` is raised if one of them is not a mode of this type.
         """
         if modes == "all":
             return self.modes
@@ -328,7 +328,7 @@ class EpicyclicSet(CountSizes, Result):
 
     @property
     def inverse(self) -> Fraction:
-        """Exact output speed divided by input speed."""
+        """Reciprocal of `ratio`: exact output speed divided by input speed."""
         return 1 / self.ratio
 
     @property

@@ -181,8 +181,8 @@ def _length(columns: Columns) -> int:
 
 @dataclass
 class _Search:
-    """State of an enumeration of epicyclic sets: the best sets found so far, and the number of rejected sets for each
-    reason. A rejected set is counted under the first reason that applies.
+    """Enumeration of epicyclic sets: the best sets found so far, and the number of rejected epicyclic sets, keyed by
+    the reason for the rejection. Each rejected epicyclic set is counted under the first reason that applies.
     """
 
     kind: EpicyclicKind
@@ -249,8 +249,9 @@ class _Search:
             self.removed[reason] = self.removed.get(reason, 0) + number
 
     def assembled(self, columns: Columns, clearance: Fraction, modes: int) -> Columns:
-        """Return the sets whose planets can be assembled with equal spacing and at least the given clearance [modules].
-        Each rejected set is counted once for each of the `modes` operating modes.
+        """Return the rows of `columns` for which the planets can be assembled with equal spacing and at least the given
+        clearance [modules]. Candidates are combinations of an epicyclic set and an operating mode, so each rejected row
+        is counted `modes` times.
         """
         even = places(self.kind, columns) % self.planets == 0
         self.charge(NO_SPACING, int((~even).sum()) * modes)
@@ -260,8 +261,8 @@ class _Search:
         return _select(columns, clear)
 
     def judge(self, columns: Columns, at: int, mode: EpicyclicMode) -> None:
-        """Compare the ratios of all sets of a block in one operating mode with the requested ratio, and keep the best
-        sets. `at` is the index of the mode.
+        """Compare the ratios of all epicyclic sets in `columns`, in one operating mode, with the requested ratio, and
+        add the best of them to the results. `at` is the index of the mode among the requested modes.
         """
         top, beneath = ratio_terms(self.kind, mode, columns)
         runs = (top != 0) & (beneath != 0)
@@ -388,17 +389,18 @@ def _check_counts(whose: str, counts: Counts) -> tuple[int, ...]:
 def blocks(
     kind: EpicyclicKind, bounds: SetBounds, planets: int, clearance: Fraction | None, slack: int
 ) -> Iterator[tuple[int, Columns]]:
-    """Yield, for each block, the number of examined combinations of tooth counts, and the admissible combinations that
-    satisfy the coaxial equations and for which the planets fit between the central wheels.
+    """Yield blocks of combinations of tooth counts: the number of combinations that were examined in the block, and the
+    admissible combinations among them. The latter satisfy the coaxial equations, and their planets fit between the
+    central wheels.
 
-    planets    number of equal planets between which an idle wheel must have clearance
-    clearance  minimum clearance between these planets [modules]; None if it is not required
-    slack      maximum difference of centre distances [half modules], to be compensated by profile shift
+    planets     number of equal planets
+    clearance   minimum clearance between planets [modules] in types with idle wheels; None if it is not required
+    slack       maximum difference of centre distances [half modules], to be compensated by profile shift
 
-    `RangeError` is raised if there are more than `MOST_SETS` sets.
+    `RangeError` is raised if there are more than `MOST_SETS` combinations.
     """
-    followers = _followers(kind)
-    total = prod(len(bounds[wheel]) for wheel in kind.free) * (2 * slack + 1) ** len(followers)
+    pairs = _coaxial_pairs(kind)
+    total = prod(len(bounds[wheel]) for wheel in kind.free) * (2 * slack + 1) ** len(pairs)
     if total > MOST_SETS:
         raise RangeError(
             Problem(
@@ -416,16 +418,16 @@ def blocks(
         # Cartesian product of the independent counts
         columns = [np.repeat(head, len(inner[0])), *(np.tile(column, len(head)) for column in inner)]
         chosen = dict(zip(kind.free, columns, strict=True))
-        for extra in product(range(-slack, slack + 1), repeat=len(followers)):
-            found = _add_coaxial_counts(bounds, chosen, followers, extra)
+        for extra in product(range(-slack, slack + 1), repeat=len(pairs)):
+            found = _add_coaxial_counts(bounds, chosen, pairs, extra)
             if kind.idle:
                 found = _with_idle(kind, bounds, found, planets, clearance)
             yield len(columns[0]), _select(found, fits(kind, found) & _is_stepped(kind, found))
 
 
-def _followers(kind: EpicyclicKind) -> list[tuple[CentralWheel, CentralWheel]]:
-    """Return pairs of central wheels that mesh with the same planet link. A coaxial equation gives the tooth count of
-    the second wheel from that of the first.
+def _coaxial_pairs(kind: EpicyclicKind) -> list[tuple[CentralWheel, CentralWheel]]:
+    """Return pairs of central wheels that mesh with wheels of the same planet. The tooth count of the second wheel of a
+    pair follows from that of the first by the equality of their centre distances.
     """
     if kind.bevel:
         return []
@@ -439,16 +441,16 @@ def _followers(kind: EpicyclicKind) -> list[tuple[CentralWheel, CentralWheel]]:
 def _add_coaxial_counts(
     bounds: SetBounds,
     chosen: Columns,
-    followers: Sequence[tuple[CentralWheel, CentralWheel]],
+    pairs: Sequence[tuple[CentralWheel, CentralWheel]],
     extra: Sequence[int],
 ) -> Columns:
-    """Return the sets with the tooth counts of the dependent wheels, which follow from the coaxial equations. Sets with
-    inadmissible tooth counts are removed.
+    """Return the combinations `chosen` extended by the tooth count of the second wheel of each pair in `pairs`.
+    Combinations in which such a tooth count is inadmissible are removed.
 
-    extra   difference of centre distances of each pair in `followers` [half modules]
+    extra   centre distance of the second wheel minus that of the first wheel [half modules], for each pair
     """
     columns = dict(chosen)
-    for (first, other), more in zip(followers, extra, strict=True):
+    for (first, other), more in zip(pairs, extra, strict=True):
         distance = columns[first.wheel] + (-1 if first.internal else 1) * columns[first.mesh] + more
         count = columns[other.wheel] = distance + (1 if other.internal else -1) * columns[other.mesh]
         allowed = bounds[other.wheel]
@@ -459,8 +461,8 @@ def _add_coaxial_counts(
 
 
 def _is_stepped(kind: EpicyclicKind, columns: Columns) -> NDArray[np.bool_]:
-    """Return, for each set, True if every stepped planet differs from a planet with a single wheel. Sets without
-    stepped planets give True.
+    """Return, for each epicyclic set, False if one of its stepped planets has two equal steps and could be replaced by
+    a planet with one wheel; True otherwise.
     """
     # equal steps differ from one wheel only if they mesh with two suns, or two rings, of different tooth counts
     stepped = np.ones(len(columns[kind.free[0]]), dtype=bool)
@@ -476,8 +478,9 @@ def _is_stepped(kind: EpicyclicKind, columns: Columns) -> NDArray[np.bool_]:
 def _with_idle(
     kind: EpicyclicKind, bounds: SetBounds, columns: Columns, planets: int, clearance: Fraction | None
 ) -> dict[str, Ints]:
-    """Return the sets in which every idle wheel has the minimum tooth count with which the planets fit. Sets for which
-    no such tooth count exists are removed.
+    """Return the epicyclic sets with tooth counts of the idle wheels added. Idle wheels affect no ratio; all of them
+    have the same tooth count, the minimum with which the planets fit. Sets for which there is no such tooth count are
+    removed.
     """
     # an idle wheel changes no ratio: the smallest count that fits represents all
     common = set[int].intersection(*(set(bounds[wheel]) for wheel in kind.idle))
@@ -525,14 +528,15 @@ def places(kind: EpicyclicKind, columns: Columns) -> Ints:
     """Return, for each set, the number of equally spaced positions at which identical planets can be assembled.
 
     A number n of equal planets can be equally spaced if and only if n divides this number. If this number is 0, every
-    position is possible. Here z is the tooth count of a central wheel, P is the tooth count of the planet step with
-    which it meshes, and f is its speed relative to the carrier.
+    position is possible.
 
-    Rotate the carrier by 1/n revolution with central wheel x fixed. Wheel y turns by (1 - f_y/f_x)/n, after which its
-    teeth must align where the next planet is inserted. If both mesh with the same step of the planet, (z_y -+ z_x)/n
-    must be an integer. If they mesh with two steps, the planet may also be rotated by whole teeth of the first step,
-    each of which shifts the second by P_y/P_x of a tooth, so (z_y P_x -+ z_x P_y)/(n gcd(P_x, P_y)) must be an integer.
-    Well-known cases are (s + r)/n for a sun and a ring, and (s1 p2 + r2 p1)/(n gcd(p1, p2)) for stepped planets.
+    Rotate the carrier by 1/n revolution with central wheel x fixed. Central wheel y then rotates by (1 - f_y/f_x)/n,
+    where f is the speed of a wheel relative to the carrier, and its teeth must align where the next planet is inserted.
+    Let z be the tooth count of a central wheel and P that of the planet wheel with which it meshes. If both central
+    wheels mesh with the same planet wheel, (z_y + z_x)/n must be an integer if f_x and f_y have opposite signs, and
+    (z_y - z_x)/n if they have equal signs. For a stepped planet, the condition is that (z_y P_x + z_x P_y)/(n gcd(P_x,
+    P_y)), or the same expression with a minus sign, is an integer. Well-known cases are (s + r)/n for a sun and a ring,
+    and (s1 p2 + r2 p1)/(n gcd(p1, p2)) for stepped planets.
     """
     number: Ints = np.zeros_like(columns[kind.members[0].wheel])
     for x, y in combinations(kind.members, 2):
@@ -632,8 +636,8 @@ def _distance(kind: EpicyclicKind, columns: Columns, link: tuple[str, ...]) -> I
 
 
 def _side_cosine(columns: Columns, own: str, other: str) -> Floats:
-    """Return, for each bevel set, the cosine of the pitch-cone angle of the side wheel `own`. The opposite side wheel
-    is `other`.
+    """Return, for each bevel set, the cosine of the pitch-cone angle of one of the two central wheels. `own` is the
+    name of this wheel, and `other` the name of the second central wheel.
     """
     # the cone angles g of planet p and side wheels a, b have equal sin g / z and satisfy g_a + g_b + 2 g_p = pi, so
     # they are the angles of a triangle with the sides a, b and 2 p cos g_p, and cos^2 g_p = (a + b)^2 / 4(p^2 + ab)
@@ -647,8 +651,9 @@ def _planet_cosine(columns: Columns) -> Floats:
 
 
 def _bevel_clearance(columns: Columns, planets: int) -> Floats:
-    """Return, for each set, the clearance of neighbouring bevel planets [modules]: the angle between their axes minus
-    their pitch-cone angles, multiplied by the cone radius, minus their addenda.
+    """Return, for each set, the clearance between the tips of neighbouring bevel planets [modules]: c (b - 2 g) - 2,
+    where c is the cone distance [modules], b is the angle between the axes of the planets [rad], and g is their
+    pitch-cone angle [rad].
     """
     cone = np.arccos(_planet_cosine(columns))
     # a cone angle of 0 gives an infinite radius, which is replaced below

@@ -56,26 +56,27 @@ class ExactJoin:
         self.cut({}, budget)
 
     def cut(self, slices: Slices, budget: float) -> None:
-        """Restrict variables to the index ranges in `slices`, set the maximum number of partial assignments to examine,
-        and reset the counter of examined partial assignments to 0.
+        """Set, for each variable in `slices`, the half-open range of indices of its values to which the join is
+        restricted; set the maximum number of partial assignments to examine, and reset the counter of examined partial
+        assignments to 0.
         """
         self.slices, self.budget, self.steps = slices, budget, 0
-        self._full: dict[int, int] = {}
+        self._unconstrained: dict[int, int] = {}
 
     def start(self) -> PartialAssignments:
         """Return a single partial assignment in which no variable is assigned, from which a join starts."""
         return PartialAssignments(self.items, {}, 1)
 
-    def full(self, node: PlanNode) -> int:
-        """Return the number of assignments of tooth counts to the variables of a node and of all its descendants,
-        regardless of the constraints.
+    def unconstrained_count(self, node: PlanNode) -> int:
+        """Return the number of assignments of tooth counts to the variables of a node of the join plan and of all its
+        descendants, regardless of the constraints.
         """
-        if id(node) not in self._full:
+        if id(node) not in self._unconstrained:
             total = self._total(node.item)
             for child in node.children:
-                total *= self.full(child)
-            self._full[id(node)] = total
-        return self._full[id(node)]
+                total *= self.unconstrained_count(child)
+            self._unconstrained[id(node)] = total
+        return self._unconstrained[id(node)]
 
     def count(self, node: PlanNode, rows: PartialAssignments) -> tuple[Tallies, RefusalCounts]:
         """Return, for each partial assignment in `rows`, the number of its extensions to the variables of a node and of
@@ -93,7 +94,7 @@ class ExactJoin:
                 start, end = (np.clip(one, *self._run(node.item)) for one in window)
                 # cases exclude each other, so their windows do not overlap
                 total[at] += item.sums[end] - item.sums[start]
-            np.add.at(removed[node.guide], at, self.full(node) - total[at])
+            np.add.at(removed[node.guide], at, self.unconstrained_count(node) - total[at])
             return total, removed
         for parents, grown in self.grown(node, alive, at, removed):
             counts = self._count_below(node, parents, grown, removed)
@@ -118,8 +119,9 @@ class ExactJoin:
             yield from self.stream((*node.children, *nodes[1:]), grown)
 
     def wheels(self, rows: PartialAssignments) -> Iterator[AssignmentColumns]:
-        """Yield, block by block, all assignments of tooth counts whose products are the values in `rows`, as an array
-        of tooth counts for each wheel.
+        """Yield, block by block, all assignments of tooth counts that are represented by the partial assignments
+        `rows`, as an array of tooth counts for each wheel. A row identifies the product of the tooth counts of each
+        group of wheels.
         """
         sizes = np.ones(rows.size, dtype=self.dtype)
         for item, column in rows.columns.items():
@@ -168,7 +170,7 @@ class ExactJoin:
                 continue
             if removed is not None:
                 gone = at[~hopeful]
-                np.add.at(removed[number], gone, np.full(len(gone), self.full(node), dtype=self.dtype))
+                np.add.at(removed[number], gone, np.full(len(gone), self.unconstrained_count(node), dtype=self.dtype))
             at, rows = at[hopeful], rows.pick(hopeful)
         return at, rows
 
@@ -176,11 +178,11 @@ class ExactJoin:
         self, node: PlanNode, rows: PartialAssignments, at: Ints, removed: RefusalCounts | None
     ) -> Iterator[tuple[Ints, PartialAssignments]]:
         """Yield, block by block, the extensions of the partial assignments `rows` by all values of the variable of a
-        node that satisfy the constraints of this node. Each block is preceded by an array that contains, for each
-        extension, the entry of `at` for its original row.
+        node that satisfy the constraints of this node. Each block is preceded by an array of integers, which identify
+        the original row of each extension; `at` contains the integer that identifies each row.
         """
         times, total = self.items[node.item].times, self._total(node.item)
-        below = self.full(node) // total  # assignments of the subtree for each value of the variable
+        below = self.unconstrained_count(node) // total  # assignments of the subtree for each value of the variable
         # all assignments are charged here; those that the guide accepts are subtracted below. `np.add.at`, because `+=`
         # would add only one number to a repeated row
         if node.guide >= 0 and removed is not None:
@@ -227,22 +229,23 @@ class ExactJoin:
         yield found, indices[found]
 
     def _counts(self, rule: CountConstraint, rows: PartialAssignments) -> AssignmentColumns:
-        """Return, for each wheel in a constraint whose variable is assigned, its tooth counts in all partial
-        assignments.
+        """Return the tooth counts of the wheels of a constraint in all partial assignments, as an array for each wheel.
+        Wheels whose variable is not assigned are omitted.
         """
         items = {wheel: self.wheel_of[wheel] for wheel in rule.wheels}
         return {wheel: rows.value(item) for wheel, item in items.items() if item in rows.columns}
 
     def _count_below(self, node: PlanNode, parents: Ints, grown: PartialAssignments, removed: RefusalCounts) -> Tallies:
         """Return, for each partial assignment in `grown`, the number of its extensions to the descendants of a node
-        that satisfy all constraints. Rejected extensions are counted in `removed` at the indices `parents`.
+        that satisfy all constraints. The numbers of rejected extensions are added to the arrays in `removed`, at the
+        index that `parents` contains for each partial assignment.
         """
         counts = self.items[node.item].times[grown.columns[node.item]]
         alive = np.arange(grown.size)
         # assignments of the children that are not yet counted
-        later = self.full(node) // self._total(node.item)
+        later = self.unconstrained_count(node) // self._total(node.item)
         for child in node.children:
-            later //= self.full(child)
+            later //= self.unconstrained_count(child)
             distinct, which = grown.pick(alive).distinct(child.interface)
             found, gone = self.count(child, distinct)
             for number, numbers in gone.items():

@@ -33,7 +33,8 @@ CountWeights = Mapping[str, Tallies]
 
 def _ways(last: ProductStep | None, row: int) -> Iterator[dict[str, int]]:
     """Yield all assignments of tooth counts whose product has the index `row` among the products of the multiplication
-    step `last`, each as a dict from wheel to the index of its tooth count.
+    step `last`, each as a dict from wheel to the index of its tooth count. If `last` is None, there are no wheels, and
+    one empty dict is yielded.
     """
     if last is None:
         yield {}
@@ -67,7 +68,7 @@ class RecordedNode:
 
 def record_join(question: JoinProblem, limit: float, misfits: Misfits) -> tuple[RecordedNode, int]:
     """Record all complete assignments of a join problem as a tree, and return its root and the number of examined
-    partial assignments. The problem must not have constraints that are evaluated last (`late`).
+    partial assignments. `question.late` must be empty.
 
     `BudgetSpentError` is raised if the number of examined partial assignments exceeds `limit`.
     """
@@ -107,8 +108,8 @@ def _record_node(join: ExactJoin, misfits: Misfits, node: PlanNode, rows: Partia
 
 
 def _added_misfit(join: ExactJoin, misfits: Misfits, node: PlanNode, rows: PartialAssignments) -> Floats:
-    """Return the misfit that a plan node adds to each partial assignment in `rows`. It is the sum over the graded
-    constraints whose last variable is assigned at this node.
+    """Return the misfit that a plan node adds to each partial assignment in `rows`: the sum over the constraints in
+    `misfits` whose last variable is assigned at this node.
     """
     found = np.zeros(rows.size)
     for number in (node.guide, *node.checks):
@@ -126,17 +127,19 @@ _Sums = dict[_Table, Any]
 
 
 def _parts(table: _Table) -> tuple[tuple[_Table, Ints], ...]:
-    """Return the product steps and recorded nodes to which the transitions of a table lead, each with the row to which
-    each transition leads. A recorded node leads to the values of its variable and to its children; a product step leads
-    to the step of the previous wheel.
+    """Return the tables that follow a table, each with an array that contains, for each transition of the table, the
+    row to which it leads. A recorded node is followed by the last step of its `values` and by its children; a
+    multiplication step is followed by the step of the previous wheel.
     """
     if isinstance(table, RecordedNode):
         return (table.values, table.places), *table.children
     return () if table.before is None else ((table.before, table.parents),)
 
 
-def _owners(table: _Table) -> Ints:
-    """Return, for each transition of a table, the row of the table from which the transition starts."""
+def _start_rows(table: _Table) -> Ints:
+    """Return an array that contains, for each transition of a table, the row of the table from which the transition
+    starts.
+    """
     return table.parents if isinstance(table, RecordedNode) else table.children
 
 
@@ -153,7 +156,7 @@ class AssignmentSums:
         self._add(root)
 
     def _add(self, table: _Table) -> None:
-        """Add a table to the list of tables, after all tables to which its transitions lead."""
+        """Add a recorded node or a multiplication step to the list of tables, after all tables that follow it."""
         for part, _ in reversed(_parts(table)):
             self._add(part)
         self._tables[table] = None
@@ -164,8 +167,8 @@ class AssignmentSums:
         return inside[self.root].sum()
 
     def _inside(self, weights: CountWeights) -> tuple[_Sums, _Sums, _Sums]:
-        """Return three results for each table: the inside sum of each row, the weight of each transition, and the
-        product of this weight and the inside sums of the rows to which the transition leads.
+        """Return three arrays for each table: the total weight of all assignments that complete each row (inside sum),
+        the weight of each transition, and the total weight of all assignments that begin with each transition.
         """
         inside: _Sums = {}
         own: _Sums = {}
@@ -176,7 +179,7 @@ class AssignmentSums:
             else:
                 own[table] = weights[table.wheel][table.choices]
             onward[table] = prod((inside[part][rows] for part, rows in _parts(table)), start=own[table])
-            inside[table] = sums_by(_owners(table), onward[table], table.size)
+            inside[table] = sums_by(_start_rows(table), onward[table], table.size)
         return inside, own, onward
 
     def marginals(self, weights: CountWeights) -> dict[str, Tallies]:
@@ -186,7 +189,7 @@ class AssignmentSums:
         outside[self.root] = inside[self.root] ** 0  # 1 for each row
         found: dict[str, Tallies] = {}
         for table in reversed(self._tables):
-            around = outside[table][_owners(table)]
+            around = outside[table][_start_rows(table)]
             if isinstance(table, ProductStep):
                 found[table.wheel] = sums_by(table.choices, around * onward[table], len(weights[table.wheel]))
             parts = [(part, rows, inside[part][rows]) for part, rows in _parts(table)]
@@ -238,8 +241,8 @@ class BestFirst:
         self._add(root)
 
     def _add(self, node: RecordedNode) -> int:
-        """Number a node and all its descendants, compute the minimum misfit that each of their rows adds, and return
-        the number of the node.
+        """Append a node and all its descendants to the list of nodes, compute for each of their rows the minimum misfit
+        that completes it, and return the index of the node in the list.
         """
         at = len(self._nodes)
         self._nodes.append(node)
@@ -277,8 +280,8 @@ class BestFirst:
                 heappush(heap, (max(ahead, bound), depth - 1, so_far, then, (*taken, (number, int(node.places[at])))))
 
     def _teeth(self, taken: Sequence[tuple[int, int]]) -> Iterator[dict[str, int]]:
-        """Yield all assignments of tooth counts that produce the given products. `taken` contains pairs of the number
-        of a node and the index of a product of its variable.
+        """Yield all assignments of tooth counts for given values of the variables. `taken` contains pairs: index of a
+        node, and index of the value of the variable of this node.
         """
         if not taken:
             yield {}

@@ -59,15 +59,15 @@ class PlanNode:
     children: tuple[PlanNode, ...]
     """Child nodes. No two of them have a common constraint."""
 
-    def decided(self) -> Iterator[int]:
-        """Yield the indices of the constraints whose last variable is assigned at this node, and then of those whose
-        last variable is assigned in its subtree.
+    def evaluated(self) -> Iterator[int]:
+        """Yield the indices of the constraints that are evaluated at this node, and then of those that are evaluated at
+        its descendants. A constraint is evaluated at the node that assigns its last variable.
         """
         if self.guide >= 0:
             yield self.guide
         yield from self.checks
         for child in self.children:
-            yield from child.decided()
+            yield from child.evaluated()
 
 
 @dataclass(frozen=True)
@@ -112,14 +112,16 @@ class JoinProblem:
 
     @property
     def order(self) -> tuple[int, ...]:
-        """Indices of the constraints in the order of evaluation. The constraints of `late` are at the end."""
-        found = list(self.plan.decided())
-        return (*found, *(at for at in range(len(self.reasons)) if at not in found))
+        """Indices of all constraints in the order in which the join evaluates them. The indices of the constraints
+        `late`, which are evaluated last, are at the end.
+        """
+        found = list(self.plan.evaluated())
+        return (*found, *(at for at in range(len(self.constraint_names)) if at not in found))
 
     @property
-    def reasons(self) -> tuple[str, ...]:
-        """Names of the constraints in the order of their indices. The names of the constraints of `late` are at the
-        end.
+    def constraint_names(self) -> tuple[str, ...]:
+        """Names of all constraints in the order of their indices. They are reported as reasons for the rejection of
+        assignments.
         """
         return tuple(one.name for one in (*self.rules, *self.polynomial_constraints, *self.late))
 
@@ -154,8 +156,8 @@ def find_join_problem(
 
 
 class _Planner:
-    """Search for the plan of a join. The constraints `early` are evaluated as soon as their variables are assigned, and
-    the constraints `late` at the end.
+    """Search for the order in which a join assigns its variables (the plan). The constraints `early` are evaluated as
+    soon as all their variables are assigned, and the constraints `late` after all other constraints.
     """
 
     def __init__(
@@ -177,7 +179,7 @@ class _Planner:
         self.likely = [probabilities.get(one.name, 1.0) for one in (*early, *self.polynomial_constraints)]
 
     def problem(self) -> JoinProblem:
-        """Return the join problem with the plan and its expected number of steps."""
+        """Return the join problem with the plan and the expected number of examined partial assignments."""
         plan, steps = self._grow(frozenset(range(len(self.recipes))), frozenset(), 1.0)
         # constraints without variables are evaluated at the root
         constant = tuple(at for at, scope in enumerate(self.scopes) if not scope)
@@ -190,7 +192,8 @@ class _Planner:
         return JoinProblem(self.domains, tuple(self.requested), self.rules, self.late, self.recipes, plan, steps)
 
     def _grow(self, open_: Items, known: Items, rows: float) -> tuple[PlanNode, float]:
-        """Return the plan of the unassigned variables `open_` and its expected number of examined partial assignments.
+        """Return the root of the plan for the variables `open_`, which are not yet assigned, and the expected number of
+        partial assignments that the join examines to assign them.
 
         known   variables that are already assigned
         rows    expected number of partial assignments of these variables
@@ -244,8 +247,9 @@ class _Planner:
         return min(self.scopes[focus] & open_, key=rank)
 
     def _guide(self, item: int, complete: Sequence[int]) -> int:
-        """Return the index of the equation that determines variable `item`. If there is none, return the index of the
-        most selective constraint that admits an index range of the values of the variable; -1 if there is none either.
+        """Return the index of an equation in `complete` that can be solved for variable `item`. If there is none,
+        return the index of the most selective polynomial constraint in `complete` whose admissible values of the
+        variable are index ranges; -1 if there is none either.
         """
         for at in complete:
             if at < len(self.rules) and isinstance(self.rules[at], CountEquation):
@@ -253,7 +257,7 @@ class _Planner:
         opening = [
             at
             for at in complete
-            if at >= len(self.rules) and self.polynomial_constraints[at - len(self.rules)].opens(item)
+            if at >= len(self.rules) and self.polynomial_constraints[at - len(self.rules)].has_index_ranges(item)
         ]
         return min(opening, key=lambda at: self.likely[at], default=-1)
 
@@ -294,7 +298,7 @@ def estimate_probabilities(
 
 
 def _as_float64(value: Fraction) -> float:
-    """Convert a fraction to float64. The result is infinite if the fraction is out of range."""
+    """Convert a fraction to float64. The result is 0 or infinite if the fraction is out of range."""
     number = as_float(value)
     if number is None:
         number = 0.0 if abs(value) < 1 else inf if value > 0 else -inf

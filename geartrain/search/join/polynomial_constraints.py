@@ -61,8 +61,8 @@ class SignPolynomial:
 
     @cached_property
     def rounding(self) -> float:
-        """Upper bound of the rounding error of the value that `values` returns, divided by the sum of the magnitudes of
-        the terms.
+        """Upper bound of the relative rounding error of `values`: the absolute rounding error of the value of the
+        polynomial divided by the sum of the magnitudes of its terms.
         """
         degree = max((sum(power for _, power in monomial) for _, monomial in self.terms), default=0)
         # each variable and each product has one rounding; the remaining terms cover squares and the bound itself
@@ -79,7 +79,9 @@ class SignPolynomial:
         return (1 if signs.pop() else -1) if len(signs) == 1 else 0
 
     def plus(self, other: SignPolynomial, factor: Fraction) -> SignPolynomial:
-        """Return a positive multiple of the polynomial `self` + `factor` * `other` that has integer coefficients."""
+        """Return the polynomial `self` + `factor` * `other`, multiplied by the denominator of `factor`, so that its
+        coefficients are integers.
+        """
         mine = ((factor.denominator * coefficient, monomial) for coefficient, monomial in self.terms)
         theirs = ((factor.numerator * coefficient, monomial) for coefficient, monomial in other.terms)
         return SignPolynomial.of((*mine, *theirs))
@@ -141,8 +143,11 @@ class PolynomialInequality:
         return found
 
     def possible(self, rows: PartialAssignments, extents: Extents) -> Bools:
-        """Return whether each row can satisfy the inequality for some values of its free variables within `extents`.
-        Each term is bounded independently, so True may be returned for a row that cannot satisfy it.
+        """Return whether each row can satisfy the inequality for some values of its unassigned variables.
+
+        extents   minimum and maximum value of each variable
+
+        Each term is bounded independently, so True may be returned for a row that cannot satisfy the inequality.
         """
         polynomial = self.polynomial
         # a common positive factor keeps the sign, but would widen the bounds
@@ -159,10 +164,11 @@ class PolynomialInequality:
 
 
 def _ray(inequality: PolynomialInequality, rows: PartialAssignments, item: int) -> tuple[Ints, Ints]:
-    """Return, for each row, the half-open index range of the values of variable `item` that satisfy one inequality.
+    """Return, for each row, the half-open range of the indices of the values of variable `item` that satisfy one
+    inequality. The polynomial changes its sign at most once, so a range that is not empty includes the first or the
+    last value.
 
-    The two arrays contain the starts and the ends of the ranges, indices into `rows.items[item]`. A range that is not
-    empty includes the first or the last index.
+    The two arrays contain the starts and the ends of the ranges, shape (rows,).
     """
     polynomial, most = inequality.polynomial, len(rows.items[item])
 
@@ -202,9 +208,9 @@ class PolynomialConstraint:
     def _inequalities(self) -> Iterable[PolynomialInequality]:
         return (inequality for case in self.cases for inequality in case)
 
-    def opens(self, item: int) -> bool:
-        """Return whether the admissible values of variable `item` can be computed as index ranges. This is possible if
-        each polynomial contains at most two powers of the variable.
+    def has_index_ranges(self, item: int) -> bool:
+        """Return whether the method `windows` can be used for variable `item`. This requires that each polynomial
+        contains at most two powers of the variable, so that it changes its sign at most once.
         """
         return all(len(inequality.polynomial.powers(item)) <= 2 for inequality in self._inequalities)
 
@@ -218,7 +224,7 @@ class PolynomialConstraint:
 
     def possible(self, rows: PartialAssignments, extents: Extents) -> Bools:
         """Return whether each row can satisfy the constraint. False is returned only if the row violates the constraint
-        for all values of the free variables.
+        for all values of the unassigned variables.
         """
         return self._in_any_case(rows, lambda inequality: inequality.possible(rows, extents))
 
@@ -232,18 +238,18 @@ class PolynomialConstraint:
         return found
 
     def value(self, rows: PartialAssignments) -> Floats:
-        """Return the value of the constrained function for each row, accurate up to rounding errors."""
+        """Return, for each row, the quotient of the two polynomials in `function`, accurate up to rounding errors."""
         assert self.function is not None, "the demand is graded"
         scale = max(side.scale for side in self.function)
         (above, _), (below, _) = (side.values(rows, scale) for side in self.function)
         return np.asarray(above / below)
 
     def windows(self, rows: PartialAssignments, item: int) -> list[tuple[Ints, Ints]]:
-        """Return, for each case of the constraint, the half-open index range of the admissible values of variable
-        `item` in each row.
+        """Return the ranges of values of variable `item` that satisfy the constraint in each row, as a list with one
+        entry for each case in `cases`. The ranges of different cases do not overlap.
 
-        The two arrays of a case contain the starts and the ends of the ranges, indices into `rows.items[item]`, shape
-        (rows,).
+        An entry contains two arrays of shape (rows,): the starts and the ends of half-open ranges of indices into
+        `rows.items[item]`.
         """
         found = []
         for case in self.cases:

@@ -63,8 +63,8 @@ def _forecast(factors: tuple[tuple[int, ...], ...]) -> tuple[int, int]:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ProductStep:
-    """Multiplication of all products of some wheels by the tooth counts of one more wheel, as a list of transitions
-    from one product to another.
+    """Table of the multiplications of the products of some wheels by the tooth counts of one more wheel. Each entry of
+    the arrays is one multiplication.
     """
 
     wheel: str
@@ -130,7 +130,8 @@ class Item:
         return owner, found
 
     def last_step(self, values: Ints, level: int = -1) -> ProductStep:
-        """Return the last step of the multiplication that leads from the empty product to the given distinct products.
+        """Return the multiplications by the tooth counts of the last wheel that produce the given distinct products.
+        They are linked to the multiplications by the tooth counts of all previous wheels.
 
         level   index of the last wheel in these products; by default the last wheel of the variable
         """
@@ -142,8 +143,8 @@ class Item:
 
 
 def _multiplied(values: Ints, times: Tallies, factors: Ints, weights: Tallies) -> tuple[Ints, Tallies]:
-    """Return the distinct products of an element of `values` and an element of `factors`, and the total weight of each
-    product. The products are computed block by block to save memory.
+    """Return the distinct products of an element of `values`, whose weights are `times`, and an element of `factors`,
+    whose weights are `weights`, and the sum of the products of the weights for each distinct product.
     """
     step = max(1, _LONGEST // len(values))
     found: list[tuple[Ints, Tallies]] = []
@@ -188,7 +189,9 @@ _ITEMS: OrderedDict[Hashable, Item] = OrderedDict()
 
 
 def find_item(recipe: Factors, domains: Domains, weights: Weights, dtype: Any) -> Item:
-    """Return the variable whose values are the products of the wheels in `recipe`, from the cache if possible."""
+    """Return the variable whose values are the products of the tooth counts of the wheels in `recipe`, from the cache
+    if possible.
+    """
     key = recipe, tuple((domains[wheel], weights.get(wheel)) for wheel, _ in recipe), dtype is object
     if key not in _ITEMS:
         _ITEMS[key] = Item(recipe, domains, weights, dtype)
@@ -225,7 +228,7 @@ class PartialAssignments:
         return self.items[item].values[self.columns[item]]
 
     def pick(self, where: NDArray[Any]) -> PartialAssignments:
-        """Return the partial assignments selected by a mask or by indices."""
+        """Return the rows that are selected by `where`, a Boolean mask of shape (size,) or an array of row indices."""
         columns = {item: column[where] for item, column in self.columns.items()}
         size = int(where.sum()) if where.dtype == np.bool_ else len(where)
         return PartialAssignments(self.items, columns, size)
@@ -238,8 +241,8 @@ class PartialAssignments:
         return PartialAssignments(self.items, {**columns, item: indices}, len(parents))
 
     def distinct(self, items: Sequence[int]) -> tuple[PartialAssignments, Ints | slice]:
-        """Return the distinct rows with respect to the given variables, and for each original row the index of its
-        distinct row. The indices are `slice(None)` if the rows are unchanged.
+        """Return the distinct combinations of the values of some variables as rows, and for each original row the index
+        of its combination. The indices are `slice(None)` if the rows are unchanged.
         """
         if len(items) == len(self.columns):
             return self, slice(None)

@@ -30,8 +30,8 @@ _NOTHING = Fraction(1), Fraction(0)
 
 
 class Function(Protocol):
-    """Rational function of tooth counts, such as a `Formula`. Powers are non-negative and listed in the order of
-    `wheels`.
+    """Rational function of tooth counts, such as a `Formula`. A term contains an integer coefficient and the
+    non-negative power of each wheel, in the order of `wheels`.
     """
 
     @property
@@ -71,12 +71,12 @@ WheelMonomial = Mapping[str, int]
 def find_wheel_monomials(
     wheels: Sequence[str], requested: Sequence[IntervalConstraint], alone: frozenset[str]
 ) -> list[WheelMonomial]:
-    """Return the monomials of tooth counts through which all functions in `requested` depend on the wheels. Each
-    monomial combines as many wheels as possible, except that each wheel in `alone` is a monomial by itself with power
-    1.
+    """Return groups of wheels on which all functions in `requested` depend only through one monomial of the group, such
+    as a c / b, with the power of each wheel. The groups are as large as possible, except that each wheel in `alone` is
+    a group by itself with power 1.
 
-    Wheels are combined if their powers, relative to the first term of each function and listed over all terms of all
-    functions, are proportional.
+    Wheels are in one group if their powers, relative to the first term of each function and listed over all terms of
+    all functions, are proportional.
     """
     lists: dict[str, list[int]] = {wheel: [] for wheel in wheels}
     for one in requested:
@@ -94,8 +94,8 @@ def find_wheel_monomials(
 
 
 def find_recipes(monomials: Sequence[WheelMonomial], domains: Domains) -> tuple[Factors, ...]:
-    """Return the definitions of the variables of a join. The numerator and the denominator of each monomial are
-    separate variables.
+    """Return the definition of each variable of a join: the wheels whose tooth counts are multiplied, each with its
+    power. The numerator and the denominator of each monomial are separate variables.
     """
     # a list of quotients would be longer, and `PartialAssignments.distinct` merges rows with equal quotients anyway
     return tuple(
@@ -109,8 +109,8 @@ def find_recipes(monomials: Sequence[WheelMonomial], domains: Domains) -> tuple[
 
 
 def _listable_groups(wheels: Factors, domains: Domains) -> Iterator[Factors]:
-    """Yield groups of wheels whose products are few enough to be listed in memory. A group with too many products is
-    divided into two halves.
+    """Yield `wheels` as one group if all products of their tooth counts can be listed in memory. If there are too many
+    products, divide the wheels into two halves and yield the groups of each half.
     """
     if not wheels:
         return

@@ -62,9 +62,9 @@ def _floors(factors: Ints, edge: Fraction, cap: int) -> tuple[Ints, Bools]:
     return np.where(beyond, cap, found + more), (rest == more * d) & ~beyond
 
 
-def error_places(tops: Ints, beneaths: Ints, value: Fraction) -> Ints:
+def error_ranks(tops: Ints, beneaths: Ints, value: Fraction) -> Ints:
     """Return, for each ratio tops / beneaths, the rank of its absolute error with respect to `value`, by exact
-    comparison. Equal errors have equal ranks.
+    comparison. The smallest error has the rank 0, and equal errors have equal ranks.
     """
     ratios, which = distinct_quotients(tops, beneaths)
     misses = [abs(ratio / value - 1) for ratio in ratios]
@@ -89,8 +89,8 @@ class ProductWindows:
 
     The sorted tooth counts are split at their middle element m. A lower partial product contains m and the tooth counts
     before it. It is combined with every upper partial product whose tooth counts are all at least m, so each multiset
-    occurs once. Memory is O(n^3) for n admissible counts, while the C(n+k-1, k) products are generated window by
-    window.
+    occurs once. Memory is O(n^3) for n admissible counts. The C(n+k-1, k) products are generated only for requested
+    intervals of their value.
     """
 
     counts: tuple[int, ...]
@@ -156,8 +156,8 @@ class ProductWindows:
 
 @lru_cache(maxsize=4)
 def _ends(products: ProductWindows, bound: int) -> Ints:
-    """Return, for each lower partial product, the index after the last upper partial product with which the product is
-    below `bound`, shape (rows,).
+    """Return, for each lower partial product in `products.rows`, the number of upper partial products in
+    `products.highs` up to the last one whose product with it is below `bound`, shape (rows,).
     """
     # one binary search for all tables: the offset of a row selects its table
     most = np.minimum((bound - 1) // products.rows, products.step - 1) + products.offsets
@@ -173,8 +173,8 @@ def multisets(number: int, size: int) -> int:
 
 @lru_cache(maxsize=4)
 def products_of(counts: tuple[int, ...], size: int) -> ProductWindows:
-    """Build the products of all multisets of `size` tooth counts. `counts` must be ascending, and `size` must be from 1
-    to 5.
+    """Return the products of all multisets of `size` tooth counts. `counts` must be ascending, and `size` must be from
+    1 to 5.
 
     `RangeError` is raised if the products are too large, or if the tables would not fit in memory.
     """
@@ -203,7 +203,8 @@ def products_of(counts: tuple[int, ...], size: int) -> ProductWindows:
 
 
 def _rows(numbers: Ints, below: int) -> tuple[Ints, Ints, Ints]:
-    """Return every combination of a number and a multiset of `below` numbers that do not exceed it.
+    """Return every combination of one number, the largest, with `below` further numbers that do not exceed it. Numbers
+    may be repeated.
 
     The three arrays have one row for each combination. They contain the product of all numbers, the numbers in
     ascending order, and the index of the largest number.

@@ -24,7 +24,7 @@ from geartrain.search.integer_columns import spread_in_blocks
 from geartrain.search.ratio.product_windows import (
     ProductWindows,
     cuts,
-    error_places,
+    error_ranks,
     multisets,
     rounded_up,
     row_products,
@@ -79,11 +79,11 @@ def search_segment(packed: bytes, segment: Sequence[int]) -> dict[str, Any]:
     near = replace(question, tolerance=tolerance)
     judge = StageFilter(question)
     (q, q_starts), (p, p_starts) = question.under.values(*beneath), question.over.values(*top)
-    first, last = cuts(p, q, *question.edges)
+    first, last = cuts(p, q, *question.ratio_bounds)
     # several multisets may have the same product
     count = int(((p_starts[last] - p_starts[first]) * np.diff(q_starts)).sum())
     if near.tolerance < question.tolerance:
-        first, last = cuts(p, q, *near.edges) if near.reachable else (first, first)
+        first, last = cuts(p, q, *near.ratio_bounds) if near.reachable else (first, first)
     used = last > first
     if used.any():
         # products within some window: number of windows that begin, minus number of windows that end, up to a product
@@ -92,9 +92,9 @@ def search_segment(packed: bytes, segment: Sequence[int]) -> dict[str, Any]:
         p, tops = question.over.members(*top, p[np.cumsum(opened - closed)[:-1] > 0])
         # every pair of multisets is expanded to all of its pairings
         chunk = max(CHUNK // (factorial(question.stages) * comb(question.stages, question.fit.internal)), 1)
-        for i, j in spread_in_blocks(*cuts(p, q, *near.edges), chunk):
-            judge.see(tops[j], beneaths[i], p[j], q[i])
-    return judge.outcome() | ({"count": count} if question.loose else {})
+        for i, j in spread_in_blocks(*cuts(p, q, *near.ratio_bounds), chunk):
+            judge.add(tops[j], beneaths[i], p[j], q[i])
+    return judge.outcome() | ({"count": count} if question.accepts_all else {})
 
 
 def _search_sums(question: StageProblem, low: int, high: int) -> dict[str, Any]:
@@ -104,7 +104,7 @@ def _search_sums(question: StageProblem, low: int, high: int) -> dict[str, Any]:
     # meet in the middle on the ratios: for each sum, every multiset of stages is generated once, from a lower and an
     # upper half. Candidates near the tolerance are compared as Fractions, all others as floats
     judge, size, limit = StageFilter(question), question.stages, float(question.tolerance)
-    first, last = map(float, question.edges)
+    first, last = map(float, question.ratio_bounds)
     for total in range(low, high):
         pairs = [(count, total - count) for count in question.top if total - count in question.beneath]
         stages = np.array(pairs, dtype=np.int64).reshape(-1, 2)
@@ -126,7 +126,7 @@ def _search_sums(question: StageProblem, low: int, high: int) -> dict[str, Any]:
             for at in np.flatnonzero(np.abs(errors - limit) <= _SLACK * (1 + limit)):
                 exact = abs(Fraction(int(p[at]), int(q[at])) / question.value - 1)
                 inside[at] = exact <= question.tolerance
-            judge.see(tops[inside], beneaths[inside], p[inside], q[inside])
+            judge.add(tops[inside], beneaths[inside], p[inside], q[inside])
     return judge.outcome()
 
 
@@ -139,8 +139,8 @@ def _multisets(number: int, size: int) -> Ints:
 
 
 def pieces(products: ProductWindows, low: int, high: int, most: int) -> Iterator[Range]:
-    """Split [low, high) into ascending ranges with at most `most` products each. Ranges without products are
-    omitted.
+    """Divide the half-open range from `low` to `high` into ascending ranges, each of which contains at most `most` of
+    the given products. Ranges without products are omitted.
     """
     number = products.below(high) - products.below(low) if low < high else 0
     if number > most and high - low > 1:
@@ -164,9 +164,11 @@ class StageFilter:
         # rows: primary criterion, products of numerator and denominator, tooth counts of numerator and denominator
         self._rows: list[Ints] = []
 
-    def see(self, tops: Ints, beneaths: Ints, over: Ints, under: Ints) -> None:
-        """Test and rank n pairs of multisets. The arguments are the tooth counts of numerator and denominator, shape
-        (n, k) each, where k is the number of stages, and their products, shape (n,) each.
+    def add(self, tops: Ints, beneaths: Ints, over: Ints, under: Ints) -> None:
+        """Test n pairs of multisets of tooth counts against the constraints; count and store those that satisfy them.
+
+        tops, beneaths   tooth counts of numerators and denominators, shape (n, k) each, where k is the number of stages
+        over, under      products of these tooth counts, shape (n,) each
         """
         fit, at = self.question.fit, np.arange(len(over))
         if fit.different:
@@ -208,12 +210,12 @@ class StageFilter:
         first, over, under, *counts = rows.T
         sizes = np.max(counts, axis=0), np.sum(counts, axis=0)
         # lexsort takes its last key first
-        order = np.lexsort((*counts[::-1], *sizes, error_places(over, under, value), first))
+        order = np.lexsort((*counts[::-1], *sizes, error_ranks(over, under, value), first))
         return rows[order[:best]]
 
     def _filter(self, at: Ints, good: NDArray[np.bool_], reason: str) -> Ints:
-        """Return the indices in `at` for which `good` is True. The other pairs of multisets are counted as rejected for
-        `reason`.
+        """Return the elements of `at`, which are indices of pairs of multisets, for which `good` is True. The elements
+        for which it is False are counted as rejected for `reason`.
         """
         if not good.all():
             self.removed[reason] = self.removed.get(reason, 0) + int((~good).sum())
@@ -221,7 +223,9 @@ class StageFilter:
 
 
 def pairing_reason(question: StageProblem) -> str:
-    """Return a description of the reason why pairs of multisets without a feasible pairing are rejected."""
+    """Return the reason for the rejection of multisets of tooth counts that cannot be paired to stages in accordance
+    with the constraints.
+    """
     fit = question.fit
     requested = [
         *(["coprime counts in every stage"] if fit.hunting else []),
@@ -233,8 +237,8 @@ def pairing_reason(question: StageProblem) -> str:
 
 @dataclass(frozen=True, slots=True)
 class SweepOutcome:
-    """Results merged from all segments: the number of solutions and of rejected candidates within `tolerance`, and the
-    best solutions.
+    """Merged result of a search for stages: the number of solutions and of rejected candidates within a tolerance, and
+    the best solutions.
     """
 
     tolerance: Fraction
@@ -250,19 +254,19 @@ class SweepOutcome:
 
 
 def solve(question: StageProblem, tolerance: Fraction | None, means: Execution) -> SweepOutcome:
-    """Count all solutions of a search problem within a tolerance, and keep the best solutions. If the tolerance is
-    None, find the solutions with the smallest absolute errors.
+    """Count all solutions of a search problem within a tolerance, and keep the best solutions. If `tolerance` is None,
+    find the solutions with the smallest absolute errors.
 
-    `question.tolerance` is ignored. If there are many solutions, only solutions near the requested ratio are listed.
-    The tolerance of the list is increased until it includes enough solutions, so all other solutions have larger
-    errors.
+    `question.tolerance` is ignored. If there are many solutions, all are counted, but only those within a smaller
+    tolerance are listed and sorted. This tolerance is increased until enough solutions are listed, so the other
+    solutions have larger errors.
     """
     # minimum and maximum absolute relative error of the possible ratios
     first, last = (ratio / question.value - 1 for ratio in question.reach)
     minimum, most = max(first, -last, Fraction(0)), max(last, -first)
     if tolerance is not None:
         most = tolerance
-        if not (question.by == "error" and replace(question, tolerance=tolerance).loose):
+        if not (question.by == "error" and replace(question, tolerance=tolerance).accepts_all):
             pairs = float(tolerance) * _density(question)
             if pairs > _MOST:
                 raise RangeError(
@@ -297,8 +301,8 @@ def _density(question: StageProblem) -> float:
 
 
 def _sweep(question: StageProblem, near: Fraction, means: Execution) -> SweepOutcome:
-    """Search all segments with the tolerance `near` of the list, and return their merged results. After a keyboard
-    interrupt, the results obtained until then are returned.
+    """Search all segments and return their merged results. Solutions are counted within `question.tolerance`, and
+    listed within the tolerance `near`. After a keyboard interrupt, the results obtained until then are returned.
     """
     work, tasks = partial(search_segment, pickle.dumps((question, near))), _segments(question)
     # a single task runs in this process, without the overhead of an executor
@@ -330,7 +334,7 @@ def _segments(question: StageProblem) -> list[Sequence[int]]:
         return []
     # more products if the tables have many rows
     most = max(BLOCK, PER_ROW * multisets(max(len(question.top), len(question.beneath)), (size + 1) // 2))
-    smallest, largest = question.edges
+    smallest, largest = question.ratio_bounds
     minimum, maximum = question.top[0] ** size, question.top[-1] ** size
     # denominators for which a numerator may exist
     first = max(question.beneath[0] ** size, ceil(minimum / largest))

@@ -78,7 +78,7 @@ class StageConstraints(Result):
 
     @property
     def free(self) -> bool:
-        """True if every pair of multisets of tooth counts satisfies all constraints."""
+        """True if there are no constraints, so that every pair of multisets of tooth counts is accepted."""
         return not (self.pairs_matter or self.different or self.maximum_total is not None)
 
     def check(self, stages: int) -> None:
@@ -139,15 +139,17 @@ class StageProblem:
         return low**self.stages, high**self.stages
 
     @cached_property
-    def edges(self) -> tuple[Fraction, Fraction]:
-        """Minimum and maximum ratio that are within the tolerance and within `reach`."""
+    def ratio_bounds(self) -> tuple[Fraction, Fraction]:
+        """Minimum and maximum ratio in the intersection of two intervals: the ratios within the tolerance, and the
+        ratios within `reach`.
+        """
         minimum, most = self.reach
         return max(self.value * (1 - self.tolerance), minimum), min(self.value * (1 + self.tolerance), most)
 
     @property
     def reachable(self) -> bool:
         """True if a ratio of products may be within the tolerance."""
-        low, high = self.edges
+        low, high = self.ratio_bounds
         return low <= high
 
     @property
@@ -171,9 +173,9 @@ class StageProblem:
         return sum(multisets(stages, self.stages) for stages in sums.values())
 
     @property
-    def loose(self) -> bool:
-        """True if every pair of multisets whose ratio is within the tolerance is a solution."""
-        low, high = self.edges
+    def accepts_all(self) -> bool:
+        """True if the constraints reject no pair of multisets whose ratio is within the tolerance."""
+        low, high = self.ratio_bounds
         # one internal mesh is always possible unless all counts are equal, and then the ratio is 1
         ring_alone = self.fit.internal == 1 and not low <= 1 <= high
         return self.fit.free or (ring_alone and replace(self.fit, internal=0).free)
@@ -183,12 +185,13 @@ class StageProblem:
 
 
 def pairings(tops: Ints, beneaths: Ints, fit: StageConstraints) -> tuple[Bools, Ints, Ints]:
-    """Evaluate all pairings of k numerator counts with k denominator counts, combined with all choices of internal
-    meshes, for each row of two arrays of shape (n, k).
+    """Evaluate, for n pairs of multisets, all pairings of the k numerator counts in a row of `tops` with the k
+    denominator counts in the same row of `beneaths`. Each permutation is combined with each choice of `fit.internal`
+    internal meshes.
 
-    Return three arrays of shape (n, arrangements): whether the pairing satisfies the constraints, the number of stages
-    with coprime tooth counts, and the number of distinct centre distances. The columns correspond to the rows of
-    `_arrangements`.
+    Return three arrays of shape (n, number of pairings): whether the pairing satisfies the constraints, the number of
+    stages with coprime tooth counts, and the number of distinct centre distances. Column i is the pairing in row i of
+    the arrays that `_arrangements` returns.
     """
     orders, rings = _arrangements(tops.shape[1], fit.internal)
     tall, short = tops[:, None, :], beneaths[:, orders]
@@ -266,7 +269,8 @@ the numerator and tooth counts of the denominator.
 
 
 def first_of(by: str, tops: Ints, beneaths: Ints, fit: StageConstraints) -> Ints:
-    """Return the primary sort criterion of n solutions (smaller is better), shape (n,). It is 0 for the order by error.
+    """Return the number by which n solutions are primarily sorted in the order `by`, shape (n,); smaller numbers come
+    first. All numbers are 0 if the order is "error".
 
     `tops` and `beneaths` contain the tooth counts of numerators and denominators, shape (n, k) each, where k is the
     number of stages.

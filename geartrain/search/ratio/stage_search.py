@@ -123,12 +123,16 @@ class StageFindings(Tabular, Result):
 
     @property
     def top_runs(self) -> str:
-        """Admissible tooth counts in the numerator as text, such as `15:60`."""
+        """Admissible tooth counts in the numerator as text, in which consecutive integers are abbreviated, such as
+        `15:60`.
+        """
         return str(CountRuns.of(self.top)) if self.top else ""
 
     @property
     def beneath_runs(self) -> str:
-        """Admissible tooth counts in the denominator as text, such as `15:60`."""
+        """Admissible tooth counts in the denominator as text, in which consecutive integers are abbreviated, such as
+        `15:60`.
+        """
         return str(CountRuns.of(self.beneath)) if self.beneath else ""
 
     def __len__(self) -> int:
@@ -261,8 +265,8 @@ def _question(
     by: str,
     fit: StageConstraints,
 ) -> tuple[StageProblem, str]:
-    """Return the search problem, and a note on the tolerance that is used if none is given; the note is empty if it is
-    not needed.
+    """Return the search problem and a note. If the order of the solutions requires a tolerance and none is given, the
+    note reports the tolerance that is used; otherwise it is empty.
     """
     for valid, what, why, fix in (
         (
@@ -323,8 +327,8 @@ def _findings(
 
 
 def _wrong_sense(question: StageProblem) -> Shortfall:
-    """Return the numbers of rejected candidates, and suggestions, for a search in which the output turns in the wrong
-    sense for all tooth counts.
+    """Return the shortfall of a search in which every candidate is rejected, because the numbers of external and
+    internal meshes give the wrong sense of rotation. It contains suggestions of changes.
     """
     stages, internal = question.stages, question.fit.internal
     # one more or one less internal mesh reverses the sense
@@ -388,8 +392,11 @@ def explain(question: StageProblem, outcome: SweepOutcome, sense: int, means: Ex
 
 
 def _nearest(question: StageProblem, miss: SweepOutcome, plain: SweepOutcome) -> str:
-    """Return a description of the nearest miss, the first solution in `miss`. If the best solution without constraints,
-    the first in `plain`, differs from it, it is described too.
+    """Describe the rejected solution that is nearest to the requested ratio. The best solution without constraints is
+    described too if it differs.
+
+    miss    result of the search for the solution with the smallest error that satisfies the constraints
+    plain   result of the search for the solution with the smallest error without constraints
     """
     parts = []
     if miss.keys and miss.complete:
@@ -423,8 +430,8 @@ def _advice(question: StageProblem, miss: SweepOutcome, removed: Mapping[str, in
 
 
 def _one_more(question: StageProblem, sense: int) -> Iterator[str]:
-    """Yield the suggestion to add one stage, if this gives at least one solution. The suggestion contains the number of
-    solutions unless counting them would be slow.
+    """Yield the suggestion to search with one more stage, if there are solutions with one more stage. The suggestion
+    contains the number of these solutions unless counting them would be slow.
     """
     size = question.stages + 1
     # one more external stage would reverse the required sense

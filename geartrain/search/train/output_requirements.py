@@ -46,8 +46,8 @@ class SpeedRequirement:
     target: bool = False
 
     def loosened(self) -> SpeedRequirement:
-        """Return the requirement without its tolerance, so that its error is minimised. Only the sense of rotation is
-        still required.
+        """Return a requirement that admits all speeds with the requested sense of rotation, or all speeds if only the
+        magnitude is required. The error of the speed is minimised instead.
         """
         allowed: tuple[Interval, ...] | None = None
         if self.signed and self.wanted:
@@ -63,8 +63,7 @@ class SpeedRequirement:
     def within(self, share: Fraction | None) -> tuple[Interval, ...] | None:
         """Return the intervals of admissible speeds; None if all speeds are admissible.
 
-        If `share` is not None and `graded` is True, only speeds with a relative error of at most `share` are
-        admissible.
+        share   additional maximum relative error, used if `graded` is True; None if there is none
         """
         if share is None or not self.graded:
             return self.allowed
@@ -83,8 +82,9 @@ class SpeedRequirement:
         return self.allowed is not None and all(low == high for low, high in self.allowed)
 
     def half(self, above: bool) -> Fraction | None:
-        """Return the tolerance above the requested speed (if `above` is True) or below it [unit of the train]. None if
-        the tolerance is unlimited, or if the requested speed is not admissible.
+        """Return the magnitude of the difference between the requested speed and the upper (if `above` is True) or
+        lower end of the admissible interval that contains it [unit of the train]. None if this end is unbounded, or if
+        the requested speed is not admissible.
         """
         around = [interval for interval in self.allowed or () if is_within(self.wanted, (interval,))]
         # a magnitude has equal tolerances, even if its interval extends to negative speeds
@@ -153,7 +153,7 @@ class OutputRequirement:
 
     @property
     def exact(self) -> bool:
-        """True if every admissible interval contains a single speed, so that no solution has an error."""
+        """True if every admissible interval contains a single speed, so that the error of every solution is 0."""
         common = self.requested(None)
         return common is not None and all(low == high for low, high in common.intervals)
 
@@ -290,7 +290,7 @@ def _printed(train: Train, published: Published, drive: Fraction | None, graded:
 
 
 def _inverse(low: Fraction, high: Fraction, drive: Fraction) -> Iterator[Interval]:
-    """Yield the intervals of speeds for which `drive` divided by the speed is between `low` and `high`."""
+    """Yield the intervals of all speeds v for which `low` <= `drive` / v <= `high`."""
     if low > 0 or high < 0:
         ends = sorted((drive / low, drive / high))
         yield ends[0], ends[1]
@@ -378,12 +378,11 @@ def _counts(train: Train, wheel: str, link: str, teeth: Teeth) -> Iterable[int]:
 def find_parts(
     train: Train, state: str | None, domains: Domains, rules: Sequence[CountConstraint], tolerance: Fraction | None
 ) -> tuple[list[SearchPart], tuple[str, ...]]:
-    """Return the connected components of the varied wheels in the order of declaration, with all requirements in one
-    state, or in all states if `state` is None. A wheel without connection to other varied wheels is a component by
-    itself.
+    """Return the independent parts of a train in the order of declaration, and remarks. A part is a set of varied
+    wheels that are connected by outputs, loops or constraints, directly or through further varied wheels.
 
-    The second result contains remarks on outputs whose speeds are undetermined, and on outputs that depend on no varied
-    wheel and violate their requirements.
+    The requirements are those of the given state, or of all states if `state` is None. The remarks describe outputs
+    whose speeds are undetermined, and outputs that depend on no varied wheel and violate their requirements.
     """
     train.check_state(state)
     states: Sequence[str | None] = tuple(train.states) or (None,) if state is None else (state,)

@@ -43,8 +43,8 @@ Task = dict[str, Any]
 
 
 def cut(question: JoinProblem, limit: float) -> tuple[list[Task], float]:
-    """Return the tasks into which the join of a pass is divided, and the fraction of the join that they cover. The
-    fraction is below 1 if the join needs more than `limit` steps.
+    """Divide a join into tasks. Return the tasks, and the fraction of all assignments that they cover, which is below 1
+    if the join needs more than `limit` steps (examined partial assignments).
 
     A task covers an interval of the values of the first variable and, if this variable has few values, of the next
     variable in the plan. If the limit is exceeded, the tasks are a random sample with a fixed seed.
@@ -66,8 +66,8 @@ def cut(question: JoinProblem, limit: float) -> tuple[list[Task], float]:
 
 
 def _chain(question: JoinProblem, wanted: float) -> list[tuple[int, int]]:
-    """Return variables from the root of the plan downwards, each with the number of intervals into which its values are
-    divided. The product of these numbers is about `wanted`.
+    """Return the first one or two variables that the join assigns, each with the number of intervals into which its
+    values are divided. The product of these numbers is about `wanted`.
     """
     node: PlanNode | None = question.plan
     found: list[tuple[int, int]] = []
@@ -128,8 +128,8 @@ def do_task(packed: bytes, task: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _slices(join: ExactJoin, parts: Sequence[Sequence[int]], pieces: int) -> Iterator[dict[int, tuple[int, int]]]:
-    """Yield, for each piece of a task, the half-open index range of the values of each variable in `parts`. The range
-    of the first variable is divided into pieces.
+    """Yield the half-open index ranges of the values of all variables in `parts`, for each of about `pieces` pieces
+    into which a task is divided. Only the range of the first variable differs between pieces.
     """
     runs = {item: (len(join.items[item]) * at // of, len(join.items[item]) * (at + 1) // of) for item, at, of in parts}
     item = parts[0][0]
@@ -141,17 +141,18 @@ def _slices(join: ExactJoin, parts: Sequence[Sequence[int]], pieces: int) -> Ite
 
 
 def _do_piece(join: ExactJoin, pool: BestAssignments, most: int) -> tuple[int, Counter[str], bool]:
-    """Return the number of assignments in a piece of a task that satisfy all constraints, the number rejected by each
-    constraint, and whether the assignments were added to the list `pool` of the best assignments.
+    """Count the assignments of tooth counts in one piece of a task that satisfy all constraints, and add them to the
+    list `pool` of the best assignments. Return their number, the number of assignments that each constraint rejects,
+    and whether the assignments were added.
 
-    The assignments are enumerated only if there are at most `most`, or if the join has constraints that are evaluated
+    They are enumerated and added only if there are at most `most`, or if the join has constraints that are evaluated
     last.
     """
     question = join.question
     counts, gone = join.count(question.plan, join.start())
     count, removed = int(counts[0]), Counter[str]()
     for at, numbers in gone.items():
-        removed[question.reasons[at]] += int(numbers[0])
+        removed[question.constraint_names[at]] += int(numbers[0])
     if not question.late and count > most:
         return count, removed, False
     count = 0
@@ -200,16 +201,9 @@ class PassRunner:
         except KeyboardInterrupt:
             self.stopped = True
 
-    def release(self) -> None:
-        """Remove the executor, the journal and the progress function, so that later computations are executed in this
-        process.
-        """
-        self.executor = self.journal = self.tell = None
-        self.stopped = False
-
 
 class _Section:
-    """View of a journal in which the numbers of the tasks are shifted by an offset."""
+    """Adapter for a journal, which adds a constant offset to the numbers of all tasks."""
 
     def __init__(self, journal: Journal, offset: int) -> None:
         self._journal, self._offset = journal, offset
@@ -315,7 +309,7 @@ class PartSearch:
         tasks, searched = cut(question, self.limit)
         # `most` may be infinite
         packed = pickle.dumps((question, self.order, int(min(most, 1 << 62))))
-        removed = dict.fromkeys((question.reasons[at] for at in question.order), 0)
+        removed = dict.fromkeys((question.constraint_names[at] for at in question.order), 0)
         found = PassResult(share, searched, question.steps, removed=removed)
         pool = BestAssignments(self.order, question.wheels)
         for result in self.runner.run(partial(do_task, packed), tasks):
@@ -357,10 +351,8 @@ class AssignmentOrder:
     """Declared tooth count of each wheel for which a tooth count is declared."""
 
     @property
-    def level(self) -> bool:
-        """True if all solutions have the error 0, because every admissible interval of every output contains a single
-        speed.
-        """
+    def only_exact(self) -> bool:
+        """True if all solutions have the error 0, because the requirements of each output admit only single speeds."""
         return all(requirement.exact for requirement in self.requirements)
 
     def assignment(self, teeth: Mapping[str, int]) -> Assignment | None:
@@ -396,7 +388,7 @@ class AssignmentOrder:
         equal ranks.
         """
         found = np.zeros(len(next(iter(columns.values()))), dtype=np.int64)
-        if self.level:
+        if self.only_exact:
             return found
         exact = []
         for requirement in self.requirements:
@@ -412,8 +404,10 @@ class AssignmentOrder:
 
 
 def _whole(wheels: Sequence[str], terms: Sequence[WholeTerm], columns: AssignmentColumns) -> Tallies:
-    """Return the sum of some terms for each assignment, as int64 if all sums fit, or as Python integers if they do not.
-    A term is a coefficient with the power of each wheel.
+    """Return the value of a polynomial in tooth counts for each assignment, as int64 if all values fit, or as Python
+    integers if they do not.
+
+    terms   terms of the polynomial: an integer coefficient, and the power of each wheel in the order of `wheels`
     """
     most = {wheel: int(columns[wheel].max()) for wheel in wheels}
     bound = sum(

@@ -71,7 +71,7 @@ class Assignment(CountSizes, Result):
         """Return the sort key of the assignment: primary criterion, error, sum of tooth counts, and largest tooth
         count.
 
-        by   name of the primary criterion
+        by   primary criterion: "error", "total", "largest", "distinct" or "change"
         """
         total, largest = self.total, self.largest
         first: dict[By, Fraction | int] = {
@@ -140,7 +140,9 @@ class PartFindings(Result):
 
 @dataclass(frozen=True, slots=True)
 class Standing(Result):
-    """Rank of one assignment of tooth counts to the wheels of one part."""
+    """Rank of one assignment of tooth counts among all assignments, for one part of a train. The varied wheels of a
+    part are independent of all other varied wheels.
+    """
 
     wheels: tuple[str, ...]
     """Names of the wheels of the part."""
@@ -290,8 +292,8 @@ class TrainFindings(Tabular, Result):
 
 
 def _together(parts: Sequence[Sequence[Assignment]], by: By, best: int) -> Iterator[Assignment]:
-    """Yield the best combinations of one solution from each part, with the best combination first, by a search with a
-    priority queue. The order by distinct tooth counts is approximate.
+    """Yield the best combinations of one solution from each part in the order `by`, with the best combination first, by
+    a search with a priority queue. For the order "distinct", better combinations may be missing.
     """
     if not parts or not all(parts):
         return

@@ -40,14 +40,14 @@ _WIDEST = Fraction(10**6)
 
 
 def solve(search: PartSearch) -> tuple[PassResult, tuple[Assignment, ...], bool]:
-    """Return the result of the pass that counts the solutions of a part of a train, the best assignments, and whether
+    """Search one part of a train. Return a result with the number of its solutions, its best assignments, and whether
     these are proved to be the best.
     """
     if any(requirement.approached for requirement in search.part.requirements):
         passed = widened(search)
         return passed, passed.best, passed.listed and passed.complete
     # only the order by error can be narrowed by a tolerance if there are too many solutions to list
-    by_error = search.order.by == "error" and not search.order.level
+    by_error = search.order.by == "error" and not search.order.only_exact
     # an assignment that is listed costs several times as much as a step of the count
     passed = search.run(None, _list_limit(search) if by_error else search.limit / 8)
     if passed.listed or not passed.complete:
@@ -176,21 +176,19 @@ def _relaxations(search: PartSearch) -> Iterator[str]:
     names = dict.fromkeys(rule.name for rule in search.part.rules)
     if len(names) + len(search.part.requirements) < 2:
         return
-    for name in names:
+    relaxed = [(f'the constraint "{name}"', search.without(rule=name)) for name in names]
+    relaxed += [
+        (f"the requirement on '{requirement.name}'", search.without(requirement=requirement))
+        for requirement in search.part.requirements
+    ]
+    for what, other in relaxed:
         # 0: the solutions are counted, not listed
-        passed = search.without(rule=name).run(None, 0)
-        if passed.count:
-            yield f'without the constraint "{name}" there {_solution_count(passed)}'
-    for requirement in search.part.requirements:
-        passed = search.without(requirement=requirement).run(None, 0)
-        if passed.count:
-            yield f"without the requirement on '{requirement.name}' there {_solution_count(passed)}"
-
-
-def _solution_count(passed: PassResult) -> str:
-    count = passed.count
-    minimum = "" if passed.complete else "at least "
-    return f"is {minimum}1 solution" if count == 1 else f"are {minimum}{count} solutions"
+        passed = other.run(None, 0)
+        minimum = "" if passed.complete else "at least "
+        if passed.count == 1:
+            yield f"without {what} there is {minimum}1 solution"
+        elif passed.count:
+            yield f"without {what} there are {minimum}{passed.count} solutions"
 
 
 def _rounded_up(error: Fraction) -> str:
@@ -312,7 +310,8 @@ def search_train(
         for part in parts
     ]
     findings = tuple(_found(one) for one in searches)
-    runner.release()
+    # later computations of ranks are executed in this process
+    searches = [replace(search, runner=PassRunner()) for search in searches]
     links = {wheel: train.wheels[wheel][0] for wheel in domains}
     return TrainFindings(train.name, by, best, findings, links, remarks, (), partial(_standing, searches))
 
@@ -341,8 +340,8 @@ def _found(search: PartSearch) -> PartFindings:
 
 
 def _reason(search: PartSearch, passed: PassResult, ranked: bool) -> str:
-    """Return the reason why the search of a part is not complete or its solutions are not ranked; empty if it is
-    complete and the solutions are ranked.
+    """Return the reason why a search is not complete, or why its listed solutions are not proved to be the best; empty
+    if it is complete and they are.
     """
     if passed.stopped:
         return "interrupted: the count covers only the finished part"

@@ -244,7 +244,7 @@ class Coupling(BaseModel):
 
     @property
     def torques(self) -> Iterator[Quantity]:
-        """Declared energies, such as the loss of a jumper, which require units of all torques of the train."""
+        """Declared energies, such as the loss of a jumper. Torques of a train that has such energies need units."""
         values = (getattr(self, name) for name in type(self).model_fields)
         return (each for each in values if isinstance(each, Quantity) and each.dimension == "energy")
 

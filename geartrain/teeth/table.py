@@ -72,8 +72,8 @@ class PeriodicPoints(BaseModel):
         return 2 * pi * pitches / z1
 
     def table(self, points: Sequence[tuple[Quantity, float]], counts: tuple[int, int]) -> PeriodicTable:
-        """Return the periodic function that passes through points. Each point consists of an angle of the driver (or a
-        fraction of the period) and a value.
+        """Return the periodic function that passes through points. Each point consists of a position and a value. A
+        position with a unit is an angle of the driver; a position without a unit is a fraction of the period.
 
         Raises `GearTrainError` if the last point does not agree with the first one, or if the points do not define a
         function.

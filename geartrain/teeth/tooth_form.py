@@ -226,7 +226,7 @@ class ToothForm(BaseModel, ABC):
 
 
 def check_above_0(form: BaseModel, kind: str, *names: str) -> None:
-    """Raise a validation error of the kind `kind` if any of the named fields has a value that is not greater than 0."""
+    """Raise a validation error if a named field has a value that is not above 0; `kind` is the type of this error."""
     for name in names:
         given = getattr(form, name)
         for value in given if isinstance(given, tuple) else (given,):
@@ -235,7 +235,7 @@ def check_above_0(form: BaseModel, kind: str, *names: str) -> None:
 
 
 def check_one_of(form: BaseModel, kind: str, first: str, second: str) -> None:
-    """Raise a validation error of the kind `kind` if both fields, `first` and `second`, are given."""
+    """Raise a validation error if both fields, `first` and `second`, are given; `kind` is the type of this error."""
     if all(name in form.model_fields_set and getattr(form, name) is not None for name in (first, second)):
         raise bad(
             kind, f"{first} and {second} are both given", f"remove `{first}` or `{second}`: each determines the other"
@@ -260,5 +260,5 @@ def in_modules(length: Quantity, module: float | None, name: str) -> float:
 
 
 def refused(what: str, why: str, fix: str) -> GearTrainError:
-    """Return the error for wheels that cannot have teeth of a given tooth form."""
+    """Return the error that wheels cannot have teeth of a tooth form: the fault, its reason and its remedy."""
     return GearTrainError(Problem(what, why, fix))

@@ -135,8 +135,8 @@ def _arc(start: Floats, end: Floats, bulge: float, tolerance: float) -> Floats:
 
 
 def _segment_moments(start: Floats, end: Floats, bulge: float) -> tuple[float, float]:
-    """Return the area, and the polar second moment of area about the origin, of the circular segment between an arc and
-    its chord.
+    """Return the area of the circular segment between an arc and its chord, and the polar second moment of this area
+    about the origin, in powers of the unit of `start` and `end`.
     """
     R, s = arc_radius(start, end, bulge), 4 * atan(bulge)
     centre = _arc_centre(start, end, bulge)

@@ -37,8 +37,9 @@ The two arrays are radii about the wheel's axle [module], and angles from the ce
 def interference_depth(tooth: ToothOutline, mate: MatePassage) -> float:
     """Return the maximum depth to which the mate's tooth would cut into a tooth [module]; negative if there is a gap.
 
-    The depth is measured along the circumference at the flank and the fillet, and along the radius at the root circle.
-    At the fillet a margin is added. The value is -inf if the mate does not enter the tip circle.
+    `mate` contains positions of points of the mate's tooth in the tooth space. The depth is measured along the
+    circumference at the flank and the fillet, and along the radius at the root circle. It is increased by `_MARGIN` at
+    the fillet. The value is -inf if the mate does not enter the tip circle.
     """
     radius, aside = mate
     if not radius.size:
@@ -209,7 +210,7 @@ def check_flat(pair: ConjugatePair) -> None:
 
 
 def alike(one: ToothRequirement, other: ToothRequirement) -> bool:
-    """Return True if one tooth satisfies both requirements: equal tip radii, and equal flanks where both touch."""
+    """Return True if one tooth satisfies both requirements: equal tip radii, and equal flanks at common radii."""
     first, second = one.flank, other.flank
     if first.outward != second.outward or abs(first.r[-1] - second.r[-1]) > _ALIKE:
         return False

@@ -229,6 +229,7 @@ def blank_contours(teeth: Contour, kind: str, root: float, cut: BlankSizes) -> l
     """Return the contours of a toothed wheel [mm]: teeth and bore, or, for a ring gear, rim and teeth.
 
     teeth, root   contour of the teeth and radius of the root circle [module]
+    kind          kind of the wheel, "ring" for a ring gear; `cut` contains module, bore and rim
     """
     teeth = teeth.scaled(cut.module)
     if kind != "ring":

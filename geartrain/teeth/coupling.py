@@ -88,7 +88,7 @@ class CouplingRow(NamedTuple):
 
 
 def ratio_row(name: str, driven: str, driver: str, mean: Fraction) -> CouplingRow:
-    """Return the row of a coupling of two ends with the mean ratio `mean`, driven speed divided by driver speed."""
+    """Return the row `name` of a coupling whose mean ratio `mean` is the driven speed over the driver speed."""
     return CouplingRow(name, driven, driver, mean.denominator, -mean.numerator)
 
 

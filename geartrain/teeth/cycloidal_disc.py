@@ -93,7 +93,7 @@ class CycloidalDisc:
         return found
 
     def _inward_normals(self, turn: Floats) -> Floats:
-        """Return unit normals of the outline as complex numbers x + iy. They point from the pins into the disc."""
+        """Return unit normals of the outline at the angles `turn`, as numbers x + iy, from the pins into the disc."""
         to_pitch_point = self.pins / 2 * np.exp(1j * turn) - self.circle
         found: Floats = np.exp(1j * turn / self.lobes) * to_pitch_point / np.abs(to_pitch_point)
         return found
@@ -142,8 +142,8 @@ class CycloidalDisc:
         return found
 
     def arms(self, angle: Floats) -> Floats:
-        """Return the lever arms [module] of the contact normals about the centre of the disc, docs/reducers.md (4); 0
-        for pins that cannot push the disc forwards.
+        """Return the lever arms [module] of the contact normals about the centre of the disc, docs/reducers.md (4), for
+        pins at the given angles from the pitch point [rad]; 0 for pins that cannot push the disc forwards.
         """
         found: Floats = np.maximum(self.lobes / 2 * self.circle * np.sin(angle) / self.distance(angle), 0.0)
         return found

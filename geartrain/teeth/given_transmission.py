@@ -311,8 +311,8 @@ def checked_function(given: TransmissionProtocol, counts: tuple[int, int]) -> Pe
 
 
 def checked_efficiency(given: TransmissionProtocol) -> Efficiencies | None:
-    """Return the efficiencies of a transmission function that is defined in Python, for both driving wheels; None for a
-    function without losses.
+    """Return the efficiencies of the transmission function `given`, which is defined in Python, for both driving
+    wheels; None for a function without losses.
 
     Raises `GearTrainError` if an efficiency is not above 0 and at most 1.
     """

@@ -113,7 +113,7 @@ class Lantern(ConjugateToothForm):
 
     @classmethod
     def pair_of_arcs(cls, wheels: WheelPair, arcs: tuple[float, float], given: Mapping[str, object]) -> ConjugatePair:
-        """Return the pair whose arc of contact is the sum of `arcs`, with all contact in recess.
+        """Return the pair whose arc of contact is the sum of `arcs`, all in recess, with the parameters `given`.
 
         The arc is extended by the part of the mate's flanks that the approaching pins cut off.
         """

@@ -24,12 +24,12 @@ ShaftAngle = Callable[[], float | None]
 
 
 def twice(raw: object) -> object:
-    """Return a pair of two equal values if a single value is given, or a given pair itself."""
+    """Return a pair of two equal values if `raw` is a single value. A pair is returned unchanged."""
     return raw if isinstance(raw, list | tuple) else (raw, raw)
 
 
 def number_of_wheel(raw: object) -> object:
-    """Convert the texts "1" and "2" to numbers, because declarations name the two wheels of a pair by such texts."""
+    """Convert `raw` from "1" or "2" to a number, because declarations name the two wheels of a pair by such texts."""
     return int(raw) if raw in ("1", "2") else raw
 
 
@@ -123,7 +123,7 @@ class ToothForm(BaseModel, ABC):
 
     @classmethod
     def _problem(cls, item: Any) -> Problem:
-        """Return a validation error of pydantic as a problem, with the remedy if the tooth form provides one."""
+        """Return the pydantic validation error `item` as a problem, with the remedy if the tooth form gives one."""
         context = item.get("ctx") or {}
         # errors of a whole model have no location; their type may be the name of the field
         place = item["loc"][0] if item["loc"] else item["type"] if item["type"] in cls.model_fields else ""

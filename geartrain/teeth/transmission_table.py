@@ -113,8 +113,9 @@ def folded_kinks(transmission: TransmissionFunction) -> Floats:
 def fit(
     function: Callable[[Floats], Floats], period: float, kinks: Floats, tolerance: float, degree: int = DEGREE
 ) -> CellTable:
-    """Return a table of a function with an uncertainty of at most `tolerance`. The number of cells is doubled, starting
-    from 32, until this accuracy is reached.
+    """Return a table of a periodic function with an uncertainty of at most `tolerance`. The number of cells is doubled,
+    starting from 32, until this accuracy is reached. Cells are divided at `kinks`, and have polynomials of degree
+    `degree`.
 
     If it cannot be reached because of rounding errors or the maximum number of cells, return the table after which
     doubling no longer halved the uncertainty.

@@ -58,9 +58,9 @@ def _undercuts(path: PathOfContact) -> Iterator[ToothFault]:
 
 
 def _dwell(path: PathOfContact, d: Floats, U: Floats, gear: int, recess: bool) -> float:
-    """Return the arc X on the pitch surfaces at which the contact first has zero speed along the profile of `gear`. The
-    arrays `d` and `U` are distances from the pitch point and speeds; the result is refined between two of their
-    entries.
+    """Return the arc X on the pitch surfaces at which the contact first has zero speed along the profile of `gear`, in
+    recess if `recess` is True. The result is refined between two entries of `d` (distances from the pitch point) and
+    `U` (speeds).
     """
     at = int(np.argmax(U <= 0))
     if at == 0:

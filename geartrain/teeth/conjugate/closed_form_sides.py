@@ -183,9 +183,9 @@ def pin_arc(R: float, A: float, B: float, d: float) -> float:
 
 
 def _extremal_piece(pitch: PitchSurfaces, D: float, start: float, end: float) -> PathPiece:
-    """Return the extremal of the friction loss, S = D cos psi with the constant D, docs/shapes.md (10), between two
-    distances from the pitch point. psi is the pressure angle; S is the distance d from the pitch point, or sin d on
-    cones. The arc on the pitch surfaces is counted from the first contact.
+    """Return the extremal of the friction loss, S = D cos psi with the constant D, docs/shapes.md (10), between the
+    distances `start` and `end` from the pitch point. psi is the pressure angle; S is the distance d, or sin d on cones.
+    The arc on the pitch surfaces is counted from the first contact.
     """
 
     def sine(d: Floats) -> Floats:

@@ -340,8 +340,8 @@ def conjugate_pair_of(form: ConjugateToothForm, wheels: WheelPair) -> ConjugateP
 
 
 def arcs_of(figures: tuple[Figure, Figure], pitch: PitchSurfaces) -> tuple[float, float]:
-    """Convert declared arcs of approach and recess [pitch] to lengths on the pitch surfaces [module; bevel
-    gears: rad].
+    """Convert declared arcs of approach and recess, `figures` [pitch], to lengths on the pitch surfaces [module; bevel:
+    rad].
     """
     return float(figures[0].value) * pitch.p, float(figures[1].value) * pitch.p
 

@@ -72,9 +72,9 @@ def uniform_stress(pitch: PitchSurfaces, a: float, b: float, X: float, psi: floa
 
 def stress_law(pitch: PitchSurfaces, a: float, b: float, psi: float) -> ValueAndSlope:
     """Return the function f of the differential equation of uniform stress, S v' + f(d, v) = 0. Here v is the sine of
-    the pressure angle as a function of the distance d from the pitch point, and S is d, or sin d on cones.
+    the pressure angle at the distance d from the pitch point, and S is d, or sin d on cones.
 
-    The function returns f and df/dv, docs/shapes.md (8). `psi` is the pressure angle at the pitch point [rad].
+    The function returns f and df/dv, docs/shapes.md (8). `a`, `b` and `psi` have the meaning as in `uniform_stress`.
     """
     k = sin(psi) * cos(psi)
 
@@ -185,8 +185,7 @@ def heat_law(pitch: PitchSurfaces, beta: float, gamma: float) -> ValueAndSlope:
 
 def _quotient_piece(pitch: PitchSurfaces, f: ValueAndSlope, g: Chebyshev, end: float) -> PathPiece:
     """Return the piece of a path of contact, up to the distance `end` from the pitch point, on which the pressure angle
-    at the distance d has the sine S g(d). S is d, or sin d on cones, and `g` solves the differential equation of
-    `heat_law`.
+    at the distance d has the sine S g(d). S is d, or sin d on cones, and `g` is a solution of S g' + f(d, g) = 0.
     """
     steep = _slope(pitch, f, g)
     return sampled(
@@ -320,8 +319,8 @@ def fitted(
     nodes: int,
     near: Chebyshev | None = None,
 ) -> Chebyshev:
-    """Return the solution of the differential equation in `solved`, computed with a fixed number of Chebyshev nodes.
-    `near` is a solution on another interval that is used as the initial guess; None for the constant `first`.
+    """Return the solution of the differential equation in `solved`, with the same parameters, for a fixed number of
+    Chebyshev nodes. `near` is a solution on another interval, used as the initial guess; None for the constant `first`.
     """
     x, _ = points(nodes)
     d = start + (end - start) * (x + 1) / 2

@@ -63,9 +63,9 @@ def ray(psi: float, end: float) -> PathPiece:
 
 
 def sampled(sin_psi: Curve, slope: Curve, start: float, end: float, nodes: int = 64) -> PathPiece:
-    """Return the piece of a path of contact on which the sine of the pressure angle psi is the function `sin_psi` of
-    the distance from the pitch point, with the derivative `slope`. The arc on the pitch surfaces is computed as an
-    integrated Chebyshev series of 1 / cos psi.
+    """Return the piece of a path of contact, from the distance `start` to `end`, on which the sine of the pressure
+    angle psi is the function `sin_psi` of the distance from the pitch point, with the derivative `slope`. The arc on
+    the pitch surfaces is computed as an integrated Chebyshev series of 1 / cos psi with at least `nodes` nodes.
     """
     d = start + (end - start) * (points(nodes)[0] + 1) / 2
     travel = series_through(1 / np.sqrt(1 - sin_psi(d) ** 2), start, end).integ(lbnd=start)

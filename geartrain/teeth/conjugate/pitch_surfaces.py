@@ -147,7 +147,7 @@ class PitchSurfaces:
         return np.arctan2(np.hypot(x, outwards), points @ axis), np.arctan2(x, outwards)
 
     def from_polar(self, gear: int, radius: float, azimuth: Floats) -> Floats:
-        """Return points of the fixed frame from radius and azimuths about a gear's axle, the inverse of `polar`."""
+        """Return points of the fixed frame from `radius` and `azimuth` about a gear's axle, the inverse of `polar`."""
         if not self.bevel:
             up = self.axle_of(gear) + self._side(gear) * radius * np.cos(azimuth)
             return np.stack([radius * np.sin(azimuth), up], axis=-1)

@@ -91,8 +91,8 @@ class ToothPairSearch:
         return ToothPairContact(x, ratio * x + self.offset - angle, point, normal, angle, corner)
 
     def _normals(self, point: Floats, along: Floats, speed: Floats) -> Floats:
-        """Return the unit normals of contacts, which pass through the point that divides the line of centres in the
-        ratio of speeds. At that point itself, the normal of the flank is returned.
+        """Return the unit normals at contacts `point`: directions to the point that divides the line of centres in the
+        ratio `speed`, or, at that point itself, the normals of the flank directions `along`.
         """
         with np.errstate(all="ignore"):
             to = np.stack([self.distance * speed / (1 + speed) - point[0], -point[1]])
@@ -153,8 +153,8 @@ def displaced_outlines(gears: OutlineGears, driver: int) -> DisplacedContact:
 
 
 def _ends(search: ToothPairSearch) -> tuple[float, float, float, float]:
-    """Return four driver angles [rad]: the first and the last contact of two flanks, and the first and the last contact
-    if contacts of tips with flanks are included.
+    """Return four driver angles [rad] of the tooth pair in `search`: the first and the last contact of two flanks, and
+    the first and the last contact if contacts of tips with flanks are included.
     """
     found = search.at(np.linspace(*search.pair.window, _SEARCHED))
     near = (found.corner >= 0) & (found.lag < _FARTHEST * search.second.pitch + np.nanmin(found.lag))
@@ -190,7 +190,7 @@ def _corner(search: ToothPairSearch, end: float, last: float) -> CornerLag:
 
 
 def _half_widths(search: ToothPairSearch, found: ToothPairContact, gear: int) -> Floats:
-    """Return the half-thickness [module] of the tooth of `gear` at the point of each contact."""
+    """Return the half-thickness [module] of the tooth of `gear` at the point of each contact in `found`."""
     if gear == 0:
         return np.asarray(np.hypot(*found.point) * (np.arctan2(found.point[1], found.point[0]) - found.x))
     x, y = search.distance - found.point[0], found.point[1]
@@ -204,7 +204,7 @@ def _sizes(wheel: GearOutline, radius: Floats, tip: float, half: Floats) -> Disp
 
 
 def _pitch_points(search: ToothPairSearch, found: ToothPairContact, gear: int) -> tuple[Floats, Floats]:
-    """Return x and y [module] of the points where the flanks in contact intersect the pitch circle of `gear`."""
+    """Return x and y [module] of the points where flanks in contact (`found`) cross the pitch circle of `gear`."""
     table = (search.pair.touch_search.first, search.pair.touch_search.second)[gear]
     radius = (search.first, search.second)[gear].z / 2
     piece = np.flatnonzero((table.ends[0] <= radius) & (radius <= table.ends[1]) & ~table.flat)[:1]

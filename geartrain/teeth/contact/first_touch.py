@@ -216,7 +216,7 @@ class FirstTouchSearch:
         )
 
     def _divided_at_extremes(self, tooth_pairs: CandidatePairs, cells: FlankSegments) -> FlankSegments:
-        """Return the segments, divided at extrema of the distance between the driver's point and the second axle."""
+        """Return the segments `cells`, divided at extrema of the driver's distance from the second axle."""
         # where the derivative of the radius changes its sign within a cell, the radius has an extreme
         which = np.flatnonzero(np.sign(cells.polar2[2, 0]) * np.sign(cells.polar2[2, 1]) < 0)
         if not len(which):
@@ -236,8 +236,8 @@ class FirstTouchSearch:
         return joined([cells, turning])
 
     def _clipped_to_pieces(self, tooth_pairs: CandidatePairs, cells: FlankSegments) -> FlankSegments:
-        """Return the segments, shortened so that their distances from the second axle are within the radii of a single
-        piece of the driven flank. The ends are found by false position.
+        """Return the segments `cells`, shortened so that their distances from the second axle are within the radii of a
+        single piece of the driven flank. The ends are found by false position.
         """
         low, high = self.second.ends[:, cells.piece2]
         u, polar2 = cells.u.copy(), cells.polar2.copy()
@@ -275,7 +275,7 @@ class FirstTouchSearch:
     # ------------------------------------------------------------------------------------------------ exact contact
 
     def touch(self, tooth_pairs: CandidatePairs, segments: FlankSegments) -> FirstTouches:
-        """Return the contacts at both ends of each segment, and where the driven angle has a maximum inside it."""
+        """Return the contacts at both ends of each of the `segments`, and at maxima of the driven angle inside them."""
         x = tooth_pairs.x[segments.tooth_pair]
         low, high = self.second.ends[:, segments.piece2]
 
@@ -311,8 +311,8 @@ class FirstTouchSearch:
         return joined([*ends, within])
 
     def _touch_at(self, tooth_pairs: CandidatePairs, segments: FlankSegments, u: Floats, v: Floats) -> FirstTouches:
-        """Return the contacts at the parameters `u` of the driver's flank. `v` is the known parameter of the driven
-        flank at the ends of its pieces, and NaN elsewhere.
+        """Return the contacts on the `segments` at the parameters `u` of the driver's flank. `v` is the known parameter
+        of the driven flank at the ends of its pieces, and NaN elsewhere.
         """
         piece1, piece2 = segments.piece1, segments.piece2
         view, dr, da = self.view(tooth_pairs.x[segments.tooth_pair], piece1, u)

@@ -387,7 +387,7 @@ def _direction(piece: PolynomialPiece, end: int) -> Floats:
 
 
 def _monotonic_pieces(curve: OutlineCurve, piece: PolynomialPiece) -> list[PolynomialPiece]:
-    """Return the parts into which the extrema of the radius divide a piece. A new polynomial is fitted to each part."""
+    """Return the parts into which extrema of the radius divide a piece, with new polynomials fitted to `curve`."""
     slope = np.asarray(np.polynomial.polynomial.polyder(piece.coefficients[:, 0]), dtype=np.float64)
     u = np.linspace(-1, 1, 65)
     values = np.polynomial.polynomial.polyval(u, slope)

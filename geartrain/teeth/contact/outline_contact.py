@@ -125,7 +125,7 @@ class OutlinePair:
         return angle, speed, pair, kinds, r1, r2, sharing, curves
 
     def kinds(self, found: FirstTouches) -> Indices:
-        """Return the kind of each contact: 0 for two flanks, 1 or 2 for a corner of wheel 1 or 2, 3 for two corners."""
+        """Return the kind of each contact: 0 for two flanks, 1 or 2 for a corner of that wheel, 3 for two corners."""
         kind = np.zeros(len(found.u), int)
         for at, (table, piece, u) in enumerate(
             ((self.touch_search.first, found.piece1, found.u), (self.touch_search.second, found.piece2, found.v))

@@ -244,8 +244,8 @@ class _Fitter:
         return self._ordered(done, np.concatenate(kinks))
 
     def _fitted(self, ends: Floats) -> tuple[_Stretches, Indices]:
-        """Return the fitted polynomials of the intervals, and four labels of the contact at each node: tooth, kind, and
-        curves of both wheels, shape (4, n, nodes).
+        """Return polynomials fitted in the intervals with the given `ends`, and four labels of the contact at each
+        node: tooth, kind, and curves of both wheels, shape (4, n, nodes).
         """
         half, middle = np.diff(ends, axis=0)[0] / 2, ends.mean(axis=0)
         phi1 = middle[:, None] + half[:, None] * _ALL
@@ -269,7 +269,7 @@ class _Fitter:
         return angle.reshape(phi1.shape), speed.reshape(phi1.shape), labels
 
     def _kinks(self, ends: Floats, labels: Indices) -> list[Floats]:
-        """Return, for each interval, the driver angles [rad] at which the contact changes to another tooth or curve."""
+        """Return the driver angles [rad] at which the `labels` of the contact change, for each interval in `ends`."""
         changed = (labels[:, :, 1:] != labels[:, :, :-1]).any(axis=0)
         stretch, at = np.nonzero(changed)
         half, middle = np.diff(ends, axis=0)[0] / 2, ends.mean(axis=0)

@@ -107,7 +107,7 @@ class ToothOutline:
         return self.widening + float(self.flank.angle[-1])
 
     def half_at(self, radius: Floats) -> Floats:
-        """Return half the angular thickness of the tooth with its fillet [rad] at radii from root to tip circle."""
+        """Return half the angular thickness of tooth and fillet [rad] at each `radius` from root to tip circle."""
         x, y = np.array([point[:2] for point in self._half()[1:]]).T
         place = x + 1j * y
         r, s = np.abs(place), self.flank.outward
@@ -323,8 +323,8 @@ def _cross(a: Floats, b: Floats) -> Floats:
 
 
 def _tangents(path: PathOfContact, gear: int, X: Floats, outward: int) -> tuple[Floats, Floats]:
-    """Return two components of the flank's unit tangents: radial, and towards the tooth space. The tangents are
-    directed towards the root and perpendicular to the contact normal.
+    """Return two components of the flank's unit tangents: radial, and towards the tooth space. They are perpendicular
+    to the contact normal and directed towards the root; `outward` is 1, or -1 for a ring gear.
     """
     contact = path.at(X)
     sine, cosine = contact.sin_psi, contact.cos_psi

@@ -124,7 +124,7 @@ class ToothRequirement(WheelRequirement):
         return self.pins == other.pins if self.has_pins or other.has_pins else alike(self, other)
 
     def cut(self, others: Sequence[WheelRequirement] = ()) -> CutTooth:
-        """Return the pins, or the tooth whose root clears the mates in this and all other requirements."""
+        """Return the pins, or a tooth whose root clears the mates of this requirement and of the `others`."""
         demands = (self, *(each for each in others if isinstance(each, ToothRequirement)))
         for demand in demands:
             check_flat(demand.pair)
@@ -256,8 +256,8 @@ def cut_tooth(demands: Sequence[ToothRequirement], wanted: float | None = None) 
 def _largest_fillet(
     own: ToothRequirement, root: float, mates: Sequence[MatePassage], relief: float, most: float, wanted: float
 ) -> ToothOutline | None:
-    """Return the tooth with the largest fillet radius up to `wanted` [module], found by bisection, with which no mate
-    interferes by more than `most` [module]; None if there is none. `root` and `relief` are defined in `fillet`.
+    """Return the tooth of `own` with the largest fillet radius up to `wanted` [module] for which no mate cuts deeper
+    than `most` [module], found by bisection; None without one. `root` and `relief` are defined in `fillet`.
     """
 
     def made(radius: float) -> ToothOutline | None:

@@ -189,7 +189,7 @@ class RealPath:
         return self._with_whole_first(_join_neighbours(found))
 
     def _with_whole_first(self, found: list[DriveInterval]) -> list[DriveInterval]:
-        """Return the drive intervals of one period, shifted so that the period divides no interval."""
+        """Return the drive intervals `found` of one period, shifted so that no interval is divided at its end."""
         if not found:
             return found
         first, last = found[0], found[-1]
@@ -293,8 +293,8 @@ class SpeedJump(Result):
 
 
 def matches(last: DriveInterval, new: DriveInterval, pitch: float) -> bool:
-    """Return True if one tooth pair drives in both intervals and goes from approach to recess between them without a
-    loss of contact, so that the contact moves from the driver's flank to the driven flank.
+    """Return True if one tooth pair drives in both intervals and goes from approach in `last` to recess in `new`
+    without a loss of contact, so that the contact moves from the driver's flank to the driven flank.
     """
     faces = last.held is None and new.held is None and last.phase != new.phase
     # both are the same root, computed from either side

@@ -201,7 +201,7 @@ class TriangularFigures(PairFigures):
 def triangular_figures(
     transmission: TriangularTransmission, window: ClearanceWindow | None, losses: SlidingEfficiency | None = None
 ) -> TriangularFigures:
-    """Return the results of a pair with triangular teeth.
+    """Return the results of a pair with triangular teeth and the clearance window `window`.
 
     `losses` replaces the efficiency of the transmission function.
     """

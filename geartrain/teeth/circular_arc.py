@@ -67,8 +67,7 @@ def addendum_factor(z: int, ratio: float) -> float:
     intersects its mirror image.
 
     The wheel drives a pinion of `z` leaves; `ratio` is the wheel's tooth count divided by the pinion's. The equations
-    in the module's docstring are solved by fixed-point iteration. It converges, because 2 u b increases more slowly
-    than t.
+    in the module's docstring are solved by fixed-point iteration, which converges for all tooth counts.
     """
     k, b, t = 1 + 2 * ratio, 0.0, 0.0
     # the count is only an upper limit, since the loop ends when t no longer changes
@@ -276,7 +275,7 @@ class CircularArc(ToothForm):
 
 @lru_cache(maxsize=256)
 def _gears(first: ArcTooth, second: ArcTooth, distance: float) -> OutlineGears:
-    """Return the outlines of both wheels at a centre distance [module]. Equal pairs of a train share them."""
+    """Return the outlines of both wheels at a centre distance [module]. Equal pairs of a train share one result."""
     from geartrain.teeth.contact.outline_transmission import OutlineGears
 
     # sum of half the thicknesses of both wheels; what remains of a pitch of pi modules is the backlash

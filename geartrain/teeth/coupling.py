@@ -88,7 +88,7 @@ class CouplingRow(NamedTuple):
 
 
 def ratio_row(name: str, driven: str, driver: str, mean: Fraction) -> CouplingRow:
-    """Return the row of a coupling of two ends with the mean ratio `mean`, driven speed divided by driver speed."""
+    """Return the row `name` of a coupling whose mean ratio `mean` is the driven speed over the driver speed."""
     return CouplingRow(name, driven, driver, mean.denominator, -mean.numerator)
 
 
@@ -244,7 +244,7 @@ class Coupling(BaseModel):
 
     @property
     def torques(self) -> Iterator[Quantity]:
-        """Declared energies, such as the loss of a jumper, which require units of all torques of the train."""
+        """Declared energies, such as the loss of a jumper. Torques of a train that has such energies need units."""
         values = (getattr(self, name) for name in type(self).model_fields)
         return (each for each in values if isinstance(each, Quantity) and each.dimension == "energy")
 

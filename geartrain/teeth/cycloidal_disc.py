@@ -93,7 +93,7 @@ class CycloidalDisc:
         return found
 
     def _inward_normals(self, turn: Floats) -> Floats:
-        """Return unit normals of the outline as complex numbers x + iy. They point from the pins into the disc."""
+        """Return unit normals of the outline at the angles `turn`, as numbers x + iy, from the pins into the disc."""
         to_pitch_point = self.pins / 2 * np.exp(1j * turn) - self.circle
         found: Floats = np.exp(1j * turn / self.lobes) * to_pitch_point / np.abs(to_pitch_point)
         return found
@@ -142,8 +142,8 @@ class CycloidalDisc:
         return found
 
     def arms(self, angle: Floats) -> Floats:
-        """Return the lever arms [module] of the contact normals about the centre of the disc, docs/reducers.md (4); 0
-        for pins that cannot push the disc forwards.
+        """Return the lever arms [module] of the contact normals about the centre of the disc, docs/reducers.md (4), for
+        pins at the given angles from the pitch point [rad]; 0 for pins that cannot push the disc forwards.
         """
         found: Floats = np.maximum(self.lobes / 2 * self.circle * np.sin(angle) / self.distance(angle), 0.0)
         return found
@@ -304,8 +304,8 @@ class DiscTransmission(ExactRatio, ToothTransmission):
         return found
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """Return the sliding speed and the friction terms of all pins at driver angles S [rad], combined into one
-        contact and weighted by the loads of the pins.
+        """Return the sliding speed of all pins at driver angles S [rad], weighted by their loads, and the changes of
+        the input and output power per unit friction coefficient. All pins are combined into one contact.
         """
         speed, lost = self.disc.sliding(self._phase(S))
         # the load is given on the driven side, so the loss is added to the input power
@@ -317,7 +317,7 @@ class DiscTransmission(ExactRatio, ToothTransmission):
 
 @dataclass(frozen=True)
 class DiscFigures(PairFigures):
-    """Results of a lobed disc in its ring of pins: those of every pair, and sizes and loads of the pins."""
+    """Results of a lobed disc in its ring of pins: the results in `PairFigures`, and sizes and loads of the pins."""
 
     KEYS = (*PairFigures.KEYS, "shortening", "pin_radius", "maximum_load", "bearing")
 
@@ -345,16 +345,20 @@ class DiscMesh(GearMesh):
 
     @property
     def tooth_phase(self) -> float:
-        """Distance [pitch] of a lobe past the line of centres at the disc angle 0: half of pitch minus backlash."""
+        """Distance [pitch] of a lobe past the line of centres at the disc angle 0: (1 - `backlash`) / 2."""
         return (1 - self.backlash) / 2
 
     def size(self, tips: Mapping[str, float]) -> PairSize:
-        """Return the size of the pair. Lengths are in modules, and the centre distance is half a module."""
+        """Return the size of the pair. Lengths are in modules, and the centre distance is half a module. The tip radii
+        `tips` are not needed.
+        """
         del tips
         return PairSize(1.0, 0.5, 1.0)
 
     def requirement(self, wheel: str, scale: float, tolerance: float) -> FixedTooth:
-        """Return a lobe if `wheel` is the disc, or a pin if `wheel` is the ring."""
+        """Return a lobe if `wheel` is the disc, or a pin if it is the ring. The chords of a lobe deviate from it by at
+        most `tolerance` [module]; `scale` is not used.
+        """
         del scale
         return self.transmission.disc.lobe(tolerance) if wheel == self.gears[0] else self.transmission.disc.pin_tooth()
 

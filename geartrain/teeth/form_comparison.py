@@ -190,7 +190,7 @@ def compare_forms(
 
 
 def arcs_error(text: str) -> QuestionError:
-    """Return the error for arcs of contact that are out of range."""
+    """Return the error for arcs of contact that are out of range; `text` is the declared arcs."""
     why = f"arcs of approach and recess are numbers from 0 to {_MOST_PITCHES:g}, and not both 0"
     fix = "give two arcs in pitches with a sum of 1 or more, such as 0.5,0.5"
     return QuestionError(Problem(f"arcs of {text} are not valid", why, fix, "arcs"))

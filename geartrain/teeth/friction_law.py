@@ -192,7 +192,7 @@ class DokosFriction(FrictionLaw):
     )
 
     def coefficient(self, speed: Floats) -> Floats:
-        """Return the coefficient of friction at sliding speeds [m/s]."""
+        """Return the coefficient of friction at sliding speeds `speed` [m/s]."""
         import numpy as np
 
         first, last, factor = DOKOS
@@ -268,8 +268,7 @@ def law_of_text(raw: object) -> object:
     """Convert a friction law in the form of a command-line option, such as `stribeck,static=0.2,kinetic=0.08,speed=10
     mm/s`, to a mapping as in a declaration.
 
-    The values of a table column are separated by colons. Input that does not begin with the name of a law is
-    returned unchanged.
+    The values of a table column are separated by colons. Other values of `raw` are returned unchanged.
     """
     parts = raw.split(",") if isinstance(raw, str) else raw
     if not isinstance(parts, list) or not parts or not _NAME.fullmatch(str(parts[0]).strip()):

@@ -174,7 +174,8 @@ class GearMesh(Pictured, Shown, ABC):
         Parameters
         ----------
         tips : mapping of str to float
-            Tip radii [module] of wheels whose size is already known, for teeth that are similar at any scale.
+            Tip radii [module] of wheels whose size is already known. They determine the scale of teeth that have no
+            declared size.
 
         Returns
         -------
@@ -189,7 +190,7 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def unit_tips(self) -> Mapping[str, float]:
-        """Tip radii of wheels, keyed by wheel, in a length unit whose size is not known; empty for most tooth forms."""
+        """Tip radii by wheel in the length unit of the teeth, if the teeth have no declared size, else empty."""
         return {}
 
     @abstractmethod
@@ -213,7 +214,7 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def path(self) -> PathOfContact | None:
-        """Path of contact from which the teeth are designed; None for forms without a path of contact."""
+        """Path of contact of the designed teeth [module; bevel: rad]; None for forms without a path of contact."""
         return None
 
     @property

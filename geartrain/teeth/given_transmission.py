@@ -142,10 +142,10 @@ class GivenTransmission(DeviationTransmission, ToothTransmission):
         return PeriodicSum([self.deviation, *broken], self.deviation.period).breakpoints
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """Return the friction terms of a single contact for a coefficient of friction of 1. The sliding speed is not
-        known.
+        """Return the changes of the input and output power of a single contact per unit friction coefficient, chosen
+        such that a coefficient of 1 gives the declared efficiencies. The sliding speed is not known.
 
-        The terms `out` and `into` satisfy (1 + out)/(1 + into) = a and (1 - into)/(1 - out) = b, where a is the
+        The changes `out` and `into` satisfy (1 + out)/(1 + into) = a and (1 - into)/(1 - out) = b, where a is the
         efficiency if the driver is the input and b the efficiency if the driven side is the input.
         """
         S = np.asarray(S, dtype=float)
@@ -311,8 +311,8 @@ def checked_function(given: TransmissionProtocol, counts: tuple[int, int]) -> Pe
 
 
 def checked_efficiency(given: TransmissionProtocol) -> Efficiencies | None:
-    """Return the efficiencies of a transmission function that is defined in Python, for both driving wheels; None for a
-    function without losses.
+    """Return the efficiencies of the transmission function `given`, which is defined in Python, for both driving
+    wheels; None for a function without losses.
 
     Raises `GearTrainError` if an efficiency is not above 0 and at most 1.
     """

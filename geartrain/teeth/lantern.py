@@ -113,7 +113,7 @@ class Lantern(ConjugateToothForm):
 
     @classmethod
     def pair_of_arcs(cls, wheels: WheelPair, arcs: tuple[float, float], given: Mapping[str, object]) -> ConjugatePair:
-        """Return the pair whose arc of contact is the sum of `arcs`, with all contact in recess.
+        """Return the pair whose arc of contact is the sum of `arcs`, all in recess, with the parameters `given`.
 
         The arc is extended by the part of the mate's flanks that the approaching pins cut off.
         """
@@ -123,8 +123,9 @@ class Lantern(ConjugateToothForm):
         return super().pair_of_arcs(wheels, (0.0, sum(arcs) + lost), given)
 
     def _undercut(self, pitch: PitchSurfaces, start: float, outside: float, inside: float) -> tuple[ToothFault, ...]:
-        """Return a tuple with an undercut fault if the approaching pins remove a part of the mate's flank that the arcs
-        of contact require; an empty tuple if they do not.
+        """Return a tuple with an undercut fault if the approaching pins remove a part of the mate's flank that contact
+        requires, otherwise an empty tuple. The remaining flank begins at the arc `start` on the pitch circle; `outside`
+        and `inside` are the required arcs on the mate's addendum and dedendum [module].
         """
         from geartrain.teeth.pair_results import ToothFault
 
@@ -172,9 +173,10 @@ class Lantern(ConjugateToothForm):
         self, pitch: PitchSurfaces, R: float, A: float, B: float, mate: float, start: float
     ) -> tuple[float, float]:
         """Return the arcs of contact on the mate's addendum and on the mate's dedendum [module on the pitch circles].
-        `start` is the arc at which the mate's flank begins; R, A, B and `mate` are defined in `flank_start`.
 
-        By default the arc on the addendum is one pitch from the start of the flank, and the arc on the dedendum is 0.
+        By default the arc on the addendum is one pitch from the arc `start`, at which the mate's flank begins, and the
+        arc on the dedendum is 0. R is the pitch radius of the lantern, A the distance of the pins from its axle, B the
+        radius of a pin, and `mate` the pitch radius of the mate.
         """
         from geartrain.teeth.conjugate.closed_form_sides import pin_arc, pin_reach
 

@@ -129,7 +129,7 @@ class MeshingWheels:
 
 @dataclass(frozen=True, slots=True)
 class PairSize:
-    """Size of a pair: scale of the lengths of its teeth, and centre distance at which its wheels are placed."""
+    """Lengths of a pair: the length unit of its tooth data, and the centre distance at which its wheels are placed."""
 
     scale: float
     """Length unit of the teeth, in modules."""

@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class SpeedRatio(Result):
-    """Speed ratio of a pair over a period: absolute value of the driven speed divided by the driver speed. It is
-    negative only while a pin follower moves backwards.
+    """Speed ratio of a pair over a period: driven speed divided by driver speed, without the sign of the mean ratio. It
+    is negative only while a pin follower moves backwards.
     """
 
     KEYS = (Key("mean", to=float), Key("exact", "mean"), Key("min", "minimum"), Key("max", "maximum"))
@@ -244,7 +244,7 @@ class PinFigures(Result):
 
 
 def pin_figures(transmission: PinTransmission) -> PinFigures:
-    """Return the results of one pin coupling."""
+    """Return dimensions, speed ratio, transmission error and efficiency of one pin coupling."""
     speed, error = SpeedRatio.of(transmission), TransmissionError.of(transmission)
     efficiency = SlidingEfficiency(transmission)
     return PinFigures(transmission.r, transmission.e, speed, transmission.amplitude, error, efficiency)
@@ -285,7 +285,9 @@ def motion_figures(
 
 @dataclass(frozen=True)
 class AccountTable:
-    """Header of a table in the report on pairs, and the row of one pair. A `wide` table fills the page."""
+    """Header of a table in the report on pairs, and the row of one pair. If `wide` is True, the table fills
+    the page.
+    """
 
     header: tuple[str, ...]
     row: tuple[str, ...]

@@ -182,8 +182,8 @@ class PinRing(ToothForm):
         return DiscMesh(wheels, self, wheels.driver, transmission)
 
     def own_backlash(self, pair: str) -> Problem | None:
-        """Return the reason why the backlash of the manufacturing options does not apply: a declared clearance above 0;
-        None if no such clearance is declared.
+        """Return the reason why `--backlash` does not apply to the pair: it declares a clearance above 0. None without
+        one.
         """
         return super().own_backlash(pair) if self.clearance.value else None
 

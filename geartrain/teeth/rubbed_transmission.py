@@ -82,7 +82,7 @@ class RubbedTransmission(TransmissionFunction):
     # ------------------------------------------------------------------------------------------------------- friction
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """Return the sliding speeds and friction terms of the underlying function at driver angles S [rad]."""
+        """Return sliding speeds and changes of power per unit friction coefficient of the underlying function."""
         return self.transmission.rubbing(S)
 
     def coefficient(self, S: ArrayLike) -> Floats:

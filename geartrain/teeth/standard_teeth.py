@@ -64,7 +64,7 @@ def standard_teeth(gears: Mapping[str, UndeclaredWheel], pairs: Iterable[tuple[s
 
 
 def _connected(first: str, edges: Iterable[tuple[str, str]]) -> list[str]:
-    """Return all wheels that are connected with the wheel `first` by gear pairs, including `first` itself."""
+    """Return all wheels that are connected with the wheel `first` by the pairs `edges`, including `first` itself."""
     known = [first]
     # the list grows while it is read
     for name in known:
@@ -76,8 +76,8 @@ def _connected(first: str, edges: Iterable[tuple[str, str]]) -> list[str]:
 def _design(
     group: Iterable[str], edges: Iterable[tuple[str, str]], gears: Mapping[str, UndeclaredWheel], angle: int
 ) -> dict[str, StandardTeeth] | None:
-    """Return the standard teeth of a group of connected wheels with a pressure angle of `angle` degrees; None if one of
-    the pairs `edges` cannot run with them.
+    """Return the standard teeth of connected wheels, the `group`, with a pressure angle of `angle` degrees; None if one
+    of the pairs `edges` cannot run with them.
     """
     addenda = dict.fromkeys(group, ADDENDUM)
     for first, second in edges:

@@ -72,8 +72,8 @@ class PeriodicPoints(BaseModel):
         return 2 * pi * pitches / z1
 
     def table(self, points: Sequence[tuple[Quantity, float]], counts: tuple[int, int]) -> PeriodicTable:
-        """Return the periodic function that passes through points. Each point consists of an angle of the driver (or a
-        fraction of the period) and a value.
+        """Return the periodic function that passes through points. Each point consists of a position and a value. A
+        position with a unit is an angle of the driver; a position without a unit is a fraction of the period.
 
         Raises `GearTrainError` if the last point does not agree with the first one, or if the points do not define a
         function.
@@ -90,7 +90,7 @@ class PeriodicPoints(BaseModel):
         return PeriodicTable([share * period for share in shares], values, period, self.interpolation)
 
     def _check_closed(self, values: Sequence[float], counts: tuple[int, int]) -> None:
-        """Raise `GearTrainError` if a last point at the end of the period differs from the first point in value."""
+        """Raise `GearTrainError` if the last of `values` is at the end of the period and differs from the first."""
         gap, turned = values[-1] - values[0], self.period(counts) * counts[0] / counts[1]
         if abs(gap) <= 1e-12 * max(map(abs, values)):
             return
@@ -133,7 +133,9 @@ class ErrorContribution(PeriodicPoints):
         return self
 
     def function(self, counts: tuple[int, int]) -> PeriodicFunction:
-        """Return the transmission error [rad of the driven wheel] as a function of the driver angle [rad]."""
+        """Return the transmission error [rad of the driven wheel] as a function of the driver angle [rad]. `counts` are
+        the tooth counts of driver and driven wheel.
+        """
         from geartrain.numerics.periodic_function import HarmonicSeries
 
         if self.points is not None:
@@ -180,7 +182,7 @@ class LiveFunction:
 
     @classmethod
     def read(cls, raw: object) -> LiveFunction:
-        """Return a transmission function from a Python object, or from its name in plain data."""
+        """Return the transmission function `raw`, which is a Python object or, in plain data, the name of one."""
         from geartrain.teeth.given_transmission import TransmissionProtocol
 
         found = cls._living.get(raw, raw) if isinstance(raw, str) else raw

@@ -24,12 +24,12 @@ ShaftAngle = Callable[[], float | None]
 
 
 def twice(raw: object) -> object:
-    """Return a pair of two equal values if a single value is given, or a given pair itself."""
+    """Return a pair of two equal values if `raw` is a single value. A pair is returned unchanged."""
     return raw if isinstance(raw, list | tuple) else (raw, raw)
 
 
 def number_of_wheel(raw: object) -> object:
-    """Convert the texts "1" and "2" to numbers, because declarations name the two wheels of a pair by such texts."""
+    """Convert `raw` from "1" or "2" to a number, because declarations name the two wheels of a pair by such texts."""
     return int(raw) if raw in ("1", "2") else raw
 
 
@@ -123,7 +123,7 @@ class ToothForm(BaseModel, ABC):
 
     @classmethod
     def _problem(cls, item: Any) -> Problem:
-        """Return a validation error of pydantic as a problem, with the remedy if the tooth form provides one."""
+        """Return the pydantic validation error `item` as a problem, with the remedy if the tooth form gives one."""
         context = item.get("ctx") or {}
         # errors of a whole model have no location; their type may be the name of the field
         place = item["loc"][0] if item["loc"] else item["type"] if item["type"] in cls.model_fields else ""
@@ -226,7 +226,7 @@ class ToothForm(BaseModel, ABC):
 
 
 def check_above_0(form: BaseModel, kind: str, *names: str) -> None:
-    """Raise a validation error of the kind `kind` if any of the named fields has a value that is not greater than 0."""
+    """Raise a validation error if a named field has a value that is not above 0; `kind` is the type of this error."""
     for name in names:
         given = getattr(form, name)
         for value in given if isinstance(given, tuple) else (given,):
@@ -235,7 +235,7 @@ def check_above_0(form: BaseModel, kind: str, *names: str) -> None:
 
 
 def check_one_of(form: BaseModel, kind: str, first: str, second: str) -> None:
-    """Raise a validation error of the kind `kind` if both fields, `first` and `second`, are given."""
+    """Raise a validation error if both fields, `first` and `second`, are given; `kind` is the type of this error."""
     if all(name in form.model_fields_set and getattr(form, name) is not None for name in (first, second)):
         raise bad(
             kind, f"{first} and {second} are both given", f"remove `{first}` or `{second}`: each determines the other"
@@ -260,5 +260,5 @@ def in_modules(length: Quantity, module: float | None, name: str) -> float:
 
 
 def refused(what: str, why: str, fix: str) -> GearTrainError:
-    """Return the error for wheels that cannot have teeth of a given tooth form."""
+    """Return the error that wheels cannot have teeth of a tooth form: the fault, its reason and its remedy."""
     return GearTrainError(Problem(what, why, fix))

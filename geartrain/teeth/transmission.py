@@ -37,7 +37,7 @@ _SAMPLES = 1001  # samples of an interval in the search for the minimum efficien
 
 @cache
 def _gauss_nodes() -> tuple[Floats, Floats]:
-    """Return the nodes on [-1, 1] and the weights of the Gauss-Legendre quadrature that is used in each interval."""
+    """Return the nodes on [-1, 1] and the weights of the Gauss-Legendre quadrature used between successive kinks."""
     import numpy as np
 
     x, w = np.polynomial.legendre.leggauss(_NODES)
@@ -68,7 +68,7 @@ class SpeedLeap(NamedTuple):
 
 
 class ContactRubbing(NamedTuple):
-    """Sliding speed and friction terms, arrays with one row for each contact of a pair; NaN without contact."""
+    """Sliding speed and relative changes of power per unit friction coefficient, one row for each contact."""
 
     sliding: Floats
     """Sliding speed divided by pitch-line speed, 0 or more."""
@@ -233,7 +233,7 @@ class TransmissionFunction(Shown, ABC):
 
     def efficiency_minimum(self) -> float:
         """Return the minimum efficiency, computed from 1001 samples of each smooth interval, or from the quadrature
-        nodes if evaluation is slow; NaN if friction locks the pair.
+        nodes if `slow` is True; NaN if friction locks the pair.
         """
         if self.locks:
             return nan
@@ -259,8 +259,8 @@ class TransmissionFunction(Shown, ABC):
     def graded_nodes(self, integrand: Callable[[Floats], Floats]) -> tuple[Floats, Floats]:
         """Return the nodes of a Gauss-Legendre quadrature over one period [rad of the driver], and their weights.
 
-        Smooth intervals are bisected until the integral is accurate to rounding error, or at most twice if evaluation
-        is slow. Intervals in which the integrand is NaN are not divided.
+        Smooth intervals are bisected until the integral is accurate to rounding error, or at most twice if `slow` is
+        True. Intervals in which the integrand is NaN are not divided.
 
         Parameters
         ----------
@@ -314,8 +314,8 @@ class TransmissionFunction(Shown, ABC):
         return self.friction >= self.locking_friction
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """Return the sliding speeds and the friction terms of the teeth, which do not depend on the coefficient of
-        friction.
+        """Return the sliding speeds of the contacts, and the relative changes of their input and output power per unit
+        friction coefficient. These values do not depend on the coefficient itself.
 
         Parameters
         ----------
@@ -390,7 +390,7 @@ class TransmissionFunction(Shown, ABC):
         return self
 
     def picked(self, columns: NDArray[np.int64]) -> TransmissionFunction:
-        """Return the transmission function for selected columns of an array of angles.
+        """Return the transmission function for some columns of an array of driver angles, for example for some trials.
 
         The result differs from this function only if each column of angles has its own transmission function.
 
@@ -445,7 +445,7 @@ class ExactRatio(TransmissionFunction):
         return self._constant(S, float(self.ratio))
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """Return sliding speed and friction terms of a single contact, all 0 because losses are not modelled."""
+        """Return the sliding speed and the changes of power of a single contact, all 0, as it has no losses."""
         return ContactRubbing(*(self._constant(S, 0.0)[None] for _ in range(3)))
 
     def speed_range(self) -> tuple[float, float]:

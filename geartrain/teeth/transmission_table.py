@@ -113,11 +113,12 @@ def folded_kinks(transmission: TransmissionFunction) -> Floats:
 def fit(
     function: Callable[[Floats], Floats], period: float, kinks: Floats, tolerance: float, degree: int = DEGREE
 ) -> CellTable:
-    """Return a table of a function with an uncertainty of at most `tolerance`. The number of cells is doubled, starting
-    from 32, until this accuracy is reached.
+    """Return a table of a periodic function with an uncertainty of at most `tolerance`. The number of cells is doubled,
+    starting from 32, until this accuracy is reached. Cells are divided at `kinks`, and have polynomials of degree
+    `degree`.
 
-    If rounding errors or the maximum number of cells prevent this accuracy, return the last table that halved the
-    uncertainty.
+    If it cannot be reached because of rounding errors or the maximum number of cells, return the table after which
+    doubling no longer halved the uncertainty.
     """
     best = table = CellTable(function, period, kinks, _FEWEST, degree)
     while best.uncertainty > tolerance and table.cells < min(_MOST, _PATIENCE * best.cells):

@@ -32,13 +32,13 @@ _ROUNDING = 1e-12  # modules: a smaller overlap is not a fault
 
 
 def faults(path: PathOfContact, halves: Halves) -> tuple[ToothFault, ...]:
-    """Return all faults that prevent teeth with this path of contact from running; empty if there are none."""
+    """Return all faults of teeth with this path of contact and these half-thicknesses; empty if the teeth can run."""
     return (*_undercuts(path), *_pointed(path, halves), *_contact_ratio_fault(path))
 
 
 def _undercuts(path: PathOfContact) -> Iterator[ToothFault]:
-    """Yield a fault for each place where the speed of the contact along a profile reaches 0. The profile has a cusp
-    there, and undercut beyond the cusp.
+    """Yield a fault for each point of a profile at which the contact has zero speed along the profile. At such a point
+    the profile has a cusp. Beyond the cusp, the teeth are undercut.
     """
     for recess in (False, True):
         if not (span := path.span(recess)):
@@ -58,8 +58,9 @@ def _undercuts(path: PathOfContact) -> Iterator[ToothFault]:
 
 
 def _dwell(path: PathOfContact, d: Floats, U: Floats, gear: int, recess: bool) -> float:
-    """Return the arc X on the pitch surfaces at which the contact's speed along the profile of `gear` first reaches 0.
-    `d` and `U` are sampled distances from the pitch point and the speeds there, between which the result is refined.
+    """Return the arc X on the pitch surfaces at which the contact first has zero speed along the profile of `gear`, in
+    recess if `recess` is True. The result is refined between two entries of `d` (distances from the pitch point) and
+    `U` (speeds).
     """
     at = int(np.argmax(U <= 0))
     if at == 0:
@@ -75,7 +76,7 @@ def _dwell(path: PathOfContact, d: Floats, U: Floats, gear: int, recess: bool) -
 
 
 def _pointed(path: PathOfContact, halves: Halves) -> Iterator[ToothFault]:
-    """Yield a fault for each gear whose two tooth flanks would intersect below the tip."""
+    """Yield a fault for each gear whose flanks would intersect below the tip, given both half-thicknesses `halves`."""
     for gear, X in ((1, path.arcs[1]), (2, -path.arcs[0])):
         thickness = partial(tooth_thickness, path, gear, halves)
         if not X or (at_tip := thickness(X)) >= 0:
@@ -95,8 +96,8 @@ def _pointed(path: PathOfContact, halves: Halves) -> Iterator[ToothFault]:
 
 
 def tooth_thickness(path: PathOfContact, gear: int, halves: Halves, X: float) -> float:
-    """Return the angular thickness of a tooth of `gear` [rad] at the profile point that is in contact at the arc X;
-    negative if the two flanks have intersected before that point.
+    """Return the angular thickness of a tooth of `gear` [rad] at the profile point that is in contact at the arc X on
+    the pitch surfaces; negative if the flanks have intersected before. `halves` are the half-thicknesses at X = 0.
     """
     _, forwards = path.pitch.polar(gear, path.flank(gear, X))
     # a driver's tooth is behind its flank, a driven tooth ahead of it
@@ -121,9 +122,9 @@ def tip_gap(path: PathOfContact) -> float:
     drives.
 
     The angle is measured where the pinion's tip, which is faster, leaves the ring's tip circle. The angle is negative
-    if the tips collide before that. If the pinion's tip never leaves the circle, the angle is measured on the far side,
-    where the teeth have slipped by half the difference of the tooth numbers. The angle is infinite unless the pair is a
-    spur pinion in a ring gear with intersecting tip circles.
+    if the tips collide before that. If the pinion's tip is always inside this circle, the angle is measured opposite
+    the mesh, where the pinion is ahead by half the difference of the tooth numbers in pitches. The angle is infinite
+    unless the pair is a spur pinion in a ring gear with intersecting tip circles.
     """
     pitch = path.pitch
     if pitch.bevel or pitch.R2 > 0:

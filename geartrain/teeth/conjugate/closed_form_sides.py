@@ -97,14 +97,13 @@ def cone_reach(R: float, rho: float, tip: float) -> float:
 
 
 def pin_piece(R: float, A: float, B: float, end: float, inside: bool = False) -> PathPiece:
-    """Return the path of contact of a round pin, with the pressure angle psi from sin psi = (L^2 + R^2 - A^2) / (2 R
-    L).
+    """Return the path of contact of a round pin of a lantern.
 
-    R is the pitch radius of the lantern, A the distance of its pins from the axle, B the radius of a pin, and L the
-    distance of the pin's centre from the pitch point. At the distance d of the contact from the pitch point, L = B + d,
-    or B - d if `inside`. If `inside` is False, the contact is on the mate's addendum; if True, on the mate's dedendum,
-    as far as its undercut. The arc X is R times the angle of the pin's centre from the line of centres, less the value
-    of this angle at the pitch point.
+    The lantern has the pitch radius R and pins of the radius B at the distance A from its axle. The distance L of the
+    pin's centre from the pitch point is B + d, or B - d if `inside`, where d is the distance of the contact from the
+    pitch point. The pressure angle psi is given by sin psi = (L^2 + R^2 - A^2) / (2 R L). The contact is on the mate's
+    addendum, or, if `inside`, on the mate's dedendum up to its undercut. The arc X is R times the angle of the pin's
+    centre from the line of centres, less the value of this angle at the pitch point.
     """
     sign = -1.0 if inside else 1.0
 
@@ -184,8 +183,9 @@ def pin_arc(R: float, A: float, B: float, d: float) -> float:
 
 
 def _extremal_piece(pitch: PitchSurfaces, D: float, start: float, end: float) -> PathPiece:
-    """Return the extremal of the friction loss, the path S = D cos psi of docs/shapes.md (10), between two distances d
-    from the pitch point. S is d, or sin d on cones. The arc X on the pitch surfaces is counted from the first contact.
+    """Return the extremal of the friction loss, S = D cos psi with the constant D, docs/shapes.md (10), between the
+    distances `start` and `end` from the pitch point. psi is the pressure angle; S is the distance d, or sin d on cones.
+    The arc on the pitch surfaces is counted from the first contact.
     """
 
     def sine(d: Floats) -> Floats:

@@ -70,7 +70,7 @@ class ConjugateToothForm(ToothForm):
         return ConjugateFigures
 
     def mesh(self, wheels: MeshingWheels, shaft_angle: ShaftAngle) -> GearMesh:
-        """Return the mesh of a pair with its first wheel driving. A ring gear is always gear 2 of the form."""
+        """Return the mesh of a pair with its first wheel driving. A ring gear is always gear 2 of the mesh."""
         from geartrain.teeth.conjugate.conjugate_mesh import ConjugateMesh
 
         check_wheels(self, wheels, shaft_angle)
@@ -323,7 +323,7 @@ class ConjugateToothForm(ToothForm):
         return ConjugatePair(path, (half, half))
 
     def _backlash(self, pitch: PitchSurfaces, wheels: WheelPair) -> float:
-        """Return the declared backlash as an arc X on the pitch surfaces [module; rad for bevel gears].
+        """Return the declared backlash as a length on the pitch surfaces [module; rad for bevel gears].
 
         For a bevel pair, one module is 1 / pi of the circular pitch on the unit sphere.
         """
@@ -340,8 +340,8 @@ def conjugate_pair_of(form: ConjugateToothForm, wheels: WheelPair) -> ConjugateP
 
 
 def arcs_of(figures: tuple[Figure, Figure], pitch: PitchSurfaces) -> tuple[float, float]:
-    """Convert declared arcs of approach and recess [pitch] to lengths on the pitch surfaces [module; bevel
-    gears: rad].
+    """Convert declared arcs of approach and recess, `figures` [pitch], to lengths on the pitch surfaces [module; bevel:
+    rad].
     """
     return float(figures[0].value) * pitch.p, float(figures[1].value) * pitch.p
 
@@ -355,7 +355,7 @@ def check_arcs(arcs: tuple[Figure, Figure]) -> None:
 
 
 def check_angle(name: str, angle: Angle, below: float = 0.25) -> None:
-    """Raise a validation error if a pressure angle is not between 0 and `below` turns."""
+    """Raise a validation error if the pressure angle of the field `name` is not between 0 and `below` turns."""
     turns = angle.si / tau
     if not 0 < turns < below:
         fix = f"give a pressure angle between 0 and {360 * below:g} deg; 20 deg is usual"
@@ -385,7 +385,8 @@ def check_wheels(form: ToothForm, wheels: MeshingWheels, shaft_angle: ShaftAngle
 
 def check_order(form: ToothForm, pair: tuple[str, str]) -> None:
     """Raise `GearTrainError` if a pair names its ring gear first and its form declares `pins` or a parameter with
-    different values for the two wheels. A ring gear is always gear 2 of the form, which would exchange these values.
+    different values for the two wheels. The form numbers the ring gear 2, so that it is unclear which wheel has which
+    value.
     """
     given = {name: getattr(form, name) for name in type(form).model_fields}
     uneven = [name for name, value in given.items() if isinstance(value, tuple) and value[0].value != value[1].value]

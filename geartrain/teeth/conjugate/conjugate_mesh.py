@@ -63,8 +63,7 @@ class ConjugateDetails(NamedForm, Protocol):
 
 @dataclass(frozen=True)
 class ConjugateMesh(GearMesh):
-    """Gear pair with conjugate teeth. A ring gear is always gear 2 of the transmission function, even if the pair
-    names it first.
+    """Gear pair with conjugate teeth. A ring gear is always numbered gear 2, even if the pair names it first.
 
     At a centre distance other than the design distance, the speed ratio varies for all forms except involutes.
     """
@@ -84,7 +83,7 @@ class ConjugateMesh(GearMesh):
 
     @property
     def gears(self) -> tuple[str, str]:
-        """Names of the wheels that are gear 1 and gear 2 of the transmission function."""
+        """Names of gears 1 and 2: the wheels of the pair in order, unless the first wheel is a ring gear."""
         first, second = self.gear.pair
         return (second, first) if self.wheels.internal[0] else (first, second)
 
@@ -100,19 +99,21 @@ class ConjugateMesh(GearMesh):
 
     @property
     def wheel_pair(self) -> WheelPair:
-        """Wheels of the pair as the tooth form uses them. The axes are treated as parallel."""
+        """Tooth numbers, ring gear, module and helix angle of the pair, with the axes treated as parallel."""
         pitch, helix = self.transmission.path.pitch, abs(self.wheels.helix[0])
         return WheelPair(pitch.z1, pitch.z2, any(self.wheels.internal), module=self.wheels.module, helix=helix)
 
     def size(self, tips: Mapping[str, float]) -> PairSize | None:
-        """Return the size of the pair in modules; None for a bevel pair."""
+        """Return the size of the pair in modules; None for a bevel pair. The tip radii `tips` are not needed."""
         del tips
         if self.transmission.path.pitch.bevel:
             return None
         return PairSize(1.0, self.transmission.distance, self.transmission.distance / self.wheels.touching)
 
     def requirement(self, wheel: str, scale: float, tolerance: float) -> ToothRequirement:
-        """Return the required tooth of `wheel`: its designed flank, and a root that clears the tip of the mate."""
+        """Return the required tooth of `wheel`: its designed flank, and a root that clears the tip of the mate. The
+        polyline of the flank is within `tolerance` [module]; `scale` is not used.
+        """
         from geartrain.teeth.outlines.tooth_requirement import CLEARANCE, ToothRequirement
 
         del scale
@@ -202,7 +203,7 @@ class ConjugateMesh(GearMesh):
 
 @dataclass(frozen=True)
 class ConjugateFigures(PairFigures):
-    """Results of a pair with conjugate teeth: those of every pair, and the design at the design distance."""
+    """Results of a pair with conjugate teeth: those in `PairFigures`, arcs of contact, angles and overlap ratio."""
 
     KEYS = (
         *PairFigures.KEYS,
@@ -278,7 +279,7 @@ class PairDesign(Result):
 
     @property
     def runs(self) -> bool:
-        """True if the teeth can run. Friction is disregarded, so that it may lock these teeth."""
+        """True if the teeth can run without friction. Friction may still lock them."""
         return bool(self.mesh.verdict)
 
     @property

@@ -60,7 +60,7 @@ class ConjugatePair(Shown):
 
     @property
     def arcs(self) -> tuple[float, float]:
-        """Arcs X of approach and recess if gear 1 drives [module; rad for bevel gears]. One arc may be negative."""
+        """Arcs of approach and recess on the pitch surfaces, gear 1 driving [module; bevel: rad]; one may be < 0."""
         return self.path.arcs
 
     @property
@@ -162,8 +162,8 @@ class ConjugateTransmission(ExactRatio, ToothTransmission):
     # ------------------------------------------------------------------------------------------------------- friction
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """Return the sliding speeds of all tooth pairs in contact at driver angles S [rad], and their friction terms in
-        the input and output power.
+        """Return the sliding speeds of all tooth pairs in contact at driver angles S [rad], and the changes of their
+        input and output power per unit friction coefficient.
 
         The tooth pairs share the driver's torque equally.
         """

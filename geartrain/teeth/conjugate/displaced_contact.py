@@ -56,11 +56,11 @@ def azimuth_at(pitch: PitchSurfaces, gear: int, own: float, other: Floats) -> Fl
 
 
 def corner_contact(path: PathOfContact, gear: int, radius: Floats, azimuth: Floats) -> tuple[Floats, Floats]:
-    """Return the arcs X on the pitch surfaces by which both gears have rotated when the tip of `gear` touches given
-    points of the mate's flank.
+    """Return the arcs X on the pitch surfaces by which the gears have rotated when the tip of `gear` touches points of
+    the mate's flank, which have the given `radius` and `azimuth` [rad] about the mate's axle.
 
-    The points are given by radius and azimuth [rad] in the position of the mate at X = 0. The tip of gear 1 touches
-    beyond the recess; the tip of gear 2 touches before the approach.
+    The azimuth is valid for the position of the mate at X = 0. The tip of gear 1 touches beyond the recess; the tip of
+    gear 2 touches before the approach.
     """
     pitch, mate = path.pitch, 3 - gear
     _, tip = path.ends(gear)
@@ -130,7 +130,7 @@ class CornerLag:
 
 @dataclass(frozen=True)
 class DisplacedWheelSizes:
-    """Sizes of a wheel that convert its manufacturing errors to displacements [module; rad for bevel gears]."""
+    """Sizes of a wheel with which manufacturing errors are converted to displacements of its flanks."""
 
     z: int
     """Number of teeth."""
@@ -149,12 +149,11 @@ class DisplacedWheelSizes:
 
 @dataclass(frozen=True, eq=False)
 class DisplacedContact:
-    """Contact of one tooth pair throughout its engagement, and the lag of the driven wheel caused by displaced
-    flanks.
+    """Contact of one tooth pair throughout its engagement, and the lag of the driven wheel caused by displaced flanks.
 
-    Lengths are in modules; on cones they are angles on the unit sphere. All columns are lags of the driven wheel [rad]
-    for a unit displacement, at equally spaced driver angles from `start` to `end` [rad]. In pairs of columns, the first
-    column belongs to the driver, and the second to the driven wheel.
+    Lengths are in modules; on cones they are angles on the unit sphere. Each array contains lags of the driven wheel
+    [rad] for a unit displacement, at equally spaced driver angles from `start` to `end` [rad]. In a pair of arrays, the
+    first is for displacements of the driver, and the second for displacements of the driven wheel.
     """
 
     wheels: tuple[DisplacedWheelSizes, DisplacedWheelSizes]

@@ -116,14 +116,14 @@ class InvolutePair:
 
     @property
     def halves(self) -> tuple[float, float]:
-        """Half-thicknesses of the teeth of both wheels on their operating pitch circles, as arcs X [module]."""
+        """Half-thicknesses of the teeth of both wheels, measured along their operating pitch circles [module]."""
         pitch, psi = self.pitch, self.psi
         first, second = self.first.half(psi) * pitch.R1, self.second.half(psi) * abs(pitch.R2)
         return first - self.thinned / 4, second - self.thinned / 4
 
     @property
     def backlash(self) -> float:
-        """Backlash on the operating pitch circle as an arc X [module]; negative if the teeth jam."""
+        """Backlash, measured along the operating pitch circle [module]; negative if the teeth jam."""
         return self.pitch.p - 2 * sum(self.halves)
 
     def bottom_clearance(self, gear: int) -> float:
@@ -137,7 +137,7 @@ class InvolutePair:
 
     @property
     def arcs(self) -> tuple[float, float]:
-        """Arcs X of approach and recess [module], which are limited by the tip circles.
+        """Arcs of approach and recess on the operating pitch circles [module], which are limited by the tip circles.
 
         One arc is negative if the tip circle of a wheel does not reach the operating pitch circle. Contact is then on
         one side of the pitch point only. Raises `RangeError` if the teeth do not reach each other at all.

@@ -61,18 +61,20 @@ def uniform_stress(pitch: PitchSurfaces, a: float, b: float, X: float, psi: floa
     """Return one side of a path of contact with constant Hertzian pressure and an arc of length X on the pitch
     surfaces.
 
-    The relative curvature of the profiles divided by cos psi is then constant. `a` and `b` are the curvatures of the
-    pitch surfaces of the gears in contact at their addendum and at their dedendum, `psi` is the pressure angle psi0 at
-    the pitch point [rad]. The derivative w of S sin psi with respect to d is ((b - a) S + sqrt((a + b)^2 S^2 + 4 k tan
-    psi)) / 2 with k = sin psi0 cos psi0.
+    The relative curvature of the profiles divided by cos psi is then constant, where psi is the pressure angle. `a` and
+    `b` are the curvatures of the pitch surfaces of the gears in contact at their addendum and at their dedendum; the
+    parameter `psi` is the value psi0 at the pitch point [rad]. With the distance d from the pitch point and S = d, or
+    sin d on cones, the derivative of S sin psi with respect to d is ((b - a) S + sqrt((a + b)^2 S^2 + 4 k tan psi)) /
+    2, where k = sin psi0 cos psi0.
     """
     return PathSide((_piece_over_arc(_solutions(pitch, stress_law(pitch, a, b, psi), sin(psi)), X * cos(psi), X),))
 
 
 def stress_law(pitch: PitchSurfaces, a: float, b: float, psi: float) -> ValueAndSlope:
-    """Return the function f of the differential equation of uniform stress, S v' + f(d, v) = 0 with v = sin psi.
+    """Return the function f of the differential equation of uniform stress, S v' + f(d, v) = 0. Here v is the sine of
+    the pressure angle at the distance d from the pitch point, and S is d, or sin d on cones.
 
-    The function returns f and df/dv, docs/shapes.md (8). `psi` is the pressure angle at the pitch point [rad].
+    The function returns f and df/dv, docs/shapes.md (8). `a`, `b` and `psi` have the meaning as in `uniform_stress`.
     """
     k = sin(psi) * cos(psi)
 
@@ -88,9 +90,9 @@ def stress_law(pitch: PitchSurfaces, a: float, b: float, psi: float) -> ValueAnd
 
 
 def _piece_over_arc(made: Callable[[float], PathPiece], guess: float, X: float, start: float = 0.0) -> PathPiece:
-    """Return a piece of a path of contact that ends at the arc X on the pitch surfaces. `made` returns the piece that
-    ends at a distance from the pitch point, which is found by Newton's method from `guess`. If a distance cannot be
-    reached, it is bisected towards the last one that was.
+    """Return the piece of a path of contact that ends at the arc X on the pitch surfaces. `made` returns the piece from
+    the distance `start` to any other distance. The distance of the end is found by Newton's method from `guess`;
+    distances that cannot be reached are bisected towards the last one that was reached.
     """
     low, end, last = start, guess, inf
     for _ in range(_TRIES):
@@ -113,9 +115,9 @@ def _piece_over_arc(made: Callable[[float], PathPiece], guess: float, X: float, 
 def _solutions(
     pitch: PitchSurfaces, f: ValueAndSlope, first: float, start: float = 0.0, piece_maker: PieceMaker | None = None
 ) -> Callable[[float], PathPiece]:
-    """Return a function that solves S v' + f(d, v) = 0 from the distance `start` up to a distance d from the pitch
-    point, with v = `first` at `start`. It returns the solution as a piece of a path of contact. S is d, or sin d for
-    bevel gears. Each solution is the initial guess of the next one.
+    """Return a function that solves S v' + f(d, v) = 0 from the distance `start` to a given distance from the pitch
+    point, with v = `first` at `start`, and returns a piece of a path of contact. S is the distance d, or sin d on
+    cones. Each solution is the initial guess of the next solution.
     """
     last: Chebyshev | None = None
 
@@ -152,9 +154,10 @@ def uniform_heat(pitch: PitchSurfaces, beta: float, gamma: float, X: float) -> P
     """Return one side of a path of contact with uniform frictional heat per area of a profile, and an arc of length X
     on the pitch surfaces.
 
-    The derivative w of S sin psi with respect to d is beta S + gamma S / cos psi, and the pressure angle psi is 0
-    at the pitch point. `beta` is the curvature of the pitch surface of the hotter profile, as interpreted in
-    docs/shapes.md, and `gamma` is the sum of both curvatures divided by the heat.
+    With the distance d from the pitch point and S = d, or sin d on cones, the derivative of S sin psi with respect to d
+    is beta S + gamma S / cos psi. The pressure angle psi is 0 at the pitch point. `beta` is the curvature of the pitch
+    surface of the hotter profile, as interpreted in docs/shapes.md, and `gamma` is the sum of both curvatures divided
+    by the heat.
     """
     f, first = heat_law(pitch, beta, gamma), (beta + gamma) / 2
     # initial guess of the end: the cycloid tangent to the path at the pitch point
@@ -164,7 +167,8 @@ def uniform_heat(pitch: PitchSurfaces, beta: float, gamma: float, X: float) -> P
 
 
 def heat_law(pitch: PitchSurfaces, beta: float, gamma: float) -> ValueAndSlope:
-    """Return the function f of the differential equation of uniform heat, S g' + f(d, g) = 0 with g = sin psi / S.
+    """Return the function f of the differential equation of uniform heat, S g' + f(d, g) = 0. Here g is sin psi / S for
+    the pressure angle psi at the distance d from the pitch point, and S is d, or sin d on cones.
 
     The function returns f and df/dg, docs/shapes.md (9). `beta` and `gamma` have the same meaning as in `uniform_heat`.
     """
@@ -181,7 +185,7 @@ def heat_law(pitch: PitchSurfaces, beta: float, gamma: float) -> ValueAndSlope:
 
 def _quotient_piece(pitch: PitchSurfaces, f: ValueAndSlope, g: Chebyshev, end: float) -> PathPiece:
     """Return the piece of a path of contact, up to the distance `end` from the pitch point, on which the pressure angle
-    psi at the distance d is given by sin psi = S g(d). `g` is a solution of the differential equation of `heat_law`.
+    at the distance d has the sine S g(d). S is d, or sin d on cones, and `g` is a solution of S g' + f(d, g) = 0.
     """
     steep = _slope(pitch, f, g)
     return sampled(
@@ -197,9 +201,9 @@ def bounded_heat(pitch: PitchSurfaces, b: float, gamma: float, X: float, psi: fl
     """Return one side of a path of contact with finite stress: a piece with constant pressure angle `psi` up to the
     permitted heat, then a piece with uniform heat.
 
-    The first piece ends where S / S' = sin psi / (b + gamma / cos psi), with S = d, or sin d for bevel gears. `b` and
-    `gamma` have the meaning of `beta` and `gamma` in `uniform_heat`. If the first piece does not reach the permitted
-    heat, it is the whole side.
+    The first piece ends at the distance d from the pitch point where S / S' = sin psi / (b + gamma / cos psi), with S =
+    d, or sin d on cones, and its derivative S'. `b` and `gamma` have the meaning of `beta` and `gamma` in
+    `uniform_heat`. If the first piece does not reach the permitted heat, it is the whole side.
     """
     tangent = sin(psi) / (b + gamma / cos(psi))
     first = atan(tangent) if pitch.bevel else tangent
@@ -223,9 +227,10 @@ def least_friction(
     """Return one side of a path of contact with minimum friction loss: first a piece with the maximum pressure angle
     `psi`, then a piece with the minimum contact speed `u` along the dedendum, as a fraction of the pitch-line speed.
 
-    The length of the first piece makes the first variation of the loss over the second piece vanish: docs/shapes.md
-    (12) and (13), or (19) if friction depends on speed and `weight` gives the coefficient of friction times S at
-    distances d. Raises `RangeError` if the arc X is longer than teeth within both bounds can reach, or if a shape other
+    `b` is the curvature of the pitch surface of the gear whose dedendum is in contact. The length of the first piece
+    makes the first variation of the loss over the second piece vanish: docs/shapes.md (12) and (13), or (19) if
+    friction depends on speed. In this case, `weight` returns the friction loss at distances from the pitch point, up to
+    a factor. Raises `RangeError` if the arc X is longer than teeth within both bounds can reach, or if a shape other
     than these two pieces would have less loss.
     """
     loss = pitch.S if weight is None else weight
@@ -269,7 +274,7 @@ def _too_long_error(pitch: PitchSurfaces, X: float, psi: float, u: float) -> Ran
 
 def _first_variation(pitch: PitchSurfaces, piece: PathPiece, loss: Weight) -> float:
     """Return the first variation of the friction loss over the piece of minimum contact speed, docs/shapes.md (13) or
-    (19): the integral of `variation_integrand` over the distance d from the pitch point.
+    (19). `loss` returns the friction loss at distances from the pitch point, up to a factor.
     """
     x, weights = _GAUSS
     d = piece.start + (piece.end - piece.start) * (x + 1) / 2
@@ -314,7 +319,9 @@ def fitted(
     nodes: int,
     near: Chebyshev | None = None,
 ) -> Chebyshev:
-    """Return the solution of the differential equation in `solved`, computed with a fixed number of Chebyshev nodes."""
+    """Return the solution of the differential equation in `solved`, with the same parameters, for a fixed number of
+    Chebyshev nodes. `near` is a solution on another interval, used as the initial guess; None for the constant `first`.
+    """
     x, _ = points(nodes)
     d = start + (end - start) * (x + 1) / 2
     # constant beyond its end, where a series soon diverges
@@ -371,10 +378,10 @@ def unreachable_end(end: float) -> RangeError:
 
 
 def variation_integrand(pitch: PitchSurfaces, piece: PathPiece, d: Floats, loss: Weight) -> Floats:
-    """Return the integrand of the first variation of the friction loss at distances d from the pitch point.
+    """Return the integrand of the first variation of the friction loss, at distances d from the pitch point.
 
-    The integrand is the additional loss if the path of contact is higher at d, minus the loss saved because the arc
-    becomes longer.
+    The integrand is the additional loss if the path of contact is higher at d, minus the loss saved because the arc on
+    the pitch surfaces becomes longer. `loss` returns the friction loss at distances, up to a factor.
     """
     S, sine = pitch.S(d), piece.sin_psi(d)
     cosine = np.sqrt(1 - sine**2)
@@ -386,7 +393,8 @@ def variation_integrand(pitch: PitchSurfaces, piece: PathPiece, d: Floats, loss:
 
 def check_pieces(pitch: PitchSurfaces, piece: PathPiece, weight: Weight) -> None:
     """Raise `RangeError` if a constant pressure angle followed by the given piece of minimum contact speed does not
-    minimise the friction loss (conditions in docs/shapes.md, section 15).
+    minimise the friction loss (conditions in docs/shapes.md, section 15). `weight` returns this loss at distances from
+    the pitch point, up to a factor.
     """
     if (np.diff(weight(np.linspace(0.0, piece.end, _CHECKED))) < 0).any():
         raise other_shape_error("the friction loss decreases with increasing sliding velocity at some contacts")
@@ -397,7 +405,7 @@ def check_pieces(pitch: PitchSurfaces, piece: PathPiece, weight: Weight) -> None
 
 
 def other_shape_error(why: str) -> RangeError:
-    """Return the error for a friction law under which teeth of minimum loss have a shape that is not modelled."""
+    """Return the error, with the reason `why`, for a friction law whose teeth of minimum loss are not modelled."""
     shape = "a constant pressure angle and a minimum contact speed"
     what = f"with this friction law, teeth of minimum loss do not consist of {shape}"
     fix = "use another pitch_line_speed, a friction law that falls less steeply, or a smaller pressure angle"

@@ -97,7 +97,7 @@ class PathLosses(Result):
         Parameters
         ----------
         other : PathLosses
-            Losses of the other path, for the same assumption.
+            Losses of the other path, for the same assumption on how tooth pairs share the load.
         """
         return {name: getattr(self, name) / getattr(other, name) for name in LOADED}
 
@@ -145,7 +145,8 @@ class PathRatios(Result):
 
 
 def measure(path: PathOfContact) -> PathMeasures:
-    """Return loss, stress, heat, flash temperature and working depth of a path of contact.
+    """Return loss, stress, heat, flash temperature and working depth of a path of contact, for two assumptions: one
+    tooth pair carries the whole load, or the pairs in contact share it equally.
 
     Parameters
     ----------
@@ -182,7 +183,7 @@ Stretch = tuple[float, float, int]
 
 
 def sharing(path: PathOfContact) -> list[Stretch]:
-    """Return the intervals of the arc X on the pitch surfaces in which the number of tooth pairs is constant."""
+    """Return the intervals of rotation, as arcs on the pitch surfaces, with a constant number of tooth pairs."""
     p, (approach, recess) = path.pitch.p, path.arcs
     whole = floor(path.contact_ratio)
     cuts = sorted(
@@ -199,8 +200,8 @@ def sharing(path: PathOfContact) -> list[Stretch]:
 
 
 def _losses_of(path: PathOfContact, assumption: str, stretches: list[Stretch]) -> PathLosses:
-    """Return loss, stress, heat and flash temperature if tooth pairs in contact share the load equally, in each of the
-    given intervals of the arc X on the pitch surfaces.
+    """Return loss, stress, heat and flash temperature if tooth pairs share the load equally in each of the intervals
+    `stretches`. `assumption` is the name of this assumption in the result.
     """
     pitch = path.pitch
     # the pressure is unbounded at the pitch point of some forms, so it is also computed beyond a tenth of a pitch; less
@@ -236,8 +237,8 @@ def _sliding_between(path: PathOfContact, low: float, high: float) -> float:
 
 
 def depth(path: PathOfContact) -> float:
-    """Return the working depth [module; rad for bevel gears]: the height of the last contact above the first contact,
-    summed over approach and recess.
+    """Return the working depth [module; rad for bevel gears]: the difference in height, perpendicular to the pitch
+    line, between the first and the last contact.
     """
     total = 0.0
     for _, piece, first, last in path.legs():
@@ -362,12 +363,13 @@ def locking_friction(path: PathOfContact, driver: int = 1) -> float:
 
 
 def to_depth(depth: Callable[[float], float], wanted: float, start: float, most: float) -> float:
-    """Return the value of gamma for which `depth` equals `wanted`. Gamma is the sum A + B of the pitch-surface
-    curvatures divided by the heat; the depth increases with gamma.
+    """Return the parameter gamma of `uniform_heat` for which the function `depth` returns the depth `wanted`. The depth
+    increases with gamma.
 
-    `start` is an initial guess of gamma, around which the root is bracketed. `most` is an upper bound of the depth,
-    such as the sum of the arcs, because a contact rises by less than its arc. Raises `GearTrainError` if no heat gives
-    the wanted depth.
+    start   initial guess of gamma, around which the root is bracketed
+    most    upper bound of the depth, such as the sum of the arcs of contact
+
+    Raises `GearTrainError` if no gamma gives the wanted depth.
     """
 
     def off(gamma: float) -> float:

@@ -30,9 +30,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class PathPiece:
-    """Piece of a path of contact from the distance `start` to the distance `end` from the pitch point.
+    """Piece of a path of contact, which extends from the distance `start` to the distance `end` from the pitch point.
 
-    The three functions of a piece take and return arrays.
+    Its three functions return arrays of the pressure angle's sine, its derivative, and the arc at given distances.
     """
 
     start: float
@@ -63,8 +63,9 @@ def ray(psi: float, end: float) -> PathPiece:
 
 
 def sampled(sin_psi: Curve, slope: Curve, start: float, end: float, nodes: int = 64) -> PathPiece:
-    """Return the piece of a path of contact on which the sine of the pressure angle psi is the given function of d. The
-    arc X is computed as an integrated Chebyshev series of 1 / cos psi.
+    """Return the piece of a path of contact, from the distance `start` to `end`, on which the sine of the pressure
+    angle psi is the function `sin_psi` of the distance from the pitch point, with the derivative `slope`. The arc on
+    the pitch surfaces is computed as an integrated Chebyshev series of 1 / cos psi with at least `nodes` nodes.
     """
     d = start + (end - start) * (points(nodes)[0] + 1) / 2
     travel = series_through(1 / np.sqrt(1 - sin_psi(d) ** 2), start, end).integ(lbnd=start)
@@ -72,12 +73,12 @@ def sampled(sin_psi: Curve, slope: Curve, start: float, end: float, nodes: int =
 
 
 def steady_speed(pitch: PitchSurfaces, b: float, u: float, start: float, sin_start: float, end: float) -> PathPiece:
-    """Return the piece of a path of contact on which the contact speed along the dedendum, divided by the pitch-line
-    speed, has the constant value `u`.
+    """Return the piece of a path of contact, from the distance `start` to the distance `end` from the pitch point, on
+    which the contact speed along the dedendum, divided by the pitch-line speed, has the constant value `u`.
 
-    By docs/shapes.md (12), sin psi = eta / S with eta = S(start) sin psi(start) + u (d - start) + b (integral of S). S
-    is d, or sin d for bevel gears, and b is the curvature of the pitch surface of the gear whose dedendum is in
-    contact.
+    By docs/shapes.md (12), the sine of the pressure angle at the distance d is eta / S, with eta = S(start) sin_start +
+    u (d - start) + b (integral of S). S is d, or sin d for bevel gears, and b is the curvature of the pitch surface of
+    the gear whose dedendum is in contact.
     """
     first, below = float(pitch.S(start)) * sin_start, float(pitch.S_integral(start))
 
@@ -276,15 +277,15 @@ class PathOfContact(Shown):
         return [sign * float(side.travel(np.array(d))) for sign, side in sides for d in side.joints]
 
     def span(self, recess: bool, low: float = -inf, high: float = inf) -> tuple[float, float] | None:
-        """Return the range of distances d in which the teeth touch on one side; None if the teeth do not touch on that
-        side.
+        """Return the range of distances from the pitch point at which the teeth touch on one side of the path; None if
+        they do not touch on that side.
 
         Parameters
         ----------
         recess : bool
             True for the recess side, False for the approach side.
         low, high : float
-            Bounds of X.
+            Bounds of the arc X on the pitch surfaces [module].
         """
         first, last = max(-self.arcs[0], low), min(self.arcs[1], high)
         near, far = (first, last) if recess else (-last, -first)
@@ -297,13 +298,13 @@ class PathOfContact(Shown):
         return (start, end) if end > start else None
 
     def legs(self, low: float = -inf, high: float = inf) -> Iterator[tuple[bool, PathPiece, float, float]]:
-        """Yield each piece on which the teeth touch, together with its side and with the range of distances d of
-        contact.
+        """Yield each piece of the path on which the teeth touch, with its side and with the first and last distance of
+        contact from the pitch point.
 
         Parameters
         ----------
         low, high : float
-            Bounds of X.
+            Bounds of the arc X on the pitch surfaces [module].
 
         Yields
         ------
@@ -326,7 +327,8 @@ class PathOfContact(Shown):
         return sum(self.arcs) / self.pitch.p
 
     def ends(self, gear: int) -> tuple[float, float]:
-        """Return the arcs X at which the root end and the tip of a gear's flank are in contact [module].
+        """Return the arcs on the pitch surfaces [module], from the pitch point, at which the root end and the tip of a
+        gear's flank are in contact. They are negative in approach.
 
         Parameters
         ----------
@@ -349,7 +351,7 @@ class PathOfContact(Shown):
         return float(low), float(high)
 
     def at(self, X: ArrayLike) -> PathContact:
-        """Return the contact quantities at given pitch-line displacements X.
+        """Return speeds, curvatures, stress and heat of the contacts at given pitch-line displacements X.
 
         Parameters
         ----------
@@ -374,7 +376,7 @@ class PathOfContact(Shown):
         return self._contact(X, d, sine, q)
 
     def along(self, d: ArrayLike, recess: bool) -> PathContact:
-        """Return the contact quantities at given distances d from the pitch point.
+        """Return speeds, curvatures, stress and heat of the contacts at given distances from the pitch point.
 
         Parameters
         ----------
@@ -388,8 +390,9 @@ class PathOfContact(Shown):
         return self._contact(sign * side.travel(d), sign * d, side.sin_psi(d), sign * side.slope(d))
 
     def _contact(self, X: Floats, d: Floats, sine: Floats, q: Floats) -> PathContact:
-        """Return speeds, curvatures, stress and heat of contacts at arcs X and distances d, docs/shapes.md (2) to (5).
-        `sine` is the sine of the pressure angle psi, and `q` is d(psi)/dX.
+        """Return speeds, curvatures, stress and heat of contacts at arcs X on the pitch surfaces and distances d from
+        the pitch point, docs/shapes.md (2) to (5). `sine` is the sine of the pressure angle, and `q` the derivative of
+        this angle with respect to X.
         """
         pitch = self.pitch
         A, B = pitch.A, pitch.B

@@ -104,7 +104,8 @@ class PitchSurfaces:
 
     def point(self, d: Floats, sin_psi: Floats, cos_psi: Floats) -> Floats:
         """Return contact points in the fixed frame, from their distance `d` from the pitch point and their pressure
-        angle psi. The shape is (..., 2) from the pitch point, or (..., 3) on the unit sphere.
+        angle psi. x is along the pitch line, and the axle of gear 1 is at negative y. The shape is (..., 2) from the
+        pitch point, or (..., 3) on the unit sphere.
         """
         S = self.S(d)
         if not self.bevel:
@@ -112,10 +113,10 @@ class PitchSurfaces:
         return np.stack([S * cos_psi, S * sin_psi, np.cos(d)], axis=-1)
 
     def on_gear(self, gear: int, points: Floats, X: Floats) -> Floats:
-        """Transform points from the fixed frame to the frame that a gear has at X = 0, by a rotation about the gear's
-        axle.
+        """Transform points from the fixed frame to the frame of a gear, which is equal to the fixed frame at X = 0.
 
-        The angle of rotation is X / reach for gear 1 and -X / reach2 for gear 2 (for cones, by Rodrigues' formula).
+        When the pitch surfaces have rolled by the arc X, gear 1 has turned about its axle by X / reach and gear 2 by -X
+        / reach2. The points are turned back by this angle (for cones, by Rodrigues' formula).
         """
         angle, R = X / self.reach if gear == 1 else -X / self.reach2, self.axle_of(gear)
         cosine, sine = np.cos(angle), np.sin(angle)
@@ -146,7 +147,7 @@ class PitchSurfaces:
         return np.arctan2(np.hypot(x, outwards), points @ axis), np.arctan2(x, outwards)
 
     def from_polar(self, gear: int, radius: float, azimuth: Floats) -> Floats:
-        """Return points of the fixed frame from radius and azimuths about a gear's axle, the inverse of `polar`."""
+        """Return points of the fixed frame from `radius` and `azimuth` about a gear's axle, the inverse of `polar`."""
         if not self.bevel:
             up = self.axle_of(gear) + self._side(gear) * radius * np.cos(azimuth)
             return np.stack([radius * np.sin(azimuth), up], axis=-1)
@@ -156,7 +157,7 @@ class PitchSurfaces:
         return found
 
     def _side(self, gear: int) -> float:
-        """Return 1 if the pitch point is above the axle of a gear, or -1 if it is below."""
+        """Return 1 if the axle of a gear is at negative y in the fixed frame, or -1 if it is at positive y."""
         return 1.0 if self.axle_of(gear) < 0 else -1.0
 
     def _axis_and_up(self, gear: int) -> tuple[Floats, Floats]:

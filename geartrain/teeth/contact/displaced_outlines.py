@@ -36,7 +36,8 @@ _BLUNT = radians(10)  # lower bound of the half aperture, by which errors are di
 
 
 class ToothPairContact(NamedTuple):
-    """Contact of a single tooth pair at driver angles x [rad], which are measured from the nominal position.
+    """Contact of a single tooth pair at driver angles x [rad]. The angle is 0 where the driver's tooth is on the line
+    of centres.
 
     The driver's axle is at the origin, and the driven axle is on the x axis.
     """
@@ -90,8 +91,8 @@ class ToothPairSearch:
         return ToothPairContact(x, ratio * x + self.offset - angle, point, normal, angle, corner)
 
     def _normals(self, point: Floats, along: Floats, speed: Floats) -> Floats:
-        """Return the unit normals of contacts, which pass through the point that divides the line of centres in the
-        ratio of speeds. At that point itself, the normal of the flank is returned.
+        """Return the unit normals at contacts `point`: directions to the point that divides the line of centres in the
+        ratio `speed`, or, at that point itself, the normals of the flank directions `along`.
         """
         with np.errstate(all="ignore"):
             to = np.stack([self.distance * speed / (1 + speed) - point[0], -point[1]])
@@ -104,8 +105,8 @@ class ToothPairSearch:
 
 @lru_cache(maxsize=256)
 def displaced_outlines(gears: OutlineGears, driver: int) -> DisplacedContact:
-    """Return the contact points of two tooth outlines at their centre distance, and the lag of the driven wheel caused
-    by displaced flanks.
+    """Return the contact points of two tooth outlines at their centre distance, and the lag of the driven wheel that
+    results if a flank of either wheel is displaced from its nominal position by a unit length.
 
     Raises `RangeError` if the teeth do not touch for a whole pitch.
     """
@@ -152,7 +153,9 @@ def displaced_outlines(gears: OutlineGears, driver: int) -> DisplacedContact:
 
 
 def _ends(search: ToothPairSearch) -> tuple[float, float, float, float]:
-    """Return four driver angles [rad]: the ends of flank contact, and the ends of contact with tips included."""
+    """Return four driver angles [rad] of the tooth pair in `search`: the first and the last contact of two flanks, and
+    the first and the last contact if contacts of tips with flanks are included.
+    """
     found = search.at(np.linspace(*search.pair.window, _SEARCHED))
     near = (found.corner >= 0) & (found.lag < _FARTHEST * search.second.pitch + np.nanmin(found.lag))
     whole = _around(near, int(np.nanargmin(found.lag)))
@@ -168,7 +171,7 @@ def _ends(search: ToothPairSearch) -> tuple[float, float, float, float]:
 
 
 def _around(held: Bools, at: int) -> Bools:
-    """Return a mask of the entries that are connected with the entry `at` by entries that are all True."""
+    """Return a mask of the contiguous entries that are True in the mask `held` and include the entry `at`."""
     gaps = np.flatnonzero(~held)
     low, high = gaps[gaps < at], gaps[gaps > at]
     found = np.zeros(len(held), bool)
@@ -187,7 +190,7 @@ def _corner(search: ToothPairSearch, end: float, last: float) -> CornerLag:
 
 
 def _half_widths(search: ToothPairSearch, found: ToothPairContact, gear: int) -> Floats:
-    """Return the half-thickness [module] of the tooth of `gear` at the point of each contact."""
+    """Return the half-thickness [module] of the tooth of `gear` at the point of each contact in `found`."""
     if gear == 0:
         return np.asarray(np.hypot(*found.point) * (np.arctan2(found.point[1], found.point[0]) - found.x))
     x, y = search.distance - found.point[0], found.point[1]
@@ -201,7 +204,7 @@ def _sizes(wheel: GearOutline, radius: Floats, tip: float, half: Floats) -> Disp
 
 
 def _pitch_points(search: ToothPairSearch, found: ToothPairContact, gear: int) -> tuple[Floats, Floats]:
-    """Return x and y [module] of the points where the flanks in contact intersect the pitch circle of `gear`."""
+    """Return x and y [module] of the points where flanks in contact (`found`) cross the pitch circle of `gear`."""
     table = (search.pair.touch_search.first, search.pair.touch_search.second)[gear]
     radius = (search.first, search.second)[gear].z / 2
     piece = np.flatnonzero((table.ends[0] <= radius) & (radius <= table.ends[1]) & ~table.flat)[:1]

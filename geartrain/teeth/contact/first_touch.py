@@ -45,12 +45,11 @@ class AxlePlacement:
     ring: Literal[0, 1, 2] = 0
 
     def bounds(self, lowest: float, highest: float, minimum: float, most: float) -> float:
-        """Return the maximum absolute azimuth [rad] at which a point can be within the range of radii about the second
-        axle.
+        """Return the maximum absolute azimuth [rad] about the first axle of points that may be in contact.
 
-        The radius of the point is from `lowest` to `highest` about the first axle, and from `minimum` to `most` about
+        Such a point has a radius from `lowest` to `highest` about the first axle, and from `minimum` to `most` about
         the second axle. The result is computed from samples and widened, so that it is never too small except for
-        rounding. It is -1 if no point is in range.
+        rounding. It is -1 if no such point exists.
         """
         r = np.linspace(lowest, highest, 129)[:, None]
         b = np.linspace(0, np.pi, 721)[None, :]
@@ -65,7 +64,7 @@ class AxlePlacement:
 
 
 class DrivenFrame:
-    """Points of the driver, given by `radius` and `azimuth` about the second axle, with their derivatives."""
+    """Points of the driver, given by `radius` and `azimuth` about the second axle instead of the first one."""
 
     __slots__ = ("across", "along", "axles", "bevel", "cos_b", "height", "radius", "side", "sin_b", "tilt", "up")
 
@@ -86,8 +85,8 @@ class DrivenFrame:
             self.radius = np.hypot(self.side, self.along)
 
     def _signs(self) -> tuple[float, float]:
-        """Return two signs: of the direction from the first axle to the second one, and of the component in this
-        direction of the radius about the first axle.
+        """Return the signs e and s in the coordinate of a point along the line of centres about the second axle: e
+        times the centre distance, plus s times the coordinate about the first axle.
         """
         return {0: (1.0, -1.0), 1: (-1.0, 1.0), 2: (1.0, 1.0)}[self.axles.ring]
 
@@ -136,9 +135,7 @@ class CandidatePairs(NamedTuple):
 
 
 class FlankSegments(NamedTuple):
-    """Segments of the driver's flanks. On each segment, the driven angle that the points of the driver require to touch
-    the driven flank is a smooth function.
-    """
+    """Segments of the driver's flanks, on each of which the contact with the driven flank varies smoothly."""
 
     tooth_pair: Indices
     """Index of the tooth pair of each segment, shape (n,)."""
@@ -159,7 +156,7 @@ class FlankSegments(NamedTuple):
 
 
 class FirstTouches(NamedTuple):
-    """Contacts, one for each segment: driven angle [rad], speed ratio, parameters of both flanks, and both radii."""
+    """Contacts, one for each point: driven angle [rad], speed ratio, and piece, parameter and radius on each wheel."""
 
     angle: Floats
     speed: Floats
@@ -174,7 +171,7 @@ class FirstTouches(NamedTuple):
 
 @dataclass(frozen=True)
 class FirstTouchSearch:
-    """Search for the points of the driver's flanks that determine the driven angle, at one position of the axles."""
+    """Search for the contacts of two wheels whose axles are in the position `axles`."""
 
     first: FlankTable
     second: FlankTable
@@ -196,8 +193,8 @@ class FirstTouchSearch:
         return self._clipped_to_pieces(tooth_pairs, joined(found))
 
     def _cells(self, tooth_pairs: CandidatePairs) -> FlankSegments:
-        """Return the segments between adjacent nodes of the driver's flank that may be at radii of the driven flank.
-        The piece of the driven flank is set later.
+        """Return the segments between adjacent nodes of the driver's flank whose distances from the second axle overlap
+        with the radii of the driven flank. The piece of the driven flank is 0 for all of them.
         """
         of, (piece, u, begins) = tooth_pairs.tooth1, self.first.nodes
         pieces, us, begins = piece[of], u[of], begins[of, :-1]
@@ -219,7 +216,7 @@ class FirstTouchSearch:
         )
 
     def _divided_at_extremes(self, tooth_pairs: CandidatePairs, cells: FlankSegments) -> FlankSegments:
-        """Return the segments, divided at extrema of the distance between the driver's point and the second axle."""
+        """Return the segments `cells`, divided at extrema of the driver's distance from the second axle."""
         # where the derivative of the radius changes its sign within a cell, the radius has an extreme
         which = np.flatnonzero(np.sign(cells.polar2[2, 0]) * np.sign(cells.polar2[2, 1]) < 0)
         if not len(which):
@@ -239,8 +236,8 @@ class FirstTouchSearch:
         return joined([cells, turning])
 
     def _clipped_to_pieces(self, tooth_pairs: CandidatePairs, cells: FlankSegments) -> FlankSegments:
-        """Return the segments, divided and shortened so that each meets the radii of a single piece of the driven
-        flank. The ends are found by false position.
+        """Return the segments `cells`, shortened so that their distances from the second axle are within the radii of a
+        single piece of the driven flank. The ends are found by false position.
         """
         low, high = self.second.ends[:, cells.piece2]
         u, polar2 = cells.u.copy(), cells.polar2.copy()
@@ -278,7 +275,7 @@ class FirstTouchSearch:
     # ------------------------------------------------------------------------------------------------ exact contact
 
     def touch(self, tooth_pairs: CandidatePairs, segments: FlankSegments) -> FirstTouches:
-        """Return the contacts of all segments: at both ends, and at a maximum of the required driven angle inside."""
+        """Return the contacts at both ends of each of the `segments`, and at maxima of the driven angle inside them."""
         x = tooth_pairs.x[segments.tooth_pair]
         low, high = self.second.ends[:, segments.piece2]
 
@@ -314,8 +311,8 @@ class FirstTouchSearch:
         return joined([*ends, within])
 
     def _touch_at(self, tooth_pairs: CandidatePairs, segments: FlankSegments, u: Floats, v: Floats) -> FirstTouches:
-        """Return the contacts at the parameters `u` of the driver's flank. `v` is the known parameter of the driven
-        flank at the ends of its pieces, and NaN elsewhere.
+        """Return the contacts on the `segments` at the parameters `u` of the driver's flank. `v` is the known parameter
+        of the driven flank at the ends of its pieces, and NaN elsewhere.
         """
         piece1, piece2 = segments.piece1, segments.piece2
         view, dr, da = self.view(tooth_pairs.x[segments.tooth_pair], piece1, u)

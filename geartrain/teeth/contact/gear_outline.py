@@ -327,7 +327,7 @@ def _check_side(side: tuple[OutlineCurve, ...]) -> None:
 
 
 def _table(sides: Sequence[tuple[OutlineCurve, ...]]) -> FlankTable:
-    """Return a table of one flank of every tooth of a wheel. Raises `RangeError` if a curve is not smooth."""
+    """Return a table of one flank of every tooth from the curves `sides`. Raises `RangeError` if one is not smooth."""
     pieces: list[tuple[PolynomialPiece, bool, bool]] = []
     first, curves = [0], list[int]()
     for side in sides:
@@ -371,7 +371,9 @@ def _side(side: tuple[OutlineCurve, ...]) -> list[list[tuple[PolynomialPiece, bo
 
 
 def _direction(piece: PolynomialPiece, end: int) -> Floats:
-    """Return the unit tangent at the end u = -1 or u = 1 of a piece, from its first derivative that is not 0."""
+    """Return the unit tangent of a piece at the start (`end` = -1) or end (`end` = 1) of the range of its parameter. It
+    is the direction of the first derivative, or of the second derivative if the first one is 0.
+    """
     powers = np.arange(COUNT)
     signs = np.where(powers % 2, 1.0, end)
     first = powers * signs @ piece.coefficients
@@ -385,7 +387,7 @@ def _direction(piece: PolynomialPiece, end: int) -> Floats:
 
 
 def _monotonic_pieces(curve: OutlineCurve, piece: PolynomialPiece) -> list[PolynomialPiece]:
-    """Return the parts into which the extrema of the radius divide a piece. A new polynomial is fitted to each part."""
+    """Return the parts into which extrema of the radius divide a piece, with new polynomials fitted to `curve`."""
     slope = np.asarray(np.polynomial.polynomial.polyder(piece.coefficients[:, 0]), dtype=np.float64)
     u = np.linspace(-1, 1, 65)
     values = np.polynomial.polynomial.polyval(u, slope)
@@ -401,7 +403,7 @@ def _monotonic_pieces(curve: OutlineCurve, piece: PolynomialPiece) -> list[Polyn
 
 
 def _sign_change(slope: Floats, low: float, high: float) -> float:
-    """Return the parameter between `low` and `high` at which a polynomial changes sign, computed by bisection."""
+    """Return the zero between `low` and `high` of the polynomial with the coefficients `slope`, found by bisection."""
     rising = np.polynomial.polynomial.polyval(high, slope) > 0
     # bisection to neighbouring floats, because the slope of a fit is noise where the radius hardly changes
     while low < (middle := low + (high - low) / 2) < high:
@@ -456,7 +458,7 @@ class FlankTable:
 
     @cached_property
     def stalls(self) -> Bools:
-        """Mask, shape (2, pieces): True if the radius of a piece is stationary in u at its start or at its end."""
+        """Mask, shape (2, pieces): True if the radius is stationary at the start or at the end of a piece."""
         powers = np.arange(COUNT)
         slopes = np.stack([np.where(powers % 2, powers, -powers) @ self.radius, powers @ self.radius])
         found: Bools = slopes < _STALLED * (self.ends[1] - self.ends[0])

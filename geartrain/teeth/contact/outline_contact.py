@@ -28,7 +28,7 @@ KINDS = ("flank", "corner of first", "corner of second", "corner on corner")
 
 
 class OutlinePair:
-    """Contact of the leading flanks, or of mirror images of the trailing flanks, at one centre distance."""
+    """Contact of one flank of two wheels: front flanks as they are, back flanks in the mirror image of both wheels."""
 
     def __init__(
         self, first: GearOutline, second: GearOutline, distance: float, side: Literal["front", "back"]
@@ -59,8 +59,8 @@ class OutlinePair:
         return z2 if self.first.equal else lcm(z1, z2)
 
     def at(self, phi1: Floats, within: float) -> tuple[Any, ...]:
-        """Return the fields of `FlankContact` at driver angles `phi1` of shape (n,) [rad]. Tooth pairs with a gap below
-        `within` [rad] count as in contact.
+        """Return all values of a `FlankContact` at driver angles `phi1` of shape (n,) [rad]. Tooth pairs with a gap
+        below `within` [rad] count as in contact.
         """
         period = self.cycle * self.first.pitch
         # computed within one period; whole periods are added afterwards, so that their rounding does no harm
@@ -78,8 +78,8 @@ class OutlinePair:
         return angle, speed, pair, *others
 
     def _tooth_pairs(self, rest: Floats) -> tuple[CandidatePairs, Indices]:
-        """Return all tooth pairs within range at the driver angles `rest` [rad], and the number of the driver's tooth
-        in each pair. In the mirror image, teeth are numbered backwards.
+        """Return all tooth pairs that are close enough to touch at the driver angles `rest` [rad], and the number of
+        the driver's tooth in each pair. Numbers increase backwards in the mirror image.
         """
         pitch = self.first.pitch
         # pitch deviations may shift teeth into the window from either side
@@ -125,7 +125,7 @@ class OutlinePair:
         return angle, speed, pair, kinds, r1, r2, sharing, curves
 
     def kinds(self, found: FirstTouches) -> Indices:
-        """Return the kind of each contact: 0 for two flanks, 1 or 2 for a corner of wheel 1 or 2, 3 for two corners."""
+        """Return the kind of each contact: 0 for two flanks, 1 or 2 for a corner of that wheel, 3 for two corners."""
         kind = np.zeros(len(found.u), int)
         for at, (table, piece, u) in enumerate(
             ((self.touch_search.first, found.piece1, found.u), (self.touch_search.second, found.piece2, found.v))

@@ -45,13 +45,13 @@ class OutlineMesh(GearMesh):
         return self.transmission.gears.half_teeth / pi
 
     def size(self, tips: Mapping[str, float]) -> PairSize:
-        """Return the sizes of the pair in modules."""
+        """Return the sizes of the pair in modules. The tip radii `tips` of other pairs are not needed."""
         del tips
         distance = self.transmission.gears.distance
         return PairSize(1.0, distance, distance / self.wheels.touching)
 
     def requirement(self, wheel: str, scale: float, tolerance: float) -> FixedTooth:
-        """Return the tooth of `wheel` exactly as the tooth form defines it. Circular arcs are kept."""
+        """Return the tooth of `wheel` exactly as the tooth form defines it, for any `scale` and `tolerance`."""
         del scale, tolerance
         return self.teeth[self.gear.pair.index(wheel)]
 

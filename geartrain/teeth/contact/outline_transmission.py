@@ -102,7 +102,7 @@ class OutlineTransmission(ToothTransmission):
         return self.direction * np.asarray(S, dtype=float)
 
     def _in_direction(self, error: Floats | float) -> Floats:
-        """Convert transmission errors [rad], computed for the front flanks, to the actual direction of motion."""
+        """Convert transmission errors [rad] of front flanks to errors of the flanks that touch in this `direction`."""
         ahead = np.asarray(error) - self._offset
         return ahead if self.direction > 0 else self._backlash - ahead
 
@@ -149,7 +149,8 @@ class OutlineTransmission(ToothTransmission):
     # ------------------------------------------------------------------------------------------------------- friction
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """Return the sliding speed and the friction terms of the contact at driver angles S [rad].
+        """Return the sliding speed of the contact at driver angles S [rad], and the changes of its input and output
+        power per unit friction coefficient.
 
         The common normal passes through the instantaneous pitch point, which divides the centre distance in the ratio
         of the speeds. If this point is taken as the pitch point, the formulas of conjugate teeth apply to the contact.
@@ -167,14 +168,14 @@ class OutlineTransmission(ToothTransmission):
 
     @cached_property
     def locking_friction(self) -> float:
-        """Minimum friction coefficient at which a contact locks at a quadrature node; infinite if none locks."""
+        """Minimum friction coefficient that locks a contact at a sampled driver angle; infinite if none locks."""
         steepest = float(np.nanmax(-self.rubbing(self.graded_nodes(self.speed)[0]).out))
         return 1 / steepest if steepest > _FLAT else inf
 
 
 def _friction_terms(gears: OutlineGears, driver: int, forward: Floats) -> tuple[Floats, Floats, Floats]:
-    """Return three quantities at driver angles `forward` [rad]: the cosine of the pressure angle, and the terms of the
-    input power and of the output power per unit friction coefficient.
+    """Return three quantities at driver angles `forward` [rad]: the cosine of the pressure angle, and the changes of
+    input power and output power per unit friction coefficient, both multiplied by this cosine.
     """
     first, second = gears.of(driver)
     at = contact(first, second, gears.distance, forward)
@@ -210,7 +211,7 @@ def _tabulated(gears: OutlineGears, driver: int) -> PiecewiseTransmission:
 
 @lru_cache(maxsize=64)
 def _backlashes(gears: OutlineGears, driver: int) -> Floats:
-    """Return the backlash [rad of the driven wheel] at equally spaced driver angles; NaN without contact."""
+    """Return the backlash [rad of the driven wheel] at equal steps of driver angle; NaN without contact."""
     first, second = gears.of(driver)
     S = np.linspace(0, 2 * pi / first.z, _SAMPLES, endpoint=False)
     return solve(first, second, gears.distance, S).backlash

@@ -107,7 +107,7 @@ class PiecewiseTransmission:
         return max(0.0, -self.speeds.extremes(1)[0])
 
     def moments(self) -> tuple[float, float]:
-        """Return the mean and the rms deviation from it of the transmission error [rad]; NaN if contact breaks."""
+        """Return mean and rms deviation from the mean of the transmission error [rad]; NaN if contact breaks."""
         return self.errors.moments()
 
 
@@ -115,8 +115,9 @@ class PiecewiseTransmission:
 
 
 class _Stretches(NamedTuple):
-    """Intervals of the driver angle, each with a polynomial: ends (2, n), coefficients (COUNT, n), tooth and kind of
-    contact, and maximum difference between the polynomial and the driven angle.
+    """Intervals of the driver angle, n in number, with the polynomials that are fitted in them: `ends` (2, n),
+    coefficients `errors` and `speeds` in n columns, tooth and kind of contact, and maximum errors `off` and `speed_off`
+    of both fits.
     """
 
     ends: Floats
@@ -243,8 +244,8 @@ class _Fitter:
         return self._ordered(done, np.concatenate(kinks))
 
     def _fitted(self, ends: Floats) -> tuple[_Stretches, Indices]:
-        """Return the fitted polynomials of the intervals, and the labels of the contacts at their nodes, shape (4, n,
-        nodes). Contacts of the same tooth and the same curves have the same label.
+        """Return polynomials fitted in the intervals with the given `ends`, and four labels of the contact at each
+        node: tooth, kind, and curves of both wheels, shape (4, n, nodes).
         """
         half, middle = np.diff(ends, axis=0)[0] / 2, ends.mean(axis=0)
         phi1 = middle[:, None] + half[:, None] * _ALL
@@ -268,7 +269,7 @@ class _Fitter:
         return angle.reshape(phi1.shape), speed.reshape(phi1.shape), labels
 
     def _kinks(self, ends: Floats, labels: Indices) -> list[Floats]:
-        """Return, for each interval, the driver angles [rad] at which the contact changes to another tooth or curve."""
+        """Return the driver angles [rad] at which the `labels` of the contact change, for each interval in `ends`."""
         changed = (labels[:, :, 1:] != labels[:, :, :-1]).any(axis=0)
         stretch, at = np.nonzero(changed)
         half, middle = np.diff(ends, axis=0)[0] / 2, ends.mean(axis=0)
@@ -295,8 +296,8 @@ class _Fitter:
         return low + (high - low) / 2
 
     def _ordered(self, done: list[_Stretches], kinks: Floats) -> tuple[_Stretches, Floats, Floats]:
-        """Return the intervals sorted by driver angle, their ends, and those ends that are in `kinks`. These ends are
-        moved to the intersections of the adjacent polynomials.
+        """Return the intervals sorted by driver angle, their ends, and the ends that occur in `kinks`, at which the
+        contact changes. The latter are moved to the intersections of the adjacent polynomials.
         """
         everything = joined(done)
         everything = some(everything, np.argsort(everything.ends[0]))

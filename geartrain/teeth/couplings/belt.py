@@ -22,7 +22,7 @@ _BOTH_WAYS = "give all pulleys as wheels, or all as links with diameters"
 
 
 def _read_pulleys(raw: object) -> object:
-    """Return the pulleys as a mapping from links to pitch diameters, or as a tuple of wheel names."""
+    """Convert the declared pulleys `raw` to a mapping from links to pitch diameters, or to a tuple of wheel names."""
     if isinstance(raw, Mapping):
         if any(size is None for size in raw.values()):
             raise bad("belt", "a pulley has no diameter", _BOTH_WAYS)

@@ -68,8 +68,8 @@ class CrankSliderTransmission(LosslessTransmission):
         self.r, self.l = radius, rod
 
     def error(self, S: ArrayLike) -> Floats:
-        """Return the travel of the slide from its outer dead centre at crank angles S [rad]. It is 0 or less, in rad,
-        where 2 pi rad represent 1 mm.
+        """Return the position of the slide relative to its outer dead centre at crank angles S [rad], 0 or less. A
+        travel of 1 mm is returned as the angle 2 pi rad, as for all links that slide.
         """
         import numpy as np
 
@@ -106,8 +106,8 @@ class CrankSliderTransmission(LosslessTransmission):
         return -most, most
 
     def error_range(self) -> tuple[float, float]:
-        """Return the minimum and the maximum travel of the slide, which occur at the dead centres, in rad, where 2 pi
-        rad represent 1 mm.
+        """Return the position of the slide at the inner and at the outer dead centre, relative to the outer one. A
+        travel of 1 mm is returned as the angle 2 pi rad.
         """
         return -2 * self.period * self.r, 0.0
 

@@ -162,7 +162,7 @@ class EllipticalPair(_LobedPair):
 
     @property
     def _root(self) -> float:
-        """Square root that occurs in the formula for `distance`."""
+        """Square root of 1 - (1 - e^2)(1 - 1/m^2) in the formula for `distance`, with eccentricity e and ratio m."""
         e, m = float(self.eccentricity.value), self.lobes[0] / self.lobes[1]
         return sqrt(1 - (1 - e**2) * (1 - 1 / m**2))
 

@@ -40,7 +40,7 @@ def mate_deviation(radii: tuple[float, ...], distance: float, period: float) -> 
 
 
 def pitch_curve(radii: tuple[float, ...], period: float) -> PeriodicTable:
-    """Return the radius of a pitch curve as a function of the angle [rad]: a spline through radii at equal angles."""
+    """Return the radius of a pitch curve as a periodic spline of the angle [rad], through equally spaced `radii`."""
     steps = (np.arange(len(radii)) * (period / len(radii))).tolist()
     return PeriodicTable(steps, radii, period, "cubic")
 

@@ -30,7 +30,7 @@ _MOST_MOVES = 10_000  # entries of a list of moves: a calendar of four years has
 
 
 def _moves(raw: object) -> object:
-    """Return a list of moves. A single number becomes a list with one entry."""
+    """Return the declared moves `raw` as a sequence: a list is unchanged, a single number becomes a tuple."""
     return raw if isinstance(raw, list | tuple) else (raw,)
 
 

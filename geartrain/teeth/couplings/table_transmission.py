@@ -35,7 +35,7 @@ class DeviationTransmission(TransmissionFunction):
     mean        absolute value of the mean speed ratio m of the function
     deviation   deviation d [rad of the other side] as a function of the angle [rad] of the side to which it refers
     phase       angle in the deviation at S = 0 [rad]
-    way         -1 for a driver whose forward sense is against its angle; the deviation is then -d(phase - S)
+    way         -1 if the driver turns in the negative sense of its declared angle; the deviation is then -d(phase - S)
     inverse     True if the other side drives
     direction   direction of rotation
     lag         constant that is added to the transmission error [rad of the driven side]

@@ -123,7 +123,7 @@ class Contour(Shown):
 
 
 def _arc(start: Floats, end: Floats, bulge: float, tolerance: float) -> Floats:
-    """Return points of a polyline that is within `tolerance` of an arc. The end point of the arc is omitted."""
+    """Return points of a polyline within `tolerance` of an arc with a given bulge. The last point is omitted."""
     radius, sweep = arc_radius(start, end, bulge), 4 * atan(bulge)
     # angle of the chord whose sagitta equals the tolerance
     step = max(2 * acos(max(1 - tolerance / radius, -1.0)), _MINIMUM_STEP)
@@ -135,8 +135,8 @@ def _arc(start: Floats, end: Floats, bulge: float, tolerance: float) -> Floats:
 
 
 def _segment_moments(start: Floats, end: Floats, bulge: float) -> tuple[float, float]:
-    """Return the area, and the polar second moment of area about the origin, of the circular segment between an arc and
-    its chord.
+    """Return the area of the circular segment between an arc and its chord, and the polar second moment of this area
+    about the origin, in powers of the unit of `start` and `end`.
     """
     R, s = arc_radius(start, end, bulge), 4 * atan(bulge)
     centre = _arc_centre(start, end, bulge)
@@ -155,7 +155,7 @@ def _arc_centre(start: Floats, end: Floats, bulge: float) -> Floats:
 
 
 def arc_radius(start: Floats, end: Floats, bulge: float) -> float:
-    """Return the radius of the arc with a given bulge between two vertices, in the unit of the vertices."""
+    """Return the radius of the arc with a given bulge from `start` to `end`, in the unit of these vertices."""
     return float(np.hypot(*(end - start))) * (1 + bulge**2) / (4 * abs(bulge))
 
 

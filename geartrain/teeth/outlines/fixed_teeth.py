@@ -79,8 +79,8 @@ def escape_tooth(z: int, sense: int) -> FixedTooth:
 
 
 def wave_tooth(z: int, backlash: float, ring: bool = False) -> FixedTooth:
-    """Return the tooth of the flexible wheel of a strain wave, or (`ring`) of its ring gear, with z teeth. Both have
-    straight flanks.
+    """Return the straight-sided tooth of the flexible wheel of a strain wave, or of its ring gear if `ring` is True,
+    with z teeth.
 
     `backlash` is an arc on the pitch circle [module].
     """

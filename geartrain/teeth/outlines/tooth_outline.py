@@ -107,7 +107,7 @@ class ToothOutline:
         return self.widening + float(self.flank.angle[-1])
 
     def half_at(self, radius: Floats) -> Floats:
-        """Return half the angular thickness of the tooth with its fillet [rad] at radii from root to tip circle."""
+        """Return half the angular thickness of tooth and fillet [rad] at each `radius` from root to tip circle."""
         x, y = np.array([point[:2] for point in self._half()[1:]]).T
         place = x + 1j * y
         r, s = np.abs(place), self.flank.outward
@@ -244,8 +244,8 @@ def _polar(path: PathOfContact, gear: int, X: Floats) -> tuple[Floats, Floats]:
 
 
 def _spaced_displacements(path: PathOfContact, gear: int, X: Floats, tolerance: float) -> Floats:
-    """Return arcs X on the pitch circles. The flank points in contact there are joined by chords that deviate equally
-    from the flank: the product of chord length and square root of the curvature is constant.
+    """Return arcs on the pitch circles such that all chords between the flank points in contact at successive arcs
+    deviate equally from the flank: the product of chord length and square root of the curvature is constant.
     """
     points = path.flank(gear, X)
     steps = np.diff(points, axis=0)
@@ -270,8 +270,9 @@ def _spaced_displacements(path: PathOfContact, gear: int, X: Floats, tolerance: 
 
 
 def _corner(path: PathOfContact, gear: int, X: Floats, tolerance: float) -> list[float]:
-    """Return the list [0] if a chord of the flank across the pitch point would cut off a corner, otherwise an empty
-    list. The curvature of a cycloid is infinite at the pitch point, so that the deviation cannot be estimated from it.
+    """Return a list with the arc 0 of the pitch point if a chord across this point would cut off a corner of the flank,
+    and an empty list if not. The curvature of a cycloid is infinite there, so that the deviation cannot be estimated
+    from it.
     """
     if not X.min() < 0 < X.max():
         return []
@@ -322,8 +323,8 @@ def _cross(a: Floats, b: Floats) -> Floats:
 
 
 def _tangents(path: PathOfContact, gear: int, X: Floats, outward: int) -> tuple[Floats, Floats]:
-    """Return two components of the flank's unit tangents: radial, and towards the tooth space. The tangents are
-    directed towards the root and perpendicular to the contact normal.
+    """Return two components of the flank's unit tangents: radial, and towards the tooth space. They are perpendicular
+    to the contact normal and directed towards the root; `outward` is 1, or -1 for a ring gear.
     """
     contact = path.at(X)
     sine, cosine = contact.sin_psi, contact.cos_psi

@@ -37,8 +37,9 @@ The two arrays are radii about the wheel's axle [module], and angles from the ce
 def interference_depth(tooth: ToothOutline, mate: MatePassage) -> float:
     """Return the maximum depth to which the mate's tooth would cut into a tooth [module]; negative if there is a gap.
 
-    The depth is measured along the circumference at the flank and the fillet, and along the radius at the root circle.
-    At the fillet a margin is added. The value is -inf if the mate does not enter the tip circle.
+    `mate` contains positions of points of the mate's tooth in the tooth space. The depth is measured along the
+    circumference at the flank and the fillet, and along the radius at the root circle. It is increased by `_MARGIN` at
+    the fillet. The value is -inf if the mate does not enter the tip circle.
     """
     radius, aside = mate
     if not radius.size:
@@ -123,7 +124,7 @@ class ToothRequirement(WheelRequirement):
         return self.pins == other.pins if self.has_pins or other.has_pins else alike(self, other)
 
     def cut(self, others: Sequence[WheelRequirement] = ()) -> CutTooth:
-        """Return the pins, or the tooth whose root clears the mates in this and all other requirements."""
+        """Return the pins, or a tooth whose root clears the mates of this requirement and of the `others`."""
         demands = (self, *(each for each in others if isinstance(each, ToothRequirement)))
         for demand in demands:
             check_flat(demand.pair)
@@ -209,7 +210,7 @@ def check_flat(pair: ConjugatePair) -> None:
 
 
 def alike(one: ToothRequirement, other: ToothRequirement) -> bool:
-    """Return True if one tooth satisfies both requirements: equal tip radii, and equal flanks where both touch."""
+    """Return True if one tooth satisfies both requirements: equal tip radii, and equal flanks at common radii."""
     first, second = one.flank, other.flank
     if first.outward != second.outward or abs(first.r[-1] - second.r[-1]) > _ALIKE:
         return False
@@ -255,8 +256,8 @@ def cut_tooth(demands: Sequence[ToothRequirement], wanted: float | None = None) 
 def _largest_fillet(
     own: ToothRequirement, root: float, mates: Sequence[MatePassage], relief: float, most: float, wanted: float
 ) -> ToothOutline | None:
-    """Return the tooth with the largest fillet radius up to `wanted` [module], found by bisection, with which no mate
-    interferes by more than `most` [module]; None if there is none. `root` and `relief` are defined in `fillet`.
+    """Return the tooth of `own` with the largest fillet radius up to `wanted` [module] for which no mate cuts deeper
+    than `most` [module], found by bisection; None without one. `root` and `relief` are defined in `fillet`.
     """
 
     def made(radius: float) -> ToothOutline | None:

@@ -198,10 +198,10 @@ def outline(pair: ConjugatePair, gear: int, cut: BlankSizes, pins: LanternPins |
 
 
 def lantern(pins: LanternPins, z: int, module: float, rim: float | None = None) -> list[Contour]:
-    """Return the contours of a lantern disc [mm]: a hole for each pin, and a circle at the distance `rim` outside the
-    pin holes.
+    """Return the contours of a lantern disc [mm]: a hole for each of the z pins, and a circle at the distance `rim`
+    outside the pin holes.
 
-    The default width of the rim is the diameter of a pin.
+    The default width of the rim is the diameter of a pin. `module` is in mm.
     """
     R, radius = pins.circle * module, pins.radius * module
     turns = [2 * pi * k / z for k in range(z)]
@@ -229,6 +229,7 @@ def blank_contours(teeth: Contour, kind: str, root: float, cut: BlankSizes) -> l
     """Return the contours of a toothed wheel [mm]: teeth and bore, or, for a ring gear, rim and teeth.
 
     teeth, root   contour of the teeth and radius of the root circle [module]
+    kind          kind of the wheel, "ring" for a ring gear; `cut` contains module, bore and rim
     """
     teeth = teeth.scaled(cut.module)
     if kind != "ring":
@@ -243,7 +244,7 @@ def blank_contours(teeth: Contour, kind: str, root: float, cut: BlankSizes) -> l
 
 
 def bore(cut: BlankSizes, root: float) -> list[Contour]:
-    """Return a list with the contour of a wheel's bore, empty without a bore. `root` is the root radius [mm]."""
+    """Return a list with the contour of the bore in `cut`, empty without a bore. `root` is the root radius [mm]."""
     if cut.bore is None:
         return []
     most = 2 * (root - _THIN * cut.module)

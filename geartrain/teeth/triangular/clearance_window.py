@@ -25,7 +25,7 @@ _NEARLY_0 = 1e-9  # of the maximum excess
 
 
 class TriangularContact:
-    """Contact of a pair of triangular wheels: sizes, real path of contact with its dwells, backlash and verdict."""
+    """Contact of a pair of triangular wheels: sizes, sequence of driving tooth pairs, backlash and verdict."""
 
     def __init__(self, sizes: TriangularSizes) -> None:
         self.sizes = sizes
@@ -33,32 +33,32 @@ class TriangularContact:
 
     @cached_property
     def dragged(self) -> DraggedPath:
-        """Real path of contact, including the dwells, in which no tooth pushes the driven wheel."""
+        """Sequence of driving tooth pairs over one pitch, with the dwells in which no tooth pushes the driven wheel."""
         return drag(self.path)
 
     @property
     def intervals(self) -> tuple[DriveInterval, ...]:
-        """Drive intervals over one pitch of the driver in order of time. Dwells are included."""
+        """Intervals over one pitch, in order of time, in which one tooth pair drives, or none (dwell)."""
         return self.dragged.intervals
 
     def locate(self, t: float) -> tuple[DriveInterval, float]:
-        """Return the drive interval at the driver position t [rad], and the angle alpha_1 [rad] of the driver's apex
-        from the line of centres at t.
+        """Return the interval of `intervals` that contains the driver position t [rad], and the angle alpha_1 [rad] of
+        the driver's apex from the line of centres at t.
         """
         return _locate(self.intervals, t, self.sizes.p1)
 
     def lag(self, interval: DriveInterval, x: Any, m: ModuleType = math) -> Any:
-        """Return the driven wheel's lag [rad] behind its mean motion at the angle x [rad] of the driver's apex."""
+        """Return the driven wheel's lag [rad] at the angle x [rad] of the driver's apex. `m` is `math` or `numpy`."""
         y = self.path.tooth_pair.angle(interval.phase, x, m) if interval.held is None else interval.held
         return y - self.sizes.ratio * x
 
     def speed(self, interval: DriveInterval, x: Any, m: ModuleType = math) -> Any:
-        """Return the speed ratio with the driver's apex at the angle x [rad] from the line of centres; 0 in a dwell."""
+        """Return the speed ratio at the angle x [rad] of the driver's apex; 0 in a dwell. `m` is `math` or `numpy`."""
         return self.path.tooth_pair.speed(interval.phase, x, m) if interval.held is None else 0.0
 
     @cached_property
     def _bounds(self) -> list[DriveInterval]:
-        """Intervals of driver position in which a contact limits the driven wheel, including those where it slips."""
+        """Intervals in which contacts limit the motion of the driven wheel, including contacts that cannot drive it."""
         sizes = self.sizes
         return RealPath(sizes, slips=True).envelope if any(sizes.lean) else self.path.envelope
 
@@ -108,8 +108,9 @@ class TriangularContact:
 
     @cached_property
     def verdict(self) -> PairVerdict:
-        """Verdict that reports the first failed check, or "runs" if no check fails. The order of checks is: valley,
-        range of contact, overhang, coast flanks, entry, exit.
+        """Verdict that reports the first failed check, or "runs" if no check fails. The checks are: flanks meet in
+        valleys, teeth touch, no overhanging flank touches, coast flanks do not jam, entering teeth do not meet tips,
+        and a tooth always drives.
         """
         if not self.sizes.has_valleys:
             return PairVerdict("no valley", _no_valley(self.sizes), -inf)
@@ -136,17 +137,17 @@ class TriangularContact:
 
     @property
     def idle(self) -> float:
-        """Sum of the driver angles of all dwells in one pitch [rad]."""
+        """Driver angle [rad] per pitch during which no tooth pushes the driven wheel."""
         return sum(each.width for each in self.intervals if each.phase == DWELL)
 
     @property
     def lost(self) -> float:
-        """Angle that the driven wheel loses in the dwells of one pitch [rad]."""
+        """Angle [rad] per pitch by which the driven wheel falls behind while no tooth pushes it."""
         return self.dragged.lost
 
     @cached_property
     def overhang(self) -> str:
-        """Message on an overhanging flank that touches its mate or would turn it backwards; empty if none does."""
+        """Message on a leaning flank that touches its mate or would turn it backwards; empty if there is none."""
         # tolerance for the rounding of the limits of contact, which are roots with a smaller error
         sizes, small = self.sizes, 1e-9 * self.sizes.p1
         for interval in self.intervals:
@@ -165,8 +166,8 @@ class TriangularContact:
 
 
 def _locate(intervals: Sequence[DriveInterval], t: float, pitch: float) -> tuple[DriveInterval, float]:
-    """Return the drive interval at the driver position t [rad], and the angle alpha_1 [rad] of the driver's apex from
-    the line of centres at t. In a gap, return the nearest interval and an angle outside this interval.
+    """Return the interval that contains the driver position t [rad], and the angle alpha_1 [rad] of the driver's apex
+    from the line of centres at t. If no interval contains t, return the nearest interval and an angle outside it.
     """
     for interval in intervals:
         gone = (interval.start - t) % pitch
@@ -299,7 +300,9 @@ def _window(sizes: TriangularSizes) -> ClearanceWindow:
 
 
 def _start_of_range(margin: Callable[[float], float], low: float, reach: float) -> float:
-    """Return the smallest excess of the centre distance above which `margin` is positive; 0 if so at `low`."""
+    """Return the smallest excess of the centre distance from which the function `margin` of the excess is positive: 0
+    if it is positive at `low`, and `reach` if its sign does not change up to `reach`.
+    """
     return 0.0 if margin(low) > 0 else _first_sign_change(margin, low, reach)
 
 
@@ -315,8 +318,9 @@ def _overhang_excess(sizes: TriangularSizes, low: float) -> float:
 
 
 def _first_range(margin: Callable[[float], float], low: float, reach: float) -> tuple[float, float]:
-    """Return the bounds of the first range of excess of the centre distance in which `margin` is positive, (0, 0) if
-    there is none. The range begins at 0 if the margin is positive at 0 or at `low`.
+    """Return the bounds of the first range of excess of the centre distance, between `low` and `reach`, in which the
+    function `margin` of the excess is positive; (0, 0) if there is none. The range begins at 0 if the margin is
+    positive at 0 or at `low`.
     """
     # slightly above 0 or `low`, at which rounding would decide the sign of the margin
     for start in (reach * _NEARLY_0, low * (1 + 1e-9)):
@@ -332,8 +336,8 @@ def _first_range(margin: Callable[[float], float], low: float, reach: float) -> 
 
 
 def _end_margin(path: RealPath, entry: bool) -> float:
-    """Return the maximum lag [rad of the driven wheel] that the tooth pair at the entry, or else at the exit, permits,
-    minus the maximum lag that all other tooth pairs permit.
+    """Return the lag [rad] at which a tooth pair touches at the first contact if `entry` is True, or at the last
+    contact if it is False, minus the minimum lag at which another pair touches in this position.
     """
     piece = path.pieces[-1 if entry else 0]
     x = piece.high if entry else piece.low
@@ -341,7 +345,7 @@ def _end_margin(path: RealPath, entry: bool) -> float:
 
 
 def _first_sign_change(value: Callable[[float], float], low: float, reach: float) -> float:
-    """Return the smallest excess of the centre distance above `low` at which `value` changes sign, or `reach`."""
+    """Return the lowest zero between `low` and `reach` of the function `value` of the excess; `reach` if none."""
     # scanned in 16 steps before `root`; a range shorter than one step may be missed
     steps, start = 16, low
     at_low = value(low)

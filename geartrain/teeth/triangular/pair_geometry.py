@@ -47,8 +47,9 @@ def contact_half_angle(R1: float, R2: float, D: float, delta: float) -> float:
 
 
 def grazing(R1: float, R2: float, beta: float, D: float) -> tuple[float, float]:
-    """Return the direction psi [rad] of a flank of wheel 1 that is almost tangent to the tip circle of wheel 2, and
-    sin(psi + alpha_2), where alpha_2 is the angle between the touching apex of wheel 2 and the line of centres.
+    """Return the direction psi [rad] at which a flank of wheel 1 is almost tangent to the tip circle of wheel 2, and
+    sin(psi + alpha_2). Here alpha_2 is the angle from the line of centres of the apex of wheel 2 that touches this
+    flank. R1 and R2 are the tip radii, beta is the half aperture angle of wheel 1, and D the centre distance.
     """
     sine = min(1.0, (_GRAZING * R2 + R1 * sin(beta)) / D)
     return asin(sine), (D * sine - R1 * sin(beta)) / R2

@@ -66,8 +66,9 @@ def sweep(
 ) -> ParameterSweep:
     """Return the results at every combination of values of one or two parameters.
 
-    If a combination does not give a valid pair, its verdict is "none" and its results are NaN. Teeth that never touch
-    have their own verdict, and their results are NaN. `on_point` is called after each combination.
+    `make` creates a transmission function from keyword arguments with the names in `ranges`. If a combination does not
+    give a valid pair, its verdict is "none" and its results are NaN. Teeth that never touch have their own verdict, and
+    their results are NaN. `on_point` is called after each combination.
     """
     shape = tuple(len(values) for values in ranges.values())
     grids = np.meshgrid(*(np.asarray(values, dtype=float) for values in ranges.values()), indexing="ij")
@@ -114,9 +115,10 @@ def _point(make: TransmissionFactory, values: dict[str, float]) -> tuple[str, st
 
 
 def phases_of(transmission: TriangularTransmission) -> str:
-    """Return the phases of the real path of contact, starting at entry and joined by "+", such as "approach+recess".
+    """Return the successive phases of contact of driving tooth pairs, starting at entry and joined by "+", such as
+    "approach+recess".
 
-    Two phases joined by the matching position are replaced by "astride".
+    If a tooth pair goes from approach to recess without a loss of contact, both phases are replaced by "astride".
     """
     path = transmission.intervals
     through = [matches(path[at - 1], path[at], transmission.period) for at in range(len(path))]
@@ -133,8 +135,8 @@ def phases_of(transmission: TriangularTransmission) -> str:
 
 @dataclass(frozen=True)
 class VerdictChange:
-    """Value of a parameter at which the verdict or the phases of a pair change. `before` is the label of the pair at
-    smaller values, `after` the label at larger values.
+    """Value of a parameter at which the verdict of a pair changes, or its phases of contact if it runs. `before` and
+    `after` are the verdict or phases at smaller and at larger values.
     """
 
     value: float
@@ -143,7 +145,9 @@ class VerdictChange:
 
 
 def changes(make: TransmissionFactory, name: str, found: ParameterSweep) -> list[VerdictChange]:
-    """Return all changes of verdict or phases along a sweep of one parameter, at most 100, by bisection."""
+    """Return all changes of verdict or phases along the sweep `found` of the parameter `name`, at most 100, by
+    bisection. `make` creates a transmission function from a value of this parameter.
+    """
     values = found.parameters[name].tolist()
     labels = [_label(v, p) for v, p in zip(found.verdicts.tolist(), found.phases.tolist(), strict=True)]
     seen: list[VerdictChange] = []
@@ -176,10 +180,11 @@ def _label(verdict: str, phases: str) -> str:
 
 
 def best(make: TransmissionFactory, name: str, found: ParameterSweep) -> tuple[float, float] | None:
-    """Return the parameter value at which the efficiency of running pairs is a maximum, and this efficiency; None if no
-    pair runs.
+    """Return the value of the parameter `name` at which the efficiency of running pairs is a maximum, and this
+    efficiency; None if no pair runs.
 
-    The best point of the sweep is refined between its neighbours by golden-section search.
+    The best point of the sweep `found` is refined between its neighbours by golden-section search, with the
+    transmission functions that `make` creates.
     """
     values = found.parameters[name].tolist()
     efficiency = np.where(found.verdicts == "runs", found.columns["efficiency_mean"], nan)

@@ -49,9 +49,9 @@ class DriveInterval:
     """Range of the angle alpha_1 of the driver's apex from the line of centres, from `start` down to `end`, in which
     one tooth pair drives, or in which no tooth pair drives (dwell).
 
-    `tooth_pair` numbers the teeth: alpha_1 = t + tooth_pair p1, where p1 is the driver's pitch and t a position common
-    to all intervals of a path. In a dwell, `tooth_pair` is the pair that has just lost contact, and `held` is the angle
-    alpha_2 of the driven apex at which this pair left the driven wheel.
+    Tooth pairs are numbered by `tooth_pair`: if the apex of the driver's tooth 0 is at the angle t, the apex of this
+    pair is at alpha_1 = t + tooth_pair p1, where p1 is the driver's pitch. In a dwell, `tooth_pair` is the pair that
+    has just lost contact, and `held` is the angle alpha_2 of the driven apex at which this pair left the driven wheel.
     """
 
     phase: str
@@ -72,10 +72,10 @@ class DriveInterval:
 
 
 class RealPath:
-    """Contact of all tooth pairs of two triangular wheels over one pitch, and the pair that drives at each position."""
+    """Contact of all tooth pairs of two triangular wheels over one pitch. The pair with the smallest lag drives."""
 
     def __init__(self, sizes: TriangularSizes, slips: bool = False) -> None:
-        """Create the path; `slips` adds contacts that limit the motion of the driven wheel but cannot drive it."""
+        """Create the path; `slips` adds contacts that the driven wheel cannot pass but that do not drive it."""
         self.sizes, self.slips = sizes, slips
         self.tooth_pair = ToothPair(sizes)
         self.pitch, self.ratio = sizes.p1, sizes.ratio
@@ -89,15 +89,14 @@ class RealPath:
         return float(self.tooth_pair.angle(phase, x)) - self.ratio * x
 
     def slope(self, phase: str, x: float) -> float:
-        """Return the derivative of the lag g of the driven wheel, which is the speed ratio minus its mean value, with
-        the driver's apex at the angle x [rad] from the line of centres.
+        """Return the derivative of the lag `g` of the driven wheel, which is the speed ratio minus its mean value, in a
+        phase of contact and with the driver's apex at the angle x [rad] from the line of centres.
         """
         return float(self.tooth_pair.speed(phase, x)) - self.ratio
 
     @cached_property
     def pieces(self) -> list[MonotonePiece]:
-        """Monotonic pieces of the path of contact, first in recess and then in approach. They are divided
-        where the curvature of the driven angle changes sign.
+        """Ranges of the driver's apex angle in recess and in approach, in each of which the speed ratio is monotonic.
 
         If `slips` is True, the contacts beyond the exit come first. The list is empty for teeth without valleys.
         """
@@ -136,7 +135,7 @@ class RealPath:
 
     @cached_property
     def branches(self) -> list[MonotonePiece]:
-        """Parts of `pieces`, at most one pitch long, in which a tooth pair can permit the smallest lag."""
+        """Parts of `pieces`, at most one pitch long, in which a tooth pair can have a smaller lag than all others."""
         return [branch for piece in self.pieces for branch in self._branches_of(piece)]
 
     def _branches_of(self, piece: MonotonePiece) -> list[MonotonePiece]:
@@ -158,12 +157,12 @@ class RealPath:
         return [MonotonePiece(piece.phase, start, start + pitch, True)]
 
     def _rise(self, phase: str, x: float) -> float:
-        """Return the increase g(x + p1) - g(x) of the driven wheel's lag over one pitch p1 of the driver [rad]."""
+        """Return the increase of the driven wheel's lag `g` over one pitch of the driver from the angle x [rad]."""
         return float(self.tooth_pair.angle(phase, x + self.pitch) - self.tooth_pair.angle(phase, x)) - self.sizes.p2
 
     def lowest(self, t: float, besides: int | None = None) -> float:
-        """Return the minimum lag [rad] of the driven wheel that any tooth pair except `besides` permits at the driver
-        position t [rad]; inf if there is no such pair.
+        """Return the minimum of the lags [rad] at which tooth pairs other than `besides` touch at the driver position t
+        [rad]; inf if there is no such pair.
         """
         minimum = inf
         for piece in self.pieces:
@@ -178,7 +177,7 @@ class RealPath:
 
     @cached_property
     def envelope(self) -> list[DriveInterval]:
-        """Drive intervals over one pitch, by decreasing driver position t, without dwells; gaps are possible."""
+        """Intervals over one pitch, in order of time, in which one tooth pair has the smallest lag; gaps can occur."""
         base = max((branch.high for branch in self.branches), default=0.0)
         cuts = {0.0, self.pitch}
         for branch in self.branches:
@@ -190,7 +189,7 @@ class RealPath:
         return self._with_whole_first(_join_neighbours(found))
 
     def _with_whole_first(self, found: list[DriveInterval]) -> list[DriveInterval]:
-        """Return the drive intervals of one period, shifted so that the period divides no interval."""
+        """Return the drive intervals `found` of one period, shifted so that no interval is divided at its end."""
         if not found:
             return found
         first, last = found[0], found[-1]
@@ -200,7 +199,7 @@ class RealPath:
         return [*found[1:-1], DriveInterval(last.phase, last.start, first.end, last.tooth_pair)]
 
     def _cell(self, high: float, low: float) -> Iterator[DriveInterval]:
-        """Yield the drive intervals from driver position `high` down to `low` [rad], between ends of branches."""
+        """Yield the intervals of `envelope` from driver position `high` to `low` [rad], between ends of branches."""
         middle = low + (high - low) / 2
         found = {}  # the two ends of a concave piece may belong to the same tooth pair
         for branch in self.branches:
@@ -227,8 +226,8 @@ class RealPath:
     def _crossings(
         self, one: tuple[MonotonePiece, int], other: tuple[MonotonePiece, int], low: float, high: float
     ) -> Iterator[float]:
-        """Yield the driver positions [rad] from `low` to `high` at which two tooth pairs permit the same lag. `one` and
-        `other` each consist of a branch and the number of the tooth pair on it.
+        """Yield the driver positions [rad] from `low` to `high` at which two tooth pairs have the same lag. `one` and
+        `other` each consist of an item of `branches` and the number of the tooth pair.
         """
         (a, i), (b, j) = one, other
         shift, turned = (j - i) * self.pitch, (j - i) * self.sizes.p2
@@ -294,8 +293,8 @@ class SpeedJump(Result):
 
 
 def matches(last: DriveInterval, new: DriveInterval, pitch: float) -> bool:
-    """Return True if one tooth pair drives in both intervals and passes the matching position between them, where the
-    contact moves to other flanks.
+    """Return True if one tooth pair drives in both intervals and goes from approach in `last` to recess in `new`
+    without a loss of contact, so that the contact moves from the driver's flank to the driven flank.
     """
     faces = last.held is None and new.held is None and last.phase != new.phase
     # both are the same root, computed from either side
@@ -362,8 +361,8 @@ def drag(path: RealPath) -> DraggedPath:
 
 
 def _minimum(path: RealPath, interval: DriveInterval) -> float:
-    """Return the minimum lag of the driven wheel over an interval [rad]. At this lag, the tooth pair pushes the driven
-    wheel wherever it was before.
+    """Return the minimum lag of the driven wheel over an interval [rad]. There the tooth pair pushes the driven wheel,
+    whatever the lag of this wheel was before.
     """
     phase, low, high = interval.phase, interval.end, interval.start
     return min(path.g(phase, low), path.g(phase, high), *path.extremes(phase, low, high))

@@ -75,7 +75,8 @@ class ToothPair:
 
     def _driver_arm(self, u: Any, cos_psi: Any, q: Any) -> Any:
         """Return the distance, along the driver's flank, from the foot of the perpendicular from the driver's axis to
-        the contact: R1 cos(beta1) - v, with v from Eq. (9).
+        the contact: R1 cos(beta1) - v, with v from Eq. (9). `u`, `cos_psi` and `q` are values of a `FlankLine`, where u
+        = sin(x/2).
         """
         # with overhang W and its divisor vanish together; at such small tooth numbers the difference loses no digits
         if self.leans:
@@ -99,9 +100,9 @@ class ToothPair:
         return sine, cosine, arm, (across * inner - along * outer) / square, (along * inner + across * outer) / square
 
     def _apex_directions(self, apex: DrivenApex) -> tuple[Any, Any, Any, Any, Any, Any]:
-        """Return six values of a contact in recess at alpha_1 = x and alpha_2 = y: the arm of `DrivenApex`, cosine and
-        sine of beta2 - x - y, sine and cosine of beta2 - y, and sin x. beta2 is the half aperture angle of the driven
-        wheel.
+        """Return six values of a contact in recess at alpha_1 = x and alpha_2 = y: R2 cos(beta2) - v with v from Eq.
+        (16), cosine and sine of beta2 - x - y, sine and cosine of beta2 - y, and sin x. beta2 is the half aperture
+        angle of the driven wheel.
         """
         sine, cosine, arm, sin_y, cos_y = apex
         sin_psi, cos_psi = self.sin2 * cos_y - self.cos2 * sin_y, self.cos2 * cos_y + self.sin2 * sin_y
@@ -113,7 +114,8 @@ class ToothPair:
         """Return the angle alpha_2 [rad] of the driven apex from the line of centres at alpha_1 = x [rad], by Eq. (7)
         in approach and by Eq. (17) in recess and slip.
 
-        In the return phase, alpha_2 is the second root of Eq. (7).
+        If the driven apex touches the far side of an overhanging flank (`RETURN`), alpha_2 is the second root of Eq.
+        (7).
         """
         if phase == RETURN:
             _, sin_psi, cos_psi, s, _, _ = self._flank_line(-x, m)
@@ -124,7 +126,7 @@ class ToothPair:
         """Return the distances n1 and n2 of the two wheel centres from the common normal at the contact. The ratio
         n1/n2 is the speed ratio.
 
-        In approach, n2 is O2C cos(psi) of Eq. (11). In recess, n1 is O1C cos(psi2) of Eq. (18).
+        They are computed from Eq. (11) in approach and from Eq. (18) in recess.
         """
         return self._arms(phase, self._contact(phase, x, m))
 
@@ -145,7 +147,7 @@ class ToothPair:
         return self._angle(phase, contact, m), first / second
 
     def _contact(self, phase: str, x: Any, m: ModuleType) -> Any:
-        """Return the geometry of the contact: a `FlankLine` in approach, otherwise a `DrivenApex`."""
+        """Return sines and cosines that describe the contact: a `FlankLine` in approach, otherwise a `DrivenApex`."""
         return self._flank_line(x, m) if phase == APPROACH else self._driven_apex(x, m)
 
     def _angle(self, phase: str, contact: Any, m: ModuleType) -> Any:
@@ -165,9 +167,10 @@ class ToothPair:
     def slope(self, phase: str, x: Any, m: ModuleType = math) -> Any:
         """Return the derivative of the speed ratio tau with respect to alpha_1 [1/rad].
 
-        In approach, the derivative is (1 + tau) [(1 + tau) tan(psi + alpha_2) - tan psi]. In recess, it is tau (1 +
-        tau) [(1 + tau) tan(beta2 - x - y) - tau tan(beta2 - y)], because in reversed motion the driven wheel meets the
-        driver in approach at the ratio 1/tau, and the slope of this motion is multiplied by tau cubed.
+        In approach, it is (1 + tau) [(1 + tau) tan(psi + alpha_2) - tan psi], where psi = alpha_1 + beta1. In recess,
+        it is tau (1 + tau) [(1 + tau) tan(beta2 - alpha_1 - alpha_2) - tau tan(beta2 - alpha_2)]: in reversed motion
+        the driven wheel meets the driver in approach at the ratio 1/tau, and the slope of this motion is multiplied by
+        tau cubed. beta1 and beta2 are the half aperture angles of driver and driven wheel.
         """
         if phase == RETURN:
             _, sin_psi, cos_psi, s, q, _ = self._flank_line(-x, m)
@@ -182,8 +185,9 @@ class ToothPair:
         return self.side * tau * (1 + tau) * ((1 + tau) * s / q - tau * sin_psi / cos_psi)
 
     def friction(self, phase: str, x: Any, m: ModuleType = math) -> tuple[Any, Any, Any]:
-        """Return three values: the side of the line of centres on which the contact is (1 or -1), and the tangents tan2
-        and tan1 of Eqs. (32) and (33).
+        """Return three values: the side of the line of centres on which the contact is (1 or -1), and tan2 and tan1 of
+        Eqs. (32) and (33). For each wheel, this is the distance of its centre from the line of the flank, divided by
+        its distance from the common normal.
 
         If wheel 1 drives, the efficiency at the friction coefficient f is (1 - f side tan2) / (1 - f side tan1).
         """
@@ -204,8 +208,9 @@ class ToothPair:
         """Return the sliding velocity divided by the driver's angular speed, docs/shapes.md (14).
 
         The result is (1 + tau) times the distance of the contact from the instant centre, where tau is the speed ratio.
-        This distance is R2 |sin y| / cos psi in approach and R1 |sin x| / cos psi2 in recess. The quotient of 1 + tau
-        and the cosine is D divided by the distance of the driven axis from the normal.
+        With the tip radii R1 and R2 and the angle psi of the common normal from the pitch line, this distance is R2
+        |sin alpha_2| / cos psi in approach and R1 |sin alpha_1| / cos psi in recess. (1 + tau) / cos psi is the centre
+        distance divided by the distance of the driven axis from the normal.
         """
         if phase == APPROACH:
             *_, q, sin_y = self._flank_line(x, m)

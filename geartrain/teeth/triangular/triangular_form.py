@@ -185,7 +185,7 @@ class Triangular(ToothForm):
         return TriangularMesh(wheels, self, wheels.driver, transmission)
 
     def own_backlash(self, pair: str) -> Problem:
-        """Return the reason why a requested backlash does not apply: it follows from the clearance of the teeth."""
+        """Return the reason why `--backlash` does not apply: clearance determines the backlash of triangular teeth."""
         return Problem(
             f"--backlash cannot thin the triangular teeth of pair '{pair}'",
             "the clearance factor sets their backlash, and thinner teeth have another transmission function",
@@ -279,7 +279,7 @@ class Triangular(ToothForm):
         return sizes.at(excess_of_backlash(sizes, length.si, length.text))
 
     def _declared_excess(self, sizes: TriangularSizes) -> float:
-        """Return the declared excess, rounded only at the end. Raise `GearTrainError` if it is not positive."""
+        """Return the declared excess, computed exactly, then rounded. Raise `GearTrainError` if it is not positive."""
         if self.excess is not None or self.clearance_factor is None:
             return 0.0 if self.excess is None else float(self.excess.value)
         # a fraction minus 1 is exact, so that a factor close to 1 loses no digits

@@ -81,8 +81,8 @@ class TriangularMesh(GearMesh):
     def size(self, tips: Mapping[str, float]) -> PairSize:
         """Return the scale and the centre distance of the pair.
 
-        The scale follows from a wheel whose tip radius is in `tips`. If there is none, it follows from declared
-        lengths, or, if none are declared, from pitch circles that touch.
+        The scale follows from a wheel whose tip radius [module] is given in `tips`. If none is given, it follows from
+        declared lengths, or, if no lengths are declared, from pitch circles that touch.
         """
         D, touching, module = self.transmission.sizes.D, self.wheels.touching, self.wheels.module
         scale = touching / D
@@ -107,7 +107,9 @@ class TriangularMesh(GearMesh):
         return self.transmission.sizes.D * self.wheels.counts[0] / self.transmission.sizes.pitch_sum
 
     def requirement(self, wheel: str, scale: float, tolerance: float) -> FixedTooth:
-        """Return the required tooth: straight lines from one tooth space to the apex and on to the next space."""
+        """Return the required tooth of `wheel` [module]: straight lines from one tooth space to the apex and on to the
+        next space. `scale` is the length unit of the teeth [module]; `tolerance` is not needed.
+        """
         del tolerance
         sizes = self.transmission.sizes
         at = 0 if wheel == self.driver else 1
@@ -199,7 +201,7 @@ class TriangularFigures(PairFigures):
 def triangular_figures(
     transmission: TriangularTransmission, window: ClearanceWindow | None, losses: SlidingEfficiency | None = None
 ) -> TriangularFigures:
-    """Return the results of a pair with triangular teeth.
+    """Return the results of a pair with triangular teeth and the clearance window `window`.
 
     `losses` replaces the efficiency of the transmission function.
     """
@@ -220,7 +222,7 @@ def triangular_figures(
 
 
 def explain_clearance(transmission: TriangularTransmission, window: ClearanceWindow | None) -> tuple[str, str]:
-    """Return cause and remedy for a pair that cannot turn: clearance window, and the bound that is violated."""
+    """Return cause and remedy for a pair that cannot turn, with the violated limit of the clearance window."""
     if window is None:
         return "", "use more teeth or a smaller half_angle"
     excess, jam, run = transmission.sizes.excess, window.jam_factor, window.run_factor

@@ -78,7 +78,7 @@ class TriangularTransmission(ToothTransmission):
 
     @property
     def intervals(self) -> tuple[DriveInterval, ...]:
-        """Intervals of the real path of contact over one pitch of the driver, in order of time, including dwells."""
+        """Intervals over one pitch, in order of time, in which one tooth pair drives, or none (dwell)."""
         return self.contact.intervals
 
     @property
@@ -98,7 +98,9 @@ class TriangularTransmission(ToothTransmission):
         return self.mapped(S, self._tau)
 
     def rubbing(self, S: ArrayLike) -> ContactRubbing:
-        """Return sliding speed and friction terms of the contact at driver angles S [rad]; NaN during a dwell."""
+        """Return the sliding speed of the contact at driver angles S [rad], and the changes of its power per unit
+        friction coefficient; NaN during a dwell.
+        """
         return ContactRubbing(*(each[None] for each in self._map_all(S, self._friction_terms, 3)))
 
     def sliding(self, phase: str, x: Floats) -> Floats:
@@ -175,7 +177,7 @@ class TriangularTransmission(ToothTransmission):
     def _map_all(
         self, S: ArrayLike, what: Callable[[DriveInterval, Floats], tuple[Any, ...]], count: int
     ) -> list[Floats]:
-        """Return the `count` values that `what` computes from drive interval and alpha_1 at each driver angle in S."""
+        """Return at each driver angle in S the `count` values that `what` computes from an interval and alpha_1."""
         S, edges = np.asarray(S, dtype=float), self._edges
         flat = S.ravel()
         found = [np.empty_like(flat) for _ in range(count)]
@@ -193,7 +195,7 @@ class TriangularTransmission(ToothTransmission):
 
     @cached_property
     def _drive_intervals(self) -> tuple[DriveInterval, ...]:
-        """Intervals of the real path of contact with its dwells. Raises `RangeError` if teeth never touch."""
+        """The `intervals` of the driving tooth pairs and dwells. Raises `RangeError` if the teeth never touch."""
         if not self.intervals:
             fix = "give a clearance within the clearance window of the pair, and teeth that meet in valleys"
             raise RangeError(Problem(self.verdict.text, "such teeth have no transmission function", fix))
@@ -201,13 +203,13 @@ class TriangularTransmission(ToothTransmission):
 
     @cached_property
     def _start(self) -> float:
-        """Angle [rad] of the driver's tooth from the line of centres at the first interval, modulo one pitch."""
+        """Angle [rad] of the driver's tooth from the line of centres at the start of `intervals`, modulo one pitch."""
         first = self._drive_intervals[0]
         return (first.start - first.tooth_pair * self.period) % self.period
 
     @cached_property
     def _edges(self) -> Floats:
-        """Driver angles [rad] at the boundaries of all intervals, measured from the start of the first interval."""
+        """Driver angles [rad] at the ends of all `intervals`, measured from the start of the first interval."""
         return np.concatenate(([0.0], np.cumsum([interval.width for interval in self._drive_intervals])))
 
     def kinks(self) -> list[float]:
@@ -232,8 +234,8 @@ class TriangularTransmission(ToothTransmission):
 
     @cached_property
     def stretches(self) -> list[tuple[DriveInterval, float, float]]:
-        """Smooth intervals of the path of contact, each as (drive interval, alpha_1 at start, alpha_1 at end). They are
-        divided at kinks, at extrema of the speed ratio and at the line of centres.
+        """Smooth parts of `intervals`, each as (interval, alpha_1 at its start, alpha_1 at its end). They are divided
+        at kinks, at extrema of the speed ratio and at the line of centres.
         """
         return [
             (interval, high, low)
@@ -363,8 +365,8 @@ class ContactCourse(Result):
 def contact_course(
     transmission: TriangularTransmission, samples: int = _USUAL, friction: PairFriction | None = None
 ) -> ContactCourse:
-    """Return the contact of a pair in `samples` rows for each interval of its real path of contact. The table is empty
-    if the teeth never touch.
+    """Return the contact of a pair in `samples` rows for each interval in which one tooth pair or none drives. The
+    table is empty if the teeth never touch.
 
     friction   friction as a function of sliding velocity, which replaces the constant coefficient of the transmission
     """

@@ -80,7 +80,7 @@ _FAR = 24  # steps that a name may be moved beyond its vertical line
 
 @dataclass(frozen=True, slots=True)
 class _Label:
-    """Text to be written on the diagram, with its candidate positions from best to worst."""
+    """Label of a stick diagram, with its possible boxes from best to worst."""
 
     text: str
     color: str
@@ -90,7 +90,7 @@ class _Label:
 
 @dataclass(slots=True)
 class StickLabels:
-    """All labels of a diagram. Labels of links are placed first, then labels of wheels, then labels of axes."""
+    """All labels of a stick diagram in order of priority: names of links, of wheels and couplings, and of axes."""
 
     room: LabelSpace = field(default_factory=LabelSpace)
     links: list[_Label] = field(default_factory=list)
@@ -172,7 +172,7 @@ REACH = 0.34  # inches from a planet's axis to where its ring touches it
 
 @dataclass(frozen=True, slots=True)
 class StickMesh:
-    """Gear pair or coupling in its column between two rows."""
+    """Gear pair or coupling of a stick diagram: a vertical line in a column, between the heights of its two shafts."""
 
     name: str
     kind: str
@@ -401,7 +401,7 @@ def stick_figure(train: GearTrain, labels: bool = True, state: str | None = None
 
 
 class _Drawing:
-    """Drawing of a diagram in progress. A wheel that appears in several columns is named only once."""
+    """Drawing of a stick diagram in progress, with the parts that are already drawn."""
 
     def __init__(self, axes: Axes, train: GearTrain, skeleton: StickSkeleton, state: str | None) -> None:
         self.axes, self.train, self.skeleton, self.case = axes, train, skeleton, train.declaration.case(state)

@@ -75,11 +75,10 @@ def draw_element(
 ) -> None:
     """Draw the plates of a brake or clutch, which are close together if it is closed.
 
-    A triangle between the plates marks a one-way clutch: it points to the plate that may turn forward relative to the
-    other plate.
+    A one-way clutch has a triangle, which points to the plate that can overrun the other plate.
 
-    place   middle of the plates
-    ends    height of the shaft of each link, or None for the frame
+    place   middle of the plates [in]
+    ends    height of the shaft of each link [in], or None for the frame
     """
     x, middle = place
     color = PURPLE if closed else GREY

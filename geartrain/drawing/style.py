@@ -198,7 +198,7 @@ def curve_panels(heights: Sequence[float], margin: float = 0.0, share: bool = Tr
 
 
 class Row(NamedTuple):
-    """One row of a chart of marks and intervals."""
+    """Row of a chart: its name, its marks, its intervals, and the texts to its right."""
 
     name: str
     marks: Mapping[str, float]

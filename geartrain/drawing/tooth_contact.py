@@ -76,7 +76,7 @@ DRIVER, DRIVEN = 1, 2
 
 @dataclass(frozen=True, slots=True)
 class ToothPairPose:
-    """Pose of two wheels. The teeth in contact are at the angles alpha_1 and alpha_2 [rad] from the line of centres."""
+    """Two wheels with triangular teeth, with one tooth of each wheel at the angles alpha_1 and alpha_2 [rad]."""
 
     sizes: TriangularSizes
     phase: str
@@ -106,7 +106,7 @@ class ToothPairPose:
         return np.stack([x, self.direction * across], axis=-1)
 
     def outline(self, which: int, within: float = pi) -> Floats:
-        """Return vertices (n, 2) of the teeth of a wheel within an angle [rad] from the line of centres.
+        """Return vertices (n, 2) of a wheel's teeth within an angle [rad] from the line of centres.
 
         If `within` is less than pi, the centre of an external wheel is also a vertex. The body of a ring ends at a
         circle beyond its roots.
@@ -153,7 +153,7 @@ class ToothPairPose:
 
 
 def tooth_pair_pose(transmission: TriangularTransmission, alpha1: float | None = None) -> ToothPairPose:
-    """Return the pose with a driver tooth at `alpha1` [rad], by default the middle of the first interval of contact."""
+    """Return the pose with a driver's tooth at `alpha1` from the line of centres [rad], by default at mid-contact."""
     if alpha1 is None:
         interval = transmission.intervals[0]
         x = (interval.start + interval.end) / 2
@@ -219,7 +219,7 @@ class ToothViewport:
         return (self.top - self.bottom) / (self.right - self.left)
 
     def within(self, here: ToothPairPose, which: int) -> float:
-        """Return the half-angle [rad] of the sector about the line of centres with the visible part of a wheel."""
+        """Return the half-angle [rad] of a sector about the line of centres that contains a wheel's visible part."""
         if self.whole:
             return pi
         z = here.wheel(which)[0]

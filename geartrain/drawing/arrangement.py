@@ -156,7 +156,7 @@ def text_width(text: str, size: float = FINE, weight: str = "normal") -> float:
 
 
 def text_box(lines: Sequence[str], size: float, x: float, y: float, weight: str = "normal") -> Box:
-    """Return the box of lines of text centred at a point, with a margin."""
+    """Return the box of lines of text in the font `size`, centred at (x, y) [in], with a margin."""
     wide = max(text_width(line, size, weight) for line in lines)
     return x, y, wide + 0.04, len(lines) * _LINE * size / 72
 
@@ -315,7 +315,7 @@ def _level_positions(order: Sequence[Callout], bounds: tuple[float, float]) -> l
 
 
 def _crossings(placed: Sequence[tuple[Callout, float]], edge: float) -> Ints:
-    """Return the index pairs (n, 2) of callouts whose leader lines cross."""
+    """Return the index pairs (n, 2) of callouts whose leader lines to the `edge` of their column cross."""
     starts = np.array([(edge, y) for _, y in placed]).reshape(-1, 1, 2)
     ends = np.array([each.anchor for each, _ in placed]).reshape(-1, 1, 2)
 

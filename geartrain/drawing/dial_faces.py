@@ -218,7 +218,10 @@ def _draw_key(
     centre: tuple[float, float],
     usual: str,
 ) -> None:
-    """Draw a key below a dial face. Each line of the key shows the style of one hand and its reading."""
+    """Draw a key below a dial face, with a line for each hand that shows its style and its reading.
+
+    usual   sense of rotation that is omitted from the readings
+    """
     reading_text = [_reading_text(scene.pointers[at], readings[at], face, usual) for at in face.pointers]
     sample = _sample_length(face)
     left = centre[0] - (max(map(text_width, reading_text)) + sample) / 2
@@ -246,7 +249,12 @@ def _draw_scale(axes: Axes, face: DialPicture, centre: tuple[float, float], oute
 def _draw_pointer(
     axes: Axes, face: DialPicture, reading: PointerReading, centre: tuple[float, float], reach: float, order: int
 ) -> None:
-    """Draw a hand from the centre, on a spiral dial as far as the current turn, if its reading is determined."""
+    """Draw a hand from the centre of a dial face, if its reading is determined. On a spiral it ends at the current
+    turn.
+
+    reach   radius of the dial on paper [in]
+    order   index of the hand's style
+    """
     if reading.turned is None:
         return
     scale = face.scale

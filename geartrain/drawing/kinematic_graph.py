@@ -96,7 +96,7 @@ def edges_of(train: GearTrain, broken: Sequence[str] = ()) -> list[GraphEdge]:
 
 
 def graph_figure(train: GearTrain, state: str | None = None, labels: bool = True) -> Figure:
-    """Return a figure of the kinematic graph of a train, with red faulty loops.
+    """Return a figure of the kinematic graph of a train, in which faulty loops are red.
 
     Raise `QuestionError` if there are too many links.
     """
@@ -183,7 +183,10 @@ def _curves(edges: Sequence[GraphEdge], at: Mapping[str, tuple[float, float]]) -
 
 
 def _curve(edge: GraphEdge, at: Mapping[str, tuple[float, float]], turn: int) -> Floats:
-    """Return the curve (3, 2) of an edge: start, control point, end, bent only as needed to avoid other vertices."""
+    """Return the curve (3, 2) of an edge (start, control point, end), bent only as needed to avoid other vertices.
+
+    turn   number of earlier edges between the same links, which are less bent
+    """
     start, end = (np.array(at[link]) for link in edge.ends)
     along = end - start
     normal = np.array([-along[1], along[0]]) / max(float(hypot(*along)), 1e-9)  # coincident ends: no bend
@@ -252,7 +255,7 @@ class _Traces:
 def _draw_labels(
     axes: Axes, edges: Sequence[GraphEdge], curves: Sequence[Floats], traces: _Traces, room: LabelSpace
 ) -> None:
-    """Draw every edge's label on the edge, close to its middle, where it hides the smallest inked area of other edges.
+    """Draw every edge's label on the edge, close to its middle, where it hides the smallest drawn area of other edges.
 
     A label is placed next to its edge only if no position on the edge is free.
     """

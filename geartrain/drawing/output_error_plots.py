@@ -163,7 +163,7 @@ def _trace(motion: Motion, run: MotionRun, on_done: Callable[[int], None]) -> _T
 
 
 def _thinned(error: Floats, speed: Floats, bins: int) -> NDArray[np.intp]:
-    """Return the indices of the positions to draw: all reversals, and the extremes of both curves in each bin."""
+    """Return the indices of the positions to draw: reversals, and the extremes of error and speed in each bin."""
     turning = np.flatnonzero(np.diff(np.signbit(speed)))[:_POINTS]
     extremes = (kept_extremes(values, 3 * bins) for values in (error, speed))
     return np.unique(np.concatenate([*extremes, turning, turning + 1]))

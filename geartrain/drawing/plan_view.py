@@ -281,7 +281,7 @@ class PlanNames:
         return callouts
 
     def _anchor(self, order: int, middle: float) -> tuple[float, float]:
-        """Return the outermost visible point of a wheel [in], or a point of its rim if the wheel is hidden."""
+        """Return the visible point of a wheel farthest from the abscissa `middle` [in], or a point of its rim."""
         wheel = self.wheels[order]
         shares = (1.05,) if wheel.kind == "ring" else _POINTS
         angles = 2 * pi / _ROUND * (np.arange(_ROUND) + 0.5)

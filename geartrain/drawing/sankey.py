@@ -229,7 +229,11 @@ def find_columns(ahead: Sequence[PowerStream]) -> dict[PowerNode, int]:
 def make_bands(
     spots: Mapping[PowerNode, SankeySpot], ahead: Sequence[PowerStream], back: Sequence[PowerStream], scale: float
 ) -> tuple[list[list[BandSegment]], list[SankeySpot]]:
-    """Return streams as bands of segments, and a list of the spots at which bands pass columns."""
+    """Return streams as bands of segments, and a list of the gaps through which bands pass columns.
+
+    ahead, back   forward and circulating streams
+    scale         width of a band per unit of power [in]
+    """
     bands: list[list[BandSegment]] = []
     passing: list[SankeySpot] = []
     for stream in (*ahead, *back):

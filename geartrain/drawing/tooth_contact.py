@@ -87,7 +87,7 @@ class ToothPairPose:
     direction: int
 
     def wheel(self, which: int) -> tuple[int, float, float, float]:
-        """Return the tooth count, tip radius, root radius of a wheel, and the angle of its tooth in contact [rad]."""
+        """Return the tooth count, the tip and root radii, and the angle [rad] of wheel 1 (driver) or 2 (driven)."""
         sizes = self.sizes
         if which == DRIVER:
             return sizes.z1, sizes.R1, sizes.R1 - sizes.signs[0] * sizes.depths[0], self.alpha1
@@ -99,7 +99,7 @@ class ToothPairPose:
         return self.sizes.signs[1] * self.sizes.D
 
     def place(self, which: int, radius: float | Floats, angle: float | Floats) -> Floats:
-        """Return points (..., 2) of a wheel from radii and angles [rad] from the line of centres to the entry side."""
+        """Return points (..., 2) of wheel 1 or 2 from radii and angles [rad], measured from the line of centres."""
         along: Floats = radius * np.cos(angle)
         across: Floats = radius * np.sin(angle)
         x = along if which == DRIVER else self.axis2 - self.sizes.side * along
@@ -275,7 +275,7 @@ def _wheel(axes: Axes, here: ToothPairPose, which: int, view: ToothViewport) -> 
 
 
 def _turning(axes: Axes, here: ToothPairPose, which: int, view: ToothViewport) -> None:
-    """Draw an arrow in the sense of rotation of a wheel, and the wheel's name. A driven wheel at rest has no arrow."""
+    """Draw an arrow in the sense of rotation of wheel 1 or 2, and the wheel's name. A wheel at rest has no arrow."""
     z, tip, root, _ = here.wheel(which)
     pitch = 2 * pi / z
     inwards = 1 if tip > root else -1

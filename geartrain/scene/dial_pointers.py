@@ -80,7 +80,7 @@ def _seen(stage: SceneContext, of: str, base: str) -> dict[str, int]:
 
 
 def _weights(system: WillisSystem, outputs: Sequence[Mapping[str, int]]) -> list[set[str]]:
-    """Return, for each output, the names of the gear pairs and couplings whose equations determine its speed."""
+    """Return, for each output, the labels of the equations (of pairs, inputs and brakes) that determine its speed."""
     columns: dict[str, LinearForm] = {link: {} for link in system.links}
     for at, row in enumerate(system.equations):
         for link, coefficient in row.terms:
@@ -300,7 +300,10 @@ def _faces(stage: SceneContext, wheel: WheelPlace, way: Vector) -> tuple[float, 
 
 
 def _fitted(faces: dict[Key, DialFace], gap: float) -> dict[Key, DialFace]:
-    """Return the dials with radii that leave a `gap` [mm] between dials about one axis, and do not overlap others."""
+    """Return the dials with radii reduced so that no dials overlap.
+
+    Dials about one axis are nested, and each is `gap` / 4 [mm] above the previous one.
+    """
     about: dict[tuple[Vector, Vector], list[Key]] = {}
     for key, face in faces.items():
         about.setdefault((_rounded(face.centre), _rounded(face.normal)), []).append(key)

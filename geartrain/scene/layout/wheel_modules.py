@@ -66,7 +66,7 @@ def close_chains(
 
 
 def _relax(distances: Sequence[AxisDistance], at: int, modules: dict[int, Fraction], free: frozenset[int]) -> bool:
-    """Shorten, in place, a distance that is too long, or lengthen the path between its ends; return True if changed."""
+    """Change a module so that the distance `at` is not longer than the path between its ends; True if one changed."""
     one = distances[at]
     way = _way_round(distances, at, modules)
     length, way_length = one.length(modules), sum(other.length(modules) for other in way)
@@ -97,7 +97,7 @@ def _simple(factor: float) -> Fraction:
 
 
 def _way_round(distances: Sequence[AxisDistance], at: int, modules: Mapping[int, Fraction]) -> list[AxisDistance]:
-    """Return the shortest path between the axes of a distance without this distance (Dijkstra); empty if none."""
+    """Return the shortest path between the axes of the distance `at` that avoids it (Dijkstra); empty if none."""
     import networkx as nx
 
     graph: nx.Graph[str] = nx.Graph()

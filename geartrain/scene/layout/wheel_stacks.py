@@ -152,7 +152,7 @@ class _OrderSearch:
         return ranks[best], bool(costs[best].round(9) < costs[0].round(9))
 
     def _place_best(self, keys: Floats, at: int, fixed_cost: float) -> None:
-        """Move one stack to the position of minimum cost: a level (integer key) or between levels (half-integer)."""
+        """Move the stack `at` to its position of minimum cost: a level (integer key) or between two levels."""
         keys[at] = np.nan
         known = np.unique(keys[~np.isnan(keys)])
         if not len(known):
@@ -328,7 +328,7 @@ def stack_heights(problem: StackProblem, gap: float) -> dict[int, float]:
 
 
 def _level_heights(problem: StackProblem, level: Indices, count: int, gap: float) -> Floats:
-    """Return the heights of levels [mm], each above the previous one and above all blocks that clash with its own."""
+    """Return the heights of `count` levels [mm], each clear of lower levels; `level` is the level of each stack."""
     blocks = problem.blocks
     level_of = np.array([level[block.stack] for block in blocks])
     bottom = np.array([block.offset - block.low for block in blocks])

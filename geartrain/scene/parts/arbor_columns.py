@@ -270,7 +270,7 @@ class ColumnProblem:
         return with_hits(column, self.beside)
 
     def _core(self, order: Sequence[CoaxialLink], stud: bool) -> float:
-        """Return the diameter of the core [mm], as given, or such that every pipe fits into its smallest wheel."""
+        """Return the diameter of the arbor or stud [mm]: as requested, or so that each pipe fits in its wheels."""
         if self.core is not None:
             return self.core
         roots = [min((disc.root for disc in each.discs if disc.root), default=9.0) for each in order]

@@ -277,7 +277,7 @@ class FramePlan:
     def _carried_cost(
         self, way: CarrierSeat, carried: Sequence[CarriedAxis], plates: Sequence[TurningPlate] = ()
     ) -> int:
-        """Return the number of obstacles on the axes of a carrier, if no space is reserved for the heads of studs."""
+        """Return the number of obstacles on the axes of a carrier that is supported by `way`, without stud heads."""
         every = [*self.stack.discs, *(plate.disc for plate in plates or way.plates)]
         if not carried:
             return 0

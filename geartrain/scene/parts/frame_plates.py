@@ -63,7 +63,7 @@ class FlatPlate:
 
 
 def _windows(eccentric: Eccentric, bore: float) -> Iterator[Hole]:
-    """Yield six or more holes that make a large wave generator lighter; yield nothing for other eccentrics."""
+    """Yield six or more round openings of a large wave generator, between its hub and its edge; none for others."""
     wave, radius = eccentric.wave, eccentric.radius
     if wave is None or radius < _WIDE * bore:
         return

@@ -367,7 +367,7 @@ class _CageBuilder:
         return any(low < each < high for each in plates)
 
     def _beside(self, height: float) -> float:
-        """Return the mid-height of an arm just above or below the wheels of the caged body [mm], where it is clear."""
+        """Return the mid-height of an arm next to the wheels of the body [mm], where fewer wheels obstruct it."""
         reach = max(wheel.radius for wheel in self.scene.wheels if wheel.body == self.at) + _PAST + _ARM / 2
 
         def hit(level: float) -> int:

@@ -190,7 +190,10 @@ def _plate(
 
 
 def _corners(sheet: FacePlate | None, right: Point, up: Point) -> tuple[Point, ...]:
-    """Return the corners of a declared plate, in the coordinates of the stack [mm]; empty if no plate is declared."""
+    """Return the corners of a declared dial plate, in the coordinates of the stack [mm]; empty if none is declared.
+
+    right, up   unit vectors of the reader of the plate in the plane of the stack
+    """
     if sheet is None:
         return ()
     wide, high = float(millimetres(sheet.width)) / 2, float(millimetres(sheet.height)) / 2

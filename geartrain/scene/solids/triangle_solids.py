@@ -263,7 +263,7 @@ def lathed(rows: Sequence[Floats]) -> Solid:
 
 
 def _pitch(tooth: Floats, radius: float, teeth: int, tolerance: float) -> Floats:
-    """Return the polygon of a tooth and its sector of the web, closed along the bore, or at the centre without one."""
+    """Return the polygon of a tooth and its sector of the web, whose hole is drawn within a `tolerance` [mm]."""
     first, last = (float(np.arctan2(y, x)) for x, y in (tooth[0], tooth[-1]))
     if not radius:
         return np.concatenate([tooth, [[0.0, 0.0]]])

@@ -127,9 +127,8 @@ class FramePlates:
         if bridge is None:
             return []
         low, high = min(bridge[0], self.plan.bridged_plate[1]), max(bridge[0], self.plan.bridged_plate[1])
-        circles = [swept_circle(disc) for disc in self.plan.discs if low < disc.middle < high] + self.plan.across(
-            low, high
-        )
+        circles = [swept_circle(disc) for disc in self.plan.discs if low < disc.middle < high]
+        circles += self.plan.across(low, high)
         circles += [(column.at, column.radius(low, high)) for column in self.plan.columns]
         circles += [(at, self.pillar) for at in self.pillars]
         return pillar_places([column.at for column in self.plan.columns if column.passes(bridge)], circles, self.pillar)

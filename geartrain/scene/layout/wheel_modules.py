@@ -66,7 +66,7 @@ def close_chains(
 
 
 def _relax(distances: Sequence[AxisDistance], at: int, modules: dict[int, Fraction], free: frozenset[int]) -> bool:
-    """Change a module so that the distance `at` is not longer than the path between its ends; True if one changed."""
+    """Shorten the distance `at` or lengthen the path between its ends, by a module; return True if changed."""
     one = distances[at]
     way = _way_round(distances, at, modules)
     length, way_length = one.length(modules), sum(other.length(modules) for other in way)

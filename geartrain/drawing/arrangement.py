@@ -156,14 +156,14 @@ def text_width(text: str, size: float = FINE, weight: str = "normal") -> float:
 
 
 def text_box(lines: Sequence[str], size: float, x: float, y: float, weight: str = "normal") -> Box:
-    """Return the box of lines of text centred at a point, with a margin."""
+    """Return the box of lines of text in the font `size`, centred at (x, y) [in], with a margin."""
     wide = max(text_width(line, size, weight) for line in lines)
     return x, y, wide + 0.04, len(lines) * _LINE * size / 72
 
 
 @dataclass(slots=True)
 class LabelSpace:
-    """Page on which labels are placed without overlap."""
+    """Boxes on a page that are already occupied by labels, and the choice of free boxes for further labels."""
 
     taken: Floats = field(default_factory=lambda: np.zeros((0, 4)))
     """Centres, widths and heights of the occupied boxes [in]. Shape (n, 4)."""
@@ -218,7 +218,7 @@ class Callout:
 
 @dataclass(frozen=True, slots=True)
 class CalloutMargin:
-    """Callouts in columns left and right of a picture, each with its ordinate, and inner edges of the columns [in]."""
+    """Callouts next to a picture: each callout with its ordinate [in], and the inner edges of the two columns."""
 
     left: Sequence[tuple[Callout, float]]
     right: Sequence[tuple[Callout, float]]
@@ -248,7 +248,7 @@ class CalloutMargin:
         return any(len(each.words) > 1 for side in (self.left, self.right) for each, _ in side)
 
     def moved(self, x: float, y: float) -> CalloutMargin:
-        """Return a copy that is translated on the page by (x, y) [in]."""
+        """Return the same callouts, with their anchors and columns translated on the page by (x, y) [in]."""
         left, right = (
             [(Callout(c.words, (c.anchor[0] + x, c.anchor[1] + y)), at + y) for c, at in side]
             for side in (self.left, self.right)
@@ -288,7 +288,7 @@ def find_margin(callouts: Sequence[Callout], edges: tuple[float, float], bounds:
 
 
 def _column(callouts: Sequence[Callout], edge: float, bounds: tuple[float, float]) -> list[tuple[Callout, float]]:
-    """Return the callouts of one column with ordinates [in] close to the named points, and few crossing lines."""
+    """Return the callouts of a column, each with an ordinate [in] close to its anchor; few leader lines cross."""
     order: list[Callout] = []
     if callouts:  # the order that minimises the total length of leader lines (linear assignment)
         heights = np.array(spread([each.anchor[1] for each in callouts], [each.height for each in callouts], bounds))
@@ -315,7 +315,7 @@ def _level_positions(order: Sequence[Callout], bounds: tuple[float, float]) -> l
 
 
 def _crossings(placed: Sequence[tuple[Callout, float]], edge: float) -> Ints:
-    """Return the index pairs (n, 2) of callouts whose leader lines cross."""
+    """Return the index pairs (n, 2) of callouts whose leader lines to the `edge` of their column cross."""
     starts = np.array([(edge, y) for _, y in placed]).reshape(-1, 1, 2)
     ends = np.array([each.anchor for each, _ in placed]).reshape(-1, 1, 2)
 

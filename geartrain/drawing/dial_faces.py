@@ -46,7 +46,7 @@ _SAMPLE, _DASHED = 0.45, 0.75  # inches: sample of a plain hand for the key, and
 
 @dataclass(frozen=True, slots=True)
 class PointerReading:
-    """Reading of a pointer after a number of turns of the driving link, and the shape of its hand."""
+    """Position of a pointer after a number of turns of the driving link, with the length and outline of its hand."""
 
     output: str
     turned: Fraction | None
@@ -67,7 +67,7 @@ class PointerReading:
 
 @dataclass(frozen=True, slots=True)
 class DialPicture:
-    """Dial face to be drawn."""
+    """Dial face in a figure: its name and title, its scale or ball, and the pointers that are read on it."""
 
     name: str
     """Name of the dial; empty for a plain face."""
@@ -143,7 +143,7 @@ def dials_figure(
 
 
 def find_faces(scene: Scene, outputs: Sequence[str]) -> list[DialPicture]:
-    """Return the dial faces to draw; raise `QuestionError` for unknown outputs, and for no face or more than 60."""
+    """Return the dial faces to draw. Raise `QuestionError` for unknown outputs, and for 0 or more than 60 faces."""
     known = {pointer.output: at for at, pointer in enumerate(scene.pointers) if scene.asks}
     for name in outputs:
         if name not in known:
@@ -218,7 +218,10 @@ def _draw_key(
     centre: tuple[float, float],
     usual: str,
 ) -> None:
-    """Draw a key below a dial face. Each line of the key shows the style of one hand and its reading."""
+    """Draw a key below a dial face, with a line for each hand that shows its style and its reading.
+
+    usual   sense of rotation that is omitted from the readings
+    """
     reading_text = [_reading_text(scene.pointers[at], readings[at], face, usual) for at in face.pointers]
     sample = _sample_length(face)
     left = centre[0] - (max(map(text_width, reading_text)) + sample) / 2
@@ -234,7 +237,7 @@ def _sample_length(face: DialPicture) -> float:
 
 
 def _draw_scale(axes: Axes, face: DialPicture, centre: tuple[float, float], outer: float) -> None:
-    """Draw the engraving of a dial face: the line along which cells are arranged, the borders of cells, and letters."""
+    """Draw all engraved lines of a dial face: rims, division lines between cells, and letters."""
     for part in engrave(face.scale):
         points = [point for line in part.lines for point in (*line, (np.nan, np.nan))]
         colour = BLACK if part.kind in ("rim", "letters") else GREY
@@ -246,7 +249,12 @@ def _draw_scale(axes: Axes, face: DialPicture, centre: tuple[float, float], oute
 def _draw_pointer(
     axes: Axes, face: DialPicture, reading: PointerReading, centre: tuple[float, float], reach: float, order: int
 ) -> None:
-    """Draw a hand from the centre, on a spiral dial as far as the current turn, if its reading is determined."""
+    """Draw a hand from the centre of a dial face, if its reading is determined. On a spiral it ends at the current
+    turn.
+
+    reach   radius of the dial on paper [in]
+    order   index of the hand's style
+    """
     if reading.turned is None:
         return
     scale = face.scale
@@ -267,7 +275,10 @@ def _draw_pointer(
 
 
 def _reading_text(pointer: Pointer, reading: PointerReading, face: DialPicture, usual: str) -> str:
-    """Return the name, position and reading of an output as text, and its sense of rotation if it is not `usual`."""
+    """Return the name, position and reading of an output as text.
+
+    usual   sense of rotation that is omitted from the text, such as "clockwise"
+    """
     if reading.turned is None:
         return f"{pointer.output}: undetermined"
     scale = face.scale

@@ -70,7 +70,7 @@ _RIM, _HEAD, _FOOT = 0.75, 0.75, 0.55
 
 @dataclass(frozen=True, slots=True)
 class GraphEdge:
-    """Edge between two links."""
+    """Edge of a kinematic graph: two links, and the joint, gear pair or coupling between them."""
 
     ends: tuple[str, str]
     kind: str
@@ -81,7 +81,7 @@ class GraphEdge:
 
 
 def edges_of(train: GearTrain, broken: Sequence[str] = ()) -> list[GraphEdge]:
-    """Return the edges of joints, gear pairs and couplings, marked as broken if their names are in `broken`."""
+    """Return an edge for each joint, gear pair and coupling. Names in `broken` belong to loops that cannot turn."""
     declared = train.declaration
     wheels = declared.wheels
     found = [GraphEdge(joint.pair, "revolute", joint.axis) for joint in declared.revolutes]
@@ -96,7 +96,7 @@ def edges_of(train: GearTrain, broken: Sequence[str] = ()) -> list[GraphEdge]:
 
 
 def graph_figure(train: GearTrain, state: str | None = None, labels: bool = True) -> Figure:
-    """Return a figure of the kinematic graph of a train, with red faulty loops.
+    """Return a figure of the kinematic graph of a train, in which faulty loops are red.
 
     Raise `QuestionError` if there are too many links.
     """
@@ -173,7 +173,7 @@ def _places(links: Sequence[str], edges: Sequence[GraphEdge]) -> Floats:
 
 
 def _curves(edges: Sequence[GraphEdge], at: Mapping[str, tuple[float, float]]) -> list[Floats]:
-    """Return the curve of every edge; of several edges between the same links, each is bent more than the previous."""
+    """Return the curve of every edge; edges between the same two links have different curvatures."""
     turns: dict[frozenset[str], int] = {}
     found = []
     for edge in edges:
@@ -183,7 +183,10 @@ def _curves(edges: Sequence[GraphEdge], at: Mapping[str, tuple[float, float]]) -
 
 
 def _curve(edge: GraphEdge, at: Mapping[str, tuple[float, float]], turn: int) -> Floats:
-    """Return the curve (3, 2) of an edge: start, control point, end, bent only as needed to avoid other vertices."""
+    """Return the curve (3, 2) of an edge (start, control point, end), bent only as needed to avoid other vertices.
+
+    turn   number of earlier edges between the same links, which are less bent
+    """
     start, end = (np.array(at[link]) for link in edge.ends)
     along = end - start
     normal = np.array([-along[1], along[0]]) / max(float(hypot(*along)), 1e-9)  # coincident ends: no bend
@@ -229,7 +232,7 @@ def _draw_edge(axes: Axes, edge: GraphEdge, curve: Floats) -> None:
 
 @dataclass(frozen=True, slots=True)
 class _Traces:
-    """Sampled points of all edges."""
+    """Points sampled along the curve of each edge, with the area of ink that each point represents."""
 
     points: Floats
     """Positions of the points [in]. Shape (edges, points, 2)."""
@@ -243,7 +246,7 @@ class _Traces:
         return cls(points, steps * [_EDGE_STYLES[edge.kind][0] for edge in edges])
 
     def hidden(self, box: Box, own: int | None = None) -> float:
-        """Return the inked area that a box with a margin would hide, not counting the edge with the index `own`."""
+        """Return the drawn area [in pt] that a box with a margin would hide, except that of the edge `own`."""
         inside = (np.abs(self.points - box[:2]) < np.array(box[2:]) / 2 + _EDGE_MARGIN).all(2).sum(1)
         ink = inside * self.ink
         return float(ink.sum() - (0.0 if own is None else ink[own]))
@@ -252,7 +255,7 @@ class _Traces:
 def _draw_labels(
     axes: Axes, edges: Sequence[GraphEdge], curves: Sequence[Floats], traces: _Traces, room: LabelSpace
 ) -> None:
-    """Draw every edge's label on the edge, close to its middle, where it hides the smallest inked area of other edges.
+    """Draw every edge's label on the edge, close to its middle, where it hides the smallest drawn area of other edges.
 
     A label is placed next to its edge only if no position on the edge is free.
     """
@@ -268,7 +271,7 @@ def _draw_labels(
 
 
 def _spots(edge: GraphEdge, curve: Floats, at: int, traces: _Traces) -> list[tuple[float, Box]]:
-    """Return the boxes of a label along its edge, from the middle outwards, each with the inked area it would hide."""
+    """Return possible boxes for the label of the edge `at`, each with the drawn area it would hide [in pt]."""
     found = []
     for share in sorted(_SHARES, key=lambda share: abs(share - 0.5)):
         x, y = map(float, _point(curve, share))
@@ -302,7 +305,7 @@ def _name_vertex(
     traces: _Traces,
     room: LabelSpace,
 ) -> None:
-    """Draw a link's name where it covers the smallest inked area; ties are broken by the distance from edges."""
+    """Draw a link's name next to its vertex, where it hides the smallest drawn area of edges."""
     boxes = []
     for reach in (_SMALL + 0.05, _SMALL + 0.13):
         for dx, dy in _free_sides(link, at, edges):

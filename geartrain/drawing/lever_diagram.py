@@ -36,7 +36,7 @@ from geartrain.numerics.exact import decimal, fraction_text, is_short
 
 
 class Point(NamedTuple):
-    """Point of a lever: its abscissa, its links, their closed brakes and clutches, and its speed (None if unknown)."""
+    """Point of a lever: its abscissa, the links that it represents, their closed clutches, and their speed."""
 
     x: Fraction
     links: list[str]
@@ -45,7 +45,7 @@ class Point(NamedTuple):
 
     @property
     def names(self) -> list[str]:
-        """Names of the members. The closed brakes and clutches of each member follow in brackets."""
+        """Name of each link, followed by its closed brakes and clutches in brackets."""
         return [link + mark for link, mark in zip(self.links, self.marks, strict=True)]
 
 
@@ -108,7 +108,7 @@ def lever_figure(train: GearTrain, state: str | None = None, labels: bool = True
 
 
 def _limits(train: GearTrain, levers: Sequence[Lever], answers: Sequence[Answer]) -> tuple[float, float]:
-    """Return the limits of the speed axis of all panels, which contain all speeds with a margin."""
+    """Return common limits for the speed axes of all panels, which contain the speeds of all links with a margin."""
     points = (point for lever in levers for answer in answers for point in _points(train, lever, answer))
     speeds = [0.0, *(float(point.speed) for point in points if point.speed is not None)]
     more = 0.08 * (max(speeds) - min(speeds)) or 0.5
@@ -168,7 +168,7 @@ def _marks(train: GearTrain, state: str | None) -> dict[str, str]:
 
 
 def _points(train: GearTrain, lever: Lever, answer: Answer) -> list[Point]:
-    """Return the points of a lever from left to right, with speeds in the positive sense of the carrier."""
+    """Return the points of a lever from left to right, with speeds about the direction of the carrier's axis."""
     own, marks = train.kinematics.signs.get(lever.carrier, 1), _marks(train, answer.state)
     ordered = sorted(lever.abscissae.items(), key=lambda item: item[1])
     found: list[Point] = []

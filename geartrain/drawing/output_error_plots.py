@@ -163,7 +163,7 @@ def _trace(motion: Motion, run: MotionRun, on_done: Callable[[int], None]) -> _T
 
 
 def _thinned(error: Floats, speed: Floats, bins: int) -> NDArray[np.intp]:
-    """Return the indices of the positions to draw: all reversals, and the extremes of both curves in each bin."""
+    """Return the indices of the positions to draw: reversals, and the extremes of error and speed in each bin."""
     turning = np.flatnonzero(np.diff(np.signbit(speed)))[:_POINTS]
     extremes = (kept_extremes(values, 3 * bins) for values in (error, speed))
     return np.unique(np.concatenate([*extremes, turning, turning + 1]))
@@ -221,7 +221,11 @@ def _speed(panel: Axes, trace: _Trace) -> None:
 
 
 def _curve(panel: Axes, trace: _Trace, whole: Floats, first: Floats) -> tuple[Floats, Floats]:
-    """Plot a curve, or only its beginning if its oscillations would merge. Return the plotted points as (x, y)."""
+    """Plot a curve, or only its beginning if its oscillations would be too close together, and return what is plotted.
+
+    whole   values over the whole range
+    first   values at the beginning of the range, at more positions
+    """
     turns, values = trace.turns, whole
     # the total variation over the range is twice the number of oscillations
     if np.abs(np.diff(whole)).sum() > _TURNING_POINTS * np.ptp(whole):
@@ -311,9 +315,7 @@ def _torque(panel: Axes, found: TorqueCycle) -> None:
 
 
 def _mean_speed(found: TorqueCycle) -> float:
-    """Return the mean turns of a link per turn of the input: 0 if the link only oscillates, 1 if its mean speed is not
-    known.
-    """
+    """Return the mean turns of the output per input turn; 0 if it only oscillates, 1 if its speed is unknown."""
     assert found.turns is not None
     if found.speeds is None or found.link not in found.speeds.labels[0]:
         return 1.0

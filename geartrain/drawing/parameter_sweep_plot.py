@@ -170,9 +170,9 @@ def _lines(parameters: dict[str, Floats], columns: dict[str, Floats], verdicts: 
 
 
 def _panels(columns: dict[str, Floats]) -> dict[str, dict[str, Floats]]:
-    """Return the columns of each panel, by panel. The minimum and the maximum of a quantity share a panel.
+    """Return the curves of each panel, by name of the panel: a column, or the minimum and maximum of one quantity.
 
-    Columns without a default panel are included only if no other columns are given.
+    If no column has a default panel, all columns are included.
     """
     found: dict[str, dict[str, Floats]] = {}
     for name, values in columns.items():
@@ -268,7 +268,7 @@ def _regions(axes: Axes, x: Floats, y: Floats, verdicts: Texts) -> None:
 
 
 def _name(axes: Axes, x: Floats, y: Floats, here: NDArray[np.bool_], kind: str) -> None:
-    """Write the name of a region at its cell closest to its centroid, unless the region is very small."""
+    """Write the text `kind` at the centre of a region of a map (the mask `here`), if the region is large enough."""
     rows, cells = np.nonzero(here)
     if len(rows) < _MIN_SHARE * here.size:
         return

@@ -69,14 +69,14 @@ _CHORD, _COARSE = 0.002, 0.02  # maximum deviation of a simplified outline, in i
 
 
 def from_below(projected: ProjectedScene) -> list[SceneWheel]:
-    """Return the wheels in drawing order: lowest wheels first, and among wheels at equal heights the largest first."""
+    """Return the wheels in drawing order: farthest from the reader first, and at equal distances the largest first."""
     return sorted(
         projected.scene.wheels, key=lambda wheel: (float(projected.seen(projected.centre(wheel))[2]), -wheel.radius)
     )
 
 
 def draw_flat(page: ScaledPage, projected: ProjectedScene) -> None:
-    """Draw all wheels, arms, wave generators, couplings and hubs of a scene in the plan."""
+    """Draw a scene whose wheels face the reader: wheels, arms of carriers, wave generators, couplings and arbors."""
     scene, wheels = projected.scene, from_below(projected)
     heights = sorted({round(float(projected.seen(projected.centre(wheel))[2]), 6) for wheel in wheels})
     red = broken_wheels(scene)
@@ -151,7 +151,7 @@ def _draw_waves(page: ScaledPage, projected: ProjectedScene) -> None:
 
 
 def _draw_coupling(page: ScaledPage, projected: ProjectedScene, coupling: SceneCoupling) -> None:
-    """Draw the pin and the part of the slot that the pin can reach, or, for pins in holes, the pins in their holes."""
+    """Draw a coupling by pins: a pin in the part of its slot that it can reach, or several pins in round holes."""
     if coupling.hole:
         _draw_holes(page, projected, coupling)
         return
@@ -186,7 +186,7 @@ _HUB, _LINE = 0.12, 0.04  # inches kept free around a hub or a point of an arm, 
 
 @dataclass(frozen=True, slots=True)
 class PlanNames:
-    """Names of the wheels that face the reader, starting with the nearest wheel, and their candidate positions [in]."""
+    """Names of the wheels that face the reader, nearest first, and the areas in which they can be written."""
 
     wheels: Sequence[SceneWheel]
     centres: Floats
@@ -226,7 +226,11 @@ class PlanNames:
     def place_beside(
         self, written: Sequence[tuple[SceneWheel, Box]], lines: Sequence[Floats]
     ) -> list[tuple[SceneWheel, Box]]:
-        """Return the names on wheels, moved away from the leader lines of callouts (2, 2) where there is space."""
+        """Return the names on wheels, moved within their wheels where a leader line would cross them.
+
+        written   names and their boxes
+        lines     leader lines of callouts, shape (2, 2) each [in]
+        """
         room, order = self._room(lines), {wheel.id: at for at, wheel in enumerate(self.wheels)}
         found = []
         for wheel, box in written:
@@ -237,7 +241,7 @@ class PlanNames:
         return found
 
     def _room(self, lines: Sequence[Floats]) -> LabelSpace:
-        """Return a label space in which hubs, arms and leader lines are marked as occupied."""
+        """Return a record of occupied boxes that contains all hubs, arms and leader lines."""
         room = LabelSpace()
         for x, y in (*self.centres, *self.arms):
             room.take((float(x), float(y), _HUB, _HUB))
@@ -263,7 +267,7 @@ class PlanNames:
         yield from ((x, y, wide, high) for x, y in spots[within & ~hidden].tolist())
 
     def _callouts(self, rest: Sequence[int]) -> list[Callout]:
-        """Return one callout for each axis that carries wheels whose names do not fit on their faces."""
+        """Return a callout for each axis of wheels whose names do not fit on their faces (`rest`, by index)."""
         middle = float(self.centres[:, 0].mean()) if len(self.centres) else 0.0
         axes: dict[tuple[float, ...], list[int]] = {}
         for order in rest:
@@ -277,7 +281,7 @@ class PlanNames:
         return callouts
 
     def _anchor(self, order: int, middle: float) -> tuple[float, float]:
-        """Return the outermost visible point of a wheel [in], or a point of its rim if the wheel is hidden."""
+        """Return the visible point of a wheel farthest from the abscissa `middle` [in], or a point of its rim."""
         wheel = self.wheels[order]
         shares = (1.05,) if wheel.kind == "ring" else _POINTS
         angles = 2 * pi / _ROUND * (np.arange(_ROUND) + 0.5)
@@ -300,7 +304,7 @@ def _points_along(lines: Sequence[Floats]) -> Floats:
 
 
 def points_in_discs(points: Floats, centres: Floats, reach: Floats) -> NDArray[np.bool_]:
-    """Return a mask of the points (n, 2) that are in at least one of the discs (m, 2)."""
+    """Return a mask of the points (n, 2) that are in a disc with one of `centres` (m, 2) and radii `reach`."""
     if not len(points) or not len(centres):
         return np.zeros(len(points), dtype=bool)
     middle = points.mean(axis=0)
@@ -366,7 +370,7 @@ def plan_figure(scene: Scene, turns: Fraction = Fraction(0), labels: bool = True
 
 @dataclass(frozen=True, slots=True)
 class _PlanSize:
-    """Dimensions of a plan on paper [in]; `bottom` and `depth` are in mm, before scaling."""
+    """Dimensions of a plan on paper [in], and heights of its layers in the train [mm]."""
 
     scale: float
     """Scale of the plan: inches on paper per millimetre of the train."""
@@ -411,7 +415,7 @@ class _PlanSize:
 def _names(
     projected: ProjectedScene, plan: _PlanSize, labels: bool
 ) -> tuple[list[tuple[SceneWheel, Box]], CalloutMargin]:
-    """Return the names on wheels and the names next to the plan, in inches from the origin of the train."""
+    """Return the names on wheels with their boxes, and callouts for the other names [in]; empty without `labels`."""
     written: list[tuple[SceneWheel, Box]] = []
     callouts: list[Callout] = []
     facing = [wheel for wheel in from_below(projected)[::-1] if projected.faces(wheel)] if projected.flat else []
@@ -428,7 +432,7 @@ def _names(
 
 
 def _write_above(axes: Axes, shifted: Sequence[tuple[str, str]], said: str) -> None:
-    """Write the lines on brakes and clutches, followed by the verdict, below the title."""
+    """Write the lines of text `shifted`, each with its colour, and then the verdict `said`, below the title."""
     height = axes.get_ylim()[1]
     for row, (words, color) in enumerate(shifted):
         write(axes, 0.15, height - 0.64 - 0.17 * row, words, color, ha="left", fontsize=_NOTE_SIZE, gid="elements")

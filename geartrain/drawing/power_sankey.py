@@ -80,7 +80,7 @@ def power_figure(flow: PowerFlow | Torques, title: str, watts: float | None = No
 
 
 class _NodeLabels:
-    """Labels of the nodes of a diagram, in which powers are fractions of the power input."""
+    """Texts at the nodes of a Sankey diagram, with powers as percentages of the power input or in watts."""
 
     def __init__(self, flow: PowerFlow, watts: float | None) -> None:
         self.whole, self.watts = flow.power_in, watts
@@ -110,7 +110,11 @@ class _NodeLabels:
 def _ribbon(
     axes: Axes, placed: SankeyLayout, band: Sequence[BandSegment], shift: float, width: float, color: str
 ) -> None:
-    """Draw a strip of a band across all columns, with a notch where power enters and a tip where power leaves."""
+    """Draw one stripe of a band, with a notch where power enters the train and a tip where it leaves.
+
+    shift   distance from the upper edge of the band to the upper edge of the stripe [in]
+    width   width of the stripe [in]
+    """
     upper: list[tuple[float, float]] = []
     codes: list[int] = []
     for piece in band:
@@ -134,7 +138,7 @@ def _fill(axes: Axes, points: list[tuple[float, float]], codes: list[int], color
 
 
 def _draw_return_band(axes: Axes, placed: SankeyLayout, turn: ReturnBand) -> None:
-    """Draw a return band: from its source rightwards, up, leftwards above all other bands, down, into its target."""
+    """Draw a band from its source around the top of the diagram back to its target, which is further to the left."""
     piece, w = turn.piece, turn.piece.width
     right = placed.x[piece.source.column] + piece.source.width / 2
     left = placed.x[piece.target.column] - piece.target.width / 2
@@ -150,7 +154,13 @@ def _draw_return_band(axes: Axes, placed: SankeyLayout, turn: ReturnBand) -> Non
 def _band_edge(
     right: float, far: float, left: float, near: float, start: float, end: float, lane: float, r: float
 ) -> list[tuple[float, float]]:
-    """Return the points of one edge of a return band [in], with corners rounded to the radius `r`."""
+    """Return the points of one edge of a return band [in], with corners rounded to the radius `r`.
+
+    right, left   abscissae of its ends at the source and at the target
+    far, near     abscissae of its vertical parts
+    start, end    ordinates of its ends
+    lane          ordinate of its horizontal part
+    """
     k = r * (1 - _ROUND)
     return [
         (right, start),
@@ -191,7 +201,7 @@ def _draw_node(axes: Axes, placed: SankeyLayout, spot: SankeySpot, node: PowerNo
 
 
 def _draw_loss(axes: Axes, spot: SankeySpot, x: float, text: str) -> None:
-    """Draw the power lost at a node as a band that leaves at the lower right corner and turns downwards."""
+    """Draw the loss of the node `spot` as a band from its lower right corner, at the abscissa `x`, downwards."""
     w, r, k = spot.shed, BEND, _ROUND
     y = spot.top + spot.height
     far, neck = x + r + w, y + DROP

@@ -74,7 +74,7 @@ class ProjectedScene:
         return np.asarray(np.asarray(points, dtype=float) @ self.screen.T)
 
     def axis(self, wheel: SceneWheel) -> Floats:
-        """Return the unit vector along the axis of a wheel, in the direction of the axis of its body."""
+        """Return the unit vector along the axis of a wheel in this pose."""
         return self.pose.way(wheel.body, wheel.direction)
 
     def centre(self, wheel: SceneWheel) -> Floats:
@@ -82,11 +82,12 @@ class ProjectedScene:
         return self.pose.point(wheel.body, wheel.centre)
 
     def outline(self, wheel: SceneWheel, scale: float = 1.0, height: float = 0.0, chord: float = 0.0) -> Floats:
-        """Return the tooth outline of a wheel (points, 3), times `scale`, at a height [mm] along its axis and helix.
+        """Return the tooth outline of a wheel (points, 3) [mm], enlarged by `scale` and shifted along the wheel's axis.
 
         For a lantern pinion, and for a wheel whose teeth are too small to be visible, the result is the tip circle.
 
-        chord   maximum distance [mm] of omitted points from the outline
+        height   shift along the axis [mm]; the teeth are rotated as their helix requires
+        chord    maximum distance [mm] of omitted points from the outline
         """
         profile = self.scene.profiles[wheel.profile]
         tooth = np.array(profile.points)
@@ -113,7 +114,7 @@ class ProjectedScene:
         return self._bent(wave, np.full(_ROUND, wave.middle - wave.wall / 2), angle)
 
     def _bent(self, wave: SceneWave, radius: Floats, angle: Floats) -> Floats:
-        """Return points (n, 3) of a deflected flexible wheel from radii and angles (n,) in the undeformed wheel."""
+        """Return points (n, 3) of a deflected flexible wheel [mm] from polar coordinates before deflection."""
         wheel = self.scene.wheels[wave.wheel]
         first, along = np.array(wheel.reference), np.array(wheel.direction)
         x, y = first @ wave.towards, np.cross(along, first) @ wave.towards
@@ -190,7 +191,7 @@ class ScaledPage:
 
 
 def arms_of(projected: ProjectedScene) -> Iterator[tuple[int, Floats, Floats]]:
-    """Yield each arm of a carrier: index of the carrier's body, a point of its axis, a point of the carried axis."""
+    """Yield, for every arm of a carrier, the index of the carrier's body and the arm's end points in this pose [mm]."""
     scene = projected.scene
     seen = set()
     for at, body in enumerate(scene.bodies):
@@ -225,7 +226,7 @@ def coupling_spans(
 
 
 def part_points(part: ScenePart, outline: int = 0) -> Floats:
-    """Return points (n, 3) of an outline of a flat part, or of the section of a turned part, in the zero pose [mm]."""
+    """Return points (n, 3) [mm] of one outline of a flat part, or of the section of a turned part, at all angles 0."""
     x, z = np.array(part.across), np.array(part.direction)
     if part.outlines:
         flat = np.array(part.outlines[outline]).reshape(-1, 2)
@@ -237,7 +238,7 @@ def part_points(part: ScenePart, outline: int = 0) -> Floats:
 
 
 def draw_shapes(axes: Axes, projected: ProjectedScene, place: Place) -> None:
-    """Draw the shapes of couplings: outlines of flat parts, and sections or circles of turned parts.
+    """Draw the parts of couplings, such as belts and cams: flat parts by outlines, turned parts by sections or circles.
 
     place   conversion of view coordinates (..., 3) to inches (..., 2)
     """
@@ -325,7 +326,7 @@ def oblique_callouts(projected: ProjectedScene, place: Place, wheels: Sequence[S
 def draw_across(
     axes: Axes, projected: ProjectedScene, wheel: SceneWheel, place: Place, red: set[str], order: float
 ) -> None:
-    """Draw a wheel that faces sideways in the plan as it appears from its side."""
+    """Draw a wheel whose axis is in the plane of the plan, as seen from its side, at the drawing order `order`."""
     faces = sorted(_faces(projected, wheel), key=lambda face: face.depth)
     _draw_faces(axes, [(wheel, face) for face in faces], place, red, order)
 
@@ -355,7 +356,7 @@ def _draw_faces(
 
 
 def _faces(projected: ProjectedScene, wheel: SceneWheel) -> Iterator[_Face]:
-    """Yield the faces of a wheel: strips between its ends (tiles of a worm's thread), then its far and near ends."""
+    """Yield the visible faces of a wheel: strips or, for a worm, tiles of its lateral surface, then its end faces."""
     far, near = _ends(projected, wheel)
     if wheel.kind == "worm":
         yield from _thread(projected, wheel)

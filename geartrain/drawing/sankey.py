@@ -26,7 +26,7 @@ _WIDTHS = {"in": 0.0, "out": 0.0, "shaft": 0.08, "pair": 0.2, "bearing": 0.2}
 
 @dataclass(eq=False)
 class SankeySpot:
-    """Node in its column of the diagram; if `node` is None, the position at which a band passes a column."""
+    """Box of a node in a column of the diagram; without a node, the gap in a column through which a band passes."""
 
     node: PowerNode | None
     column: int
@@ -68,7 +68,7 @@ class SankeySpot:
 
 @dataclass(eq=False)
 class BandSegment:
-    """Segment of a band between two spots; only return bands skip columns."""
+    """Segment of a band between two boxes: in adjacent columns, or in any two columns if the power circulates."""
 
     source: SankeySpot
     target: SankeySpot
@@ -89,7 +89,7 @@ class BandSegment:
 
 @dataclass(frozen=True)
 class ReturnBand:
-    """Band that leads power back."""
+    """Band that returns circulating power from a box to a box further left, above all other bands."""
 
     piece: BandSegment
     right: float
@@ -126,7 +126,7 @@ _CLEAR = 0.06  # between text and a return band next to it
 def turns(
     table: Sequence[Sequence[SankeySpot]], back: Sequence[BandSegment]
 ) -> tuple[list[ReturnBand], dict[tuple[int, bool], float]]:
-    """Return the return bands, with the shortest band innermost, and the space that they require at columns [in].
+    """Return the path of each return band, and the width [in] that these bands require on either side of each column.
 
     The space is keyed by (column, True) for the right side and (column, False) for the left side.
     """
@@ -151,7 +151,7 @@ def turns(
 def abscissae(
     table: Sequence[Sequence[SankeySpot]], room: Mapping[tuple[int, bool], float], minimum: float
 ) -> list[float]:
-    """Return the abscissae of column centres [in], with space for names and return bands, at least `minimum` wide."""
+    """Return the abscissae of column centres [in], with space for names and bands, for a given `minimum` width."""
     left = [max(spot.left for spot in column) for column in table]
     right = [max(spot.right for spot in column) for column in table]
     lost = [max(spot.lost for spot in column) for column in table]
@@ -174,7 +174,10 @@ _BACK = 1.1  # maximum height of all return bands together
 
 
 def collapsed(flow: PowerFlow) -> tuple[dict[PowerNode, Fraction], list[PowerStream]]:
-    """Return the losses by node, and the streams, with each bearing that only one shaft feeds merged into the shaft."""
+    """Return the losses by node, and the streams of power between nodes.
+
+    A bearing that takes power from only one shaft is omitted, and its loss is added to the shaft's loss.
+    """
     gives = {stream.source for stream in flow.streams}
     takers: dict[PowerNode, list[PowerNode]] = {}
     for stream in flow.streams:
@@ -226,7 +229,11 @@ def find_columns(ahead: Sequence[PowerStream]) -> dict[PowerNode, int]:
 def make_bands(
     spots: Mapping[PowerNode, SankeySpot], ahead: Sequence[PowerStream], back: Sequence[PowerStream], scale: float
 ) -> tuple[list[list[BandSegment]], list[SankeySpot]]:
-    """Return streams as bands of segments, and a list of the spots at which bands pass columns."""
+    """Return streams as bands of segments, and a list of the gaps through which bands pass columns.
+
+    ahead, back   forward and circulating streams
+    scale         width of a band per unit of power [in]
+    """
     bands: list[list[BandSegment]] = []
     passing: list[SankeySpot] = []
     for stream in (*ahead, *back):
@@ -344,7 +351,10 @@ def settle_heights(table: Sequence[list[SankeySpot]]) -> None:
 
 
 def _level_top(spot: SankeySpot, before: bool, after: bool) -> tuple[float, float]:
-    """Return the top [in] of a spot at which its bands are level, and the weight of this position."""
+    """Return the top [in] at which the bands of a box would be level, and the total weight of these bands.
+
+    before, after   True to include the bands on the left side or on the right side
+    """
     shift = weight = 1e-9
     for sense, pieces in ((1, spot.before if before else ()), (-1, spot.after if after else ())):
         for piece in pieces:

@@ -80,7 +80,7 @@ _FAR = 24  # steps that a name may be moved beyond its vertical line
 
 @dataclass(frozen=True, slots=True)
 class _Label:
-    """Text to be written on the diagram, with its candidate positions from best to worst."""
+    """Label of a stick diagram, with its possible boxes from best to worst."""
 
     text: str
     color: str
@@ -90,7 +90,7 @@ class _Label:
 
 @dataclass(slots=True)
 class StickLabels:
-    """All labels of a diagram. Labels of links are placed first, then labels of wheels, then labels of axes."""
+    """All labels of a stick diagram in order of priority: names of links, of wheels and couplings, and of axes."""
 
     room: LabelSpace = field(default_factory=LabelSpace)
     links: list[_Label] = field(default_factory=list)
@@ -119,7 +119,7 @@ class StickLabels:
         self.links.append(_Label(link, BLACK, places, {"fontsize": _LINK_NAME, "fontweight": "bold"}))
 
     def name_upright(self, text: str, x: float, ends: tuple[float, float], color: str) -> None:
-        """Add a label along a vertical line, to the right or left of the line, as close to its middle as possible."""
+        """Add a label next to the vertical line at `x` between `ends` [in], as close to its middle as possible."""
         places = tuple(_along(text, x, ends))
         self.wheels.append(_Label(text, color, places, {"fontsize": FINE, "rotation": 90}))
 
@@ -172,7 +172,7 @@ REACH = 0.34  # inches from a planet's axis to where its ring touches it
 
 @dataclass(frozen=True, slots=True)
 class StickMesh:
-    """Gear pair or coupling in its column between two rows."""
+    """Gear pair or coupling of a stick diagram: a vertical line in a column, between the heights of its two shafts."""
 
     name: str
     kind: str
@@ -401,7 +401,7 @@ def stick_figure(train: GearTrain, labels: bool = True, state: str | None = None
 
 
 class _Drawing:
-    """Drawing of a diagram in progress. A wheel that appears in several columns is named only once."""
+    """Drawing of a stick diagram in progress, with the parts that are already drawn."""
 
     def __init__(self, axes: Axes, train: GearTrain, skeleton: StickSkeleton, state: str | None) -> None:
         self.axes, self.train, self.skeleton, self.case = axes, train, skeleton, train.declaration.case(state)
@@ -516,13 +516,13 @@ class _Drawing:
             self.words.name_upright(mesh.name, x, (low, high), PURPLE)
 
     def _name_wheel(self, wheel: str, x: float, ends: tuple[float, float], color: str) -> None:
-        """Add the name and tooth count of a wheel along its line, unless another line of the wheel has this label."""
+        """Add the name and tooth count of a wheel along its vertical line, unless another line of it has this label."""
         if wheel not in self.feet:
             self.feet[wheel] = (x, ends[0])
             self.words.name_upright(f"{wheel} {self.train.declaration.wheels[wheel][1].count}", x, ends, color)
 
     def draw_wheel_line(self, x: float, foot: float, end: float, wheel: str, link: str) -> None:
-        """Draw a wheel as a line from its shaft to its mate, connected to any earlier line of the same wheel."""
+        """Draw a wheel as a vertical line at `x` from its shaft (`foot`) to its mate (`end`) [in]."""
         draw_line(self.axes, [x, x], [foot, end], BLUE, WHEEL, zorder=3, gid=f"wheel {wheel}")
         if link == self.train.declaration.frame:
             self._ground(x, foot)
@@ -541,7 +541,7 @@ class _Drawing:
         draw_bearing(self.axes, crank.x, far, ORANGE, not own.isdisjoint(self.train.declaration.sliding))
 
     def tick(self, x: float, y: float, kind: str) -> None:
-        """Draw a tooth mark at the end of a wheel: level, slanted (bevel, contrate), or long and dashed (worm)."""
+        """Draw a tooth mark at (x, y) [in]: level, slanted (bevel, contrate), or long and dashed (worm)."""
         lean = {"bevel": 0.06, "contrate": 0.06}.get(kind, 0.0)
         reach = TICK * (1.6 if kind == "worm" else 1.0)
         style = (0, (1.2, 0.8)) if kind == "worm" else "-"

@@ -55,7 +55,7 @@ def find_levels(
 
 
 def _ends(axis: str, shafts: dict[str, StickShaft]) -> tuple[float, float]:
-    """Return the interval [in] that an axis occupies on its level, including the names before and after the axis."""
+    """Return the interval [in] that an axis, the names of its links and its own name occupy on its level."""
     own = [shaft for shaft in shafts.values() if shaft.axis == axis]
     left = min(min(shaft.xs) - 0.25 - 0.085 * len(shaft.link) for shaft in own)
     return left, max(max(shaft.xs) for shaft in own) + 0.35 + 0.065 * len(axis)
@@ -73,7 +73,11 @@ def _cost(
     ends: dict[str, tuple[float, float]],
     spans: Sequence[tuple[str, str, float]],
 ) -> float:
-    """Return the cost of placing an axis on the level `here`, from the lengths, crossings and overlaps of its lines."""
+    """Return the cost of placing an axis on a level: lengths [levels], crossings and overlaps of its vertical lines.
+
+    here    number of the level
+    spans   vertical lines: the two axes and the abscissa of each line
+    """
     cost = 0.3 * abs(here)
     placed = {**level, axis: here}
     known = [(*sorted((placed[one], placed[other])), x, axis in (one, other)) for one, other, x in spans
@@ -214,7 +218,7 @@ def _free_column(
     axis_of: dict[str, str],
     row: dict[str, int],
 ) -> int:
-    """Return the index of the first column in which a mesh hides no other (a ring occupies two); add it to `taken`."""
+    """Return the first column with space for a mesh (two columns for a ring), and mark the space as `taken`."""
     one, other = (row[axis_in(train, axis_of, link, circuit.carrier)] for link in (circuit.i, circuit.j))
     low, high = float(min(one, other)), float(max(one, other))
     ring = ring_of(train, circuit)

@@ -75,11 +75,10 @@ def draw_element(
 ) -> None:
     """Draw the plates of a brake or clutch, which are close together if it is closed.
 
-    A triangle between the plates marks a one-way clutch: it points to the plate that may turn forward relative to the
-    other plate.
+    A one-way clutch has a triangle, which points to the plate that can overrun the other plate.
 
-    place   middle of the plates
-    ends    height of the shaft of each link, or None for the frame
+    place   middle of the plates [in]
+    ends    height of the shaft of each link [in], or None for the frame
     """
     x, middle = place
     color = PURPLE if closed else GREY
@@ -103,7 +102,7 @@ def draw_element(
 
 
 def draw_belt(axes: Axes, x: float, ends: tuple[float, float], crossed: bool, name: str) -> None:
-    """Draw two pulleys on their shafts and both strands of the belt between them, which may cross."""
+    """Draw two pulleys at the heights `ends` [in], and both strands of the belt between them, which may cross."""
     for y in ends:
         _box(axes, x, y, _PULLEY, PURPLE, gid=f"pulley {name}")
     low, high = min(ends) + _PULLEY[1], max(ends) - _PULLEY[1]
@@ -113,7 +112,7 @@ def draw_belt(axes: Axes, x: float, ends: tuple[float, float], crossed: bool, na
 
 
 def draw_screw(axes: Axes, x: float, screw: float, nut: float, name: str) -> None:
-    """Draw a nut around the thread of a shaft, and the stem from the nut to its link."""
+    """Draw a nut on the threaded shaft at the height `screw` [in], and a stem to its link at the height `nut`."""
     _stem(axes, x, nut, screw, name)
     _box(axes, x, screw, (0.11, 0.07), PURPLE, gid=f"nut {name}")
     xs = [x - 0.11 + 0.22 * at / 8 for at in range(9)]
@@ -121,7 +120,7 @@ def draw_screw(axes: Axes, x: float, screw: float, nut: float, name: str) -> Non
 
 
 def draw_rack(axes: Axes, x: float, meet: float, ends: tuple[float, float], name: str) -> None:
-    """Draw a pinion on a stem from the first end, and a long toothed bar on a stem from the second end."""
+    """Draw a pinion and a toothed bar that touch at the height `meet`, each on a stem from a shaft at `ends` [in]."""
     side = 1 if ends[1] > meet else -1
     for foot, level, half, color in (
         (ends[0], meet - 0.032 * side, TICK, BLUE),
@@ -138,7 +137,7 @@ def draw_drum(axes: Axes, x: float, drum: float, link: float, name: str) -> None
 
 
 def draw_joint(axes: Axes, x: float, meet: float, ends: tuple[float, float], kind: str, name: str) -> None:
-    """Draw a universal joint as a cross in a circle, and any other transmission as a box with a diagonal."""
+    """Draw a universal joint as a cross in a circle, and any other kind of transmission as a box with a diagonal."""
     for foot in ends:
         _stem(axes, x, foot, meet, name)
     if kind == "universal_joint":

@@ -198,7 +198,7 @@ def curve_panels(heights: Sequence[float], margin: float = 0.0, share: bool = Tr
 
 
 class Row(NamedTuple):
-    """One row of a chart of marks and intervals."""
+    """Row of a chart: its name, its marks, its intervals, and the texts to its right."""
 
     name: str
     marks: Mapping[str, float]
@@ -370,7 +370,7 @@ def after_turns(scene: Scene, turns: Fraction) -> str:
 
 
 def too_many(train: GearTrain, count: int, most: int, what: str) -> None:
-    """Raise `QuestionError` if a picture would show more than `most` items of a kind."""
+    """Raise `QuestionError` if `count` items of the kind `what` exceed `most`, the number that a picture can show."""
     if count > most:
         found, why = (
             f"'{train.name}' has {count} {what}, too many for this picture",

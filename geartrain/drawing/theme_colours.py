@@ -109,7 +109,7 @@ class _Painter:
             self._fill(artist, *area)
 
     def _fill(self, artist: Any, colour: Rgba, hatch: str) -> None:
-        """Fill an area with the theme's colour and hatch. Outline and hatch are drawn in the theme's ink colour."""
+        """Fill an area with a colour and a hatch; draw the outline and the hatch in the ink colour of the theme."""
         self._put(artist.set_facecolor, artist.get_facecolor(), colour)
         self._put(artist.set_edgecolor, artist.get_edgecolor(), THEMES[self.name].ink)
         if hasattr(artist, "set_hatchcolor"):  # from matplotlib 3.11 on, hatch and edge have separate colours
@@ -129,7 +129,7 @@ def _set_grid(axis: Axis, colour: Any) -> None:
 
 
 def _area_of(artist: Artist, name: ThemeName) -> tuple[Rgba, str] | None:
-    """Return the fill colour and hatch of an area in a series colour; None for other areas, and in other themes."""
+    """Return the fill colour and hatch of an area that has a colour of a data series; None if it has none."""
     areas = THEMES[name].areas
     if not areas or isinstance(artist, (Circle, FancyArrowPatch)) or not isinstance(artist, (Patch, PolyCollection)):
         return None

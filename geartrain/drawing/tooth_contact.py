@@ -76,7 +76,7 @@ DRIVER, DRIVEN = 1, 2
 
 @dataclass(frozen=True, slots=True)
 class ToothPairPose:
-    """Pose of two wheels. The teeth in contact are at the angles alpha_1 and alpha_2 [rad] from the line of centres."""
+    """Two wheels with triangular teeth, with one tooth of each wheel at the angles alpha_1 and alpha_2 [rad]."""
 
     sizes: TriangularSizes
     phase: str
@@ -87,7 +87,7 @@ class ToothPairPose:
     direction: int
 
     def wheel(self, which: int) -> tuple[int, float, float, float]:
-        """Return the tooth count, tip radius, root radius of a wheel, and the angle of its tooth in contact [rad]."""
+        """Return the tooth count, the tip and root radii, and the angle [rad] of wheel 1 (driver) or 2 (driven)."""
         sizes = self.sizes
         if which == DRIVER:
             return sizes.z1, sizes.R1, sizes.R1 - sizes.signs[0] * sizes.depths[0], self.alpha1
@@ -99,14 +99,14 @@ class ToothPairPose:
         return self.sizes.signs[1] * self.sizes.D
 
     def place(self, which: int, radius: float | Floats, angle: float | Floats) -> Floats:
-        """Return points (..., 2) of a wheel from radii and angles [rad] from the line of centres to the entry side."""
+        """Return points (..., 2) of wheel 1 or 2 from radii and angles [rad], measured from the line of centres."""
         along: Floats = radius * np.cos(angle)
         across: Floats = radius * np.sin(angle)
         x = along if which == DRIVER else self.axis2 - self.sizes.side * along
         return np.stack([x, self.direction * across], axis=-1)
 
     def outline(self, which: int, within: float = pi) -> Floats:
-        """Return vertices (n, 2) of the teeth of a wheel within an angle [rad] from the line of centres.
+        """Return vertices (n, 2) of a wheel's teeth within an angle [rad] from the line of centres.
 
         If `within` is less than pi, the centre of an external wheel is also a vertex. The body of a ring ends at a
         circle beyond its roots.
@@ -153,7 +153,7 @@ class ToothPairPose:
 
 
 def tooth_pair_pose(transmission: TriangularTransmission, alpha1: float | None = None) -> ToothPairPose:
-    """Return the pose with a driver tooth at `alpha1` [rad], by default the middle of the first interval of contact."""
+    """Return the pose with a driver's tooth at `alpha1` from the line of centres [rad], by default at mid-contact."""
     if alpha1 is None:
         interval = transmission.intervals[0]
         x = (interval.start + interval.end) / 2
@@ -219,7 +219,7 @@ class ToothViewport:
         return (self.top - self.bottom) / (self.right - self.left)
 
     def within(self, here: ToothPairPose, which: int) -> float:
-        """Return the half-angle [rad] of the sector about the line of centres with the visible part of a wheel."""
+        """Return the half-angle [rad] of a sector about the line of centres that contains a wheel's visible part."""
         if self.whole:
             return pi
         z = here.wheel(which)[0]
@@ -275,7 +275,7 @@ def _wheel(axes: Axes, here: ToothPairPose, which: int, view: ToothViewport) -> 
 
 
 def _turning(axes: Axes, here: ToothPairPose, which: int, view: ToothViewport) -> None:
-    """Draw an arrow in the sense of rotation of a wheel, and the wheel's name. A driven wheel at rest has no arrow."""
+    """Draw an arrow in the sense of rotation of wheel 1 or 2, and the wheel's name. A wheel at rest has no arrow."""
     z, tip, root, _ = here.wheel(which)
     pitch = 2 * pi / z
     inwards = 1 if tip > root else -1

@@ -190,7 +190,11 @@ def _values(
     x: Floats,
     held: float | None = None,
 ) -> tuple[tuple[Floats, ...], ...]:
-    """Return the curves of each panel (as in `_LABELS`) at driver angles alpha_1 = x [rad], NaN where undefined."""
+    """Return the values of each panel (as in `_LABELS`) at the driver's angles x [rad]; NaN where undefined.
+
+    phase   "approach" or "recess": which tooth's tip is in contact
+    held    angle of the driven wheel at rest [rad]; None if it turns
+    """
     if held is not None:
         none = np.full_like(x, np.nan)
         return (np.full_like(x, degrees(held)),), (np.zeros_like(x),), (none,), (none, none)
@@ -221,7 +225,7 @@ def _limits(ideal: Floats, real: Floats) -> tuple[float, float]:
 
 
 def _matching(panels: list[Axes], transmission: TriangularTransmission) -> None:
-    """Draw a line at the angle at which the flanks coincide, if it is within the plotted range of driver angles."""
+    """Draw a vertical line at the driver's angle at which a flank of the driver coincides with a flank of the mate."""
     matching = transmission.sizes.matching
     if abs(matching) >= transmission.sizes.reach1:
         return
@@ -235,7 +239,7 @@ def _matching(panels: list[Axes], transmission: TriangularTransmission) -> None:
 
 
 def _jumps(axes: Axes, transmission: TriangularTransmission) -> None:
-    """Draw each impact, at which the next tooth pair starts to drive, with the speed ratios before and after it."""
+    """Draw a dotted line between the speed ratios before and after each change of the tooth pair that drives."""
     turns = zip(transmission.intervals, (*transmission.intervals[1:], transmission.intervals[0]), strict=True)
     hits = [(last, new) for last, new in turns if new.held is None]
     for (last, new), jump in zip(hits, transmission.jumps, strict=True):
@@ -409,8 +413,9 @@ def _label_flank_panel(axes: Axes, text: str) -> None:
 
 
 def _quantities(pitch: PitchSurfaces, unit: float) -> Iterator[tuple[str, Callable[[PathContact], Floats]]]:
-    """Yield the label and the function of each plotted quantity. Lengths are in modules so that spur and bevel gears
-    can be compared.
+    """Yield the label and the function of each quantity of the path of contact.
+
+    unit   length of a module in the unit of the path, so that spur and bevel gears can be compared
     """
     # H has the dimension 1/length, and the flash temperature length**(-1/4)
     yield r"Hertz pressure $\sqrt{H}$", lambda c: np.sqrt(c.H * unit)

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class BentWheel:
-    """Flexible wheel of a strain wave gear in a layout, and the wave generator that deforms the wheel."""
+    """Flexible wheel of a strain wave gear, the link that deforms it, and the offset and lobes of its wave."""
 
     wheel: str
     link: str
@@ -68,7 +68,10 @@ def bent_wheels(train: GearTrain, layout: Layout) -> Iterator[BentWheel]:
 def bend(
     stage: SceneContext, bodies: Sequence[SceneBody], wheels: Sequence[SceneWheel]
 ) -> tuple[tuple[SceneBody, ...], tuple[SceneWheel, ...], tuple[SceneWave, ...]]:
-    """Return the bodies, wheels and strain waves, with flexible wheels moved to the axes of their wave generators."""
+    """Return bodies, wheels and strain waves; flexible wheels are moved to the axes of their wave generators.
+
+    A flexible wheel is declared off centre, on an axis that the generator carries.
+    """
     bent, moved, waves = list(bodies), list(wheels), []
     for each in bent_wheels(stage.train, stage.layout):
         at, by = stage.wheel[each.wheel], stage.body[each.link]
@@ -175,7 +178,7 @@ def _spread(low: float, high: float) -> list[float]:
 
 
 def _half(z: float, r: float) -> float:
-    """Return half the angle [rad] of an undercut involute tooth of a wheel with `z` teeth at `r` pitch radii."""
+    """Return the half-angle [rad] of a tooth with `z` teeth per turn at the radius `r` [pitch radii], with undercut."""
     base = cos(_PRESSURE)
     inner = 0.0 if r <= base else sqrt((r / base) ** 2 - 1) - acos(base / r)
     involute = (pi / 2 * (1 - 2 * _BACKLASH)) / z + tan(_PRESSURE) - _PRESSURE - inner
@@ -250,7 +253,7 @@ def find_profiles(stage: SceneContext) -> tuple[dict[str, ToothProfile], tuple[P
 
 
 def _notices(stage: SceneContext, toothed: TrainTeeth) -> Iterator[Problem]:
-    """Yield notices on planar wheels that are not drawn as cut, and on flexible wheels without a wave generator."""
+    """Yield notices on planar wheels drawn with approximate teeth, and on flexible wheels without a wave generator."""
     by_reason: dict[tuple[str, str, str, bool], list[str]] = {}
     for wheel, problems in toothed.problems.items():
         if wheel in toothed.flat:
@@ -370,7 +373,7 @@ def _wheel(
 
 
 def flip(stage: SceneContext, place: WheelPlace) -> int:
-    """Return -1 if the declared axis of a wheel is opposite to the reference direction of its axis, 1 if not."""
+    """Return -1 if an axis is declared opposite to the reference direction of its parallel axes, else 1."""
     return 1 if stage.along(place.axis) == stage.reference(place.axis) else -1
 
 
@@ -391,7 +394,7 @@ def _uncertainty(wheel: Declared) -> str:
 
 
 def _losses(stage: SceneContext) -> dict[str, float]:
-    """Return the fraction of the input power lost at each wheel: half the loss of its pairs; empty if unknown."""
+    """Return the fraction of the input power that is lost at each wheel: half the loss of each of its pairs."""
     declared = stage.train.declaration
     if not stage.answer.verdict or not declared.is_loaded(stage.answer.state):
         return {}

@@ -82,7 +82,7 @@ _ROUNDS = 4
 
 
 class _Mounting:
-    """Finds `turns`, the angles [rad] by which wheels turn from the reference position so that their teeth mesh."""
+    """Search for the angles `turns` [rad] of all wheels, from their reference directions, at which their teeth mesh."""
 
     def __init__(self, stage: SceneContext, moved: MovementStart) -> None:
         self.stage, self.moved = stage, moved
@@ -131,7 +131,7 @@ class _Mounting:
                     queue.append(mate)
 
     def _mesh(self, circuit: Circuit, own: int) -> None:
-        """Rotate one wheel of a pair into mesh with the wheel of index `own` (0 or 1), whose angle is known."""
+        """Set the angle of a wheel's mate so that they mesh; `own` is the index (0 or 1) of the wheel in the pair."""
         position = driving = self._position(circuit, own)
         if own == self._driver(circuit):
             self._set(circuit, 1 - own, position + self._ahead(circuit, position))
@@ -144,7 +144,10 @@ class _Mounting:
             self.off.append(circuit.id)
 
     def _shift(self, circuit: Circuit, position: float) -> float:
-        """Return the lead of the driver's tooth over its phase in the transmission function [pitches, -1/2 to 1/2]."""
+        """Return by how much the driver's tooth is ahead of its position in the transmission function [pitches].
+
+        position   position of the driver's tooth, forwards from the line of centres [pitches]
+        """
         setting = self.moved.driving.get(circuit.id)
         if setting is None:
             return 0.0
@@ -153,10 +156,10 @@ class _Mounting:
         return shift if abs(shift) > _NEAR else 0.0
 
     def _ahead(self, circuit: Circuit, position: float | None = None) -> float:
-        """Return the lead of the driven wheel's tooth over the driver's tooth, in the sense of rotation [pitches].
+        """Return by how much a tooth of the driven wheel is ahead of a tooth of the driver in mesh [pitches].
 
-        If the driver's tooth, at `position` [pitches], is off the phase of the transmission function, the driven tooth
-        is advanced until the driver does not interfere with it at any position.
+        If the driver's tooth at `position` [pitches] is not where the transmission function requires it, the driven
+        tooth is advanced until the driver does not interfere with it at any position.
         """
         mesh = self.meshes.get(circuit.id)
         if mesh is None:
@@ -189,13 +192,13 @@ class _Mounting:
         return self._way(circuit, at) * (self.turns[wheel] - self._zero(circuit, at)) / self._pitch(wheel)
 
     def _set(self, circuit: Circuit, at: int, position: float) -> None:
-        """Rotate a wheel so that one of its teeth is at a given position [pitches]."""
+        """Rotate a wheel so that one of its teeth is `position` pitches past the line of centres, forwards."""
         wheel = circuit.wheels[at]
         pitch = self._pitch(wheel)
         self.turns[wheel] = (self._zero(circuit, at) + self._way(circuit, at) * (position % 1) * pitch) % (2 * pi)
 
     def _zero(self, circuit: Circuit, at: int) -> float:
-        """Return the angle at which the first tooth of a wheel is initially on the line of centres [rad]."""
+        """Return the angle of a wheel [rad] at which its first tooth is on the line of centres at the start."""
         place = self.stage.layout.wheels[circuit.wheels[at]]
         axis = self.stage.reference(place.axis)
         rest = self.moved.rest[(circuit.i, circuit.j)[at]] - self.moved.rest[circuit.carrier]
@@ -217,8 +220,8 @@ class _Mounting:
         if self.off:
             yield Problem(
                 f"the teeth of {', '.join(self.off)} are drawn out of phase",
-                "the driver of each of these pairs has several mates, and the first mesh determines its angle; driven "
-                "teeth are rotated until no teeth overlap, and touch only once per pitch; the motion is exact",
+                "a driver with several mates can be in phase with only one of them; in the other pairs teeth do not "
+                "overlap, but touch only once per pitch, and the motion is exact",
                 "",
             )
 
@@ -285,7 +288,7 @@ def _name(requested: tuple[str, str]) -> str:
 
 
 def _parent(train: Train) -> str:
-    """Return the name by which a declaration can extend the train: the name of the bundled example or of the file."""
+    """Return the value of `extends` with which a declaration can change this train: a train's name or a file name."""
     from geartrain.train.declaration_files import shipped
 
     file = train.place("name").rpartition(":")[0]
@@ -296,7 +299,7 @@ def _parent(train: Train) -> str:
 
 
 class _Table:
-    """Table of the distinct formulas of a scene, in which each formula has an index."""
+    """Formulas of a scene without duplicates; bodies and pointers refer to them by index."""
 
     def __init__(self, place: Mapping[str, int]) -> None:
         self.place = place  # index of the count of each wheel

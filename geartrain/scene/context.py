@@ -29,7 +29,7 @@ _MOST_LINKS = 100  # maximum number of links used as outputs
 
 @dataclass(frozen=True)
 class SceneContext:
-    """Train in one state, with its layout and the indices of its bodies and wheels."""
+    """Train in one state, with its solution and layout, and quantities that several builders of scene elements need."""
 
     train: GearTrain
     answer: Answer
@@ -63,7 +63,7 @@ class SceneContext:
 
     @cached_property
     def driving_link(self) -> str | None:
-        """First input with a speed other than 0, whose turns are prescribed; None if no link is driven."""
+        """Name of the first input link with a speed other than 0; None if no link is driven."""
         return next((link for link, speed in self.case.inputs.items() if speed), None)
 
     @cached_property
@@ -181,5 +181,5 @@ def exact(value: Fraction | None) -> str | None:
 
 
 def packed_key(name: str, kind: Literal["<f8", "<f4", "<u4"] = "<f8") -> Key:
-    """Return the key of an array of little-endian numbers of the given type, which is stored as base64 text."""
+    """Return the JSON key of an array attribute that is written as base64 text of little-endian numbers."""
     return Key(name, ".", to=lambda result: packed(getattr(result, name), kind))

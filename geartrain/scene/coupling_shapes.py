@@ -31,7 +31,7 @@ _GAP = 1.5  # distance between shapes and wheels along the axis [mm]
 
 @dataclass(frozen=True)
 class _CouplingPlace:
-    """Coupling with one of its circuits, positioned between two axes of the layout."""
+    """Coupling to be drawn: its declaration, its circuit, and one point on each of its two axes."""
 
     stage: SceneContext
     declared: Any
@@ -61,7 +61,12 @@ class _CouplingPlace:
     def flat(
         self, link: str, kind: str, at: Vector, towards: Vector, *outlines: Sequence[Point], height: float = _THICK
     ) -> ScenePart:
-        """Return a flat part of a link, with outlines relative to the point `at` and the x axis along `towards`."""
+        """Return a flat part of a link with the given outlines, whose origin is at the point `at` [mm].
+
+        kind      kind of the part, which is also added to its name
+        towards   direction of the x axis of the outlines
+        height    thickness of the part [mm]
+        """
         lines = [[value for point in line for value in point] for line in outlines]
         name, body = f"{self.circuit.id} {kind}", self.stage.body[link]
         return ScenePart(body, name, kind, at, self.axis, across(towards, self.axis), (), lines, height)
@@ -69,7 +74,12 @@ class _CouplingPlace:
     def turned(
         self, link: str, kind: str, at: Vector, radius: float, low: float, high: float, way: Vector | None = None
     ) -> ScenePart:
-        """Return a cylinder of a link from `low` to `high` [mm] relative to `at`, along `way` or the axis."""
+        """Return a cylinder of a link about an axis through the point `at` [mm].
+
+        kind        kind of the part, which is also added to its name
+        low, high   positions of the ends, measured from `at` [mm]
+        way         direction of the axis; None for the direction of the coupling's axes
+        """
         direction = self.axis if way is None else way
         name, body = f"{self.circuit.id} {kind}", self.stage.body[link]
         return ScenePart(body, name, kind, at, direction, beside_axis(direction), ((low, high, radius, 0.0),))
@@ -80,7 +90,11 @@ class _CouplingPlace:
         return SceneHanger("rod", body[link], at, self.axis, way, length, 0.0, radius, to=body[to])
 
     def guides(self, at: Vector, way: Vector, aside: float, reach: float) -> Iterator[ScenePart]:
-        """Yield two guide bars on the carrier, parallel to a slide, at the distance `aside` [mm] from its line."""
+        """Yield two bars on the carrier that guide a sliding block.
+
+        at      middle of the path of the block [mm]; `way` is the direction in which it slides
+        aside   distance of each bar from the path [mm]; `reach` is half the length of a bar [mm]
+        """
         up, high = cross(self.axis, way), 0.15 * aside
         for side in (1, -1):
             bar = _bar((-reach, 0.0), (reach, 0.0), 2 * high)
@@ -111,7 +125,7 @@ def find_shapes(stage: SceneContext) -> tuple[tuple[ScenePart, ...], tuple[Scene
 
 
 def _placed(stage: SceneContext, coupling: Coupling, circuit: Circuit, level: int) -> _CouplingPlace:
-    """Return a coupling with one point on each of its axes, both at one height above all wheels of the scene."""
+    """Return a coupling with the points of its axes at one height above all wheels; `level` counts drawn couplings."""
     tree = stage.train.kinematics.tree
     labels = tree.axis_seen_from(circuit.carrier, circuit.j), tree.axis_seen_from(circuit.carrier, circuit.i)
     axis = stage.reference(labels[0])
@@ -221,7 +235,11 @@ def _is_idle(stage: SceneContext, link: str) -> bool:
 
 
 def _pulley_radii(stage: SceneContext, declared: Any, ends: Sequence[str], flat: Sequence[Point]) -> list[float]:
-    """Return the pitch radii of the pulleys [mm], reduced if pulleys would overlap."""
+    """Return the pitch radii of the pulleys of a belt [mm], reduced if pulleys would overlap.
+
+    declared   declared belt
+    ends       links of the pulleys; `flat` are the positions of their axes [mm]
+    """
     around = declared.around
     if isinstance(around, Mapping):
         radii = [millimetres_of(length, float(length.value)) / 2 for length in around.values()]
@@ -540,7 +558,11 @@ def _universal(places: Sequence[_CouplingPlace]) -> Iterator[ScenePart]:
 def _fork(
     stage: SceneContext, name: str, link: str, centre: Vector, way: Vector, pin: Vector, wide: float
 ) -> ScenePart:
-    """Return a fork with two prongs, which hold the ends of the pin on the two sides of the centre."""
+    """Return the fork of a universal joint, whose two prongs hold the ends of a pin.
+
+    way    unit vector along the shaft of the fork, from the centre of the joint
+    pin    unit vector along the pin; `wide` is half its length [mm]
+    """
     a, b = 0.7 * wide, 0.45 * wide
     outline = [(-0.2 * wide, b), (0.7 * wide, b), (0.7 * wide, -b), (-0.2 * wide, -b)]
     outline += [(-0.2 * wide, -a), (1.1 * wide, -a), (1.1 * wide, a), (-0.2 * wide, a)]

@@ -73,14 +73,14 @@ def find_dependence(stage: SceneContext) -> Mapping[str, tuple[str, ...]]:
 
 
 def _seen(stage: SceneContext, of: str, base: str) -> dict[str, int]:
-    """Return the speed of the link `of` relative to the link `base`: coefficients of declared speeds, by name."""
+    """Return the coefficients, by link, with which speeds are added to give the speed of `of` relative to `base`."""
     found, base = {of: 1}, stage.train.kinematics.tree.reference(of, base)
     found[base] = found.get(base, 0) - axis_sense(of, base, stage.train.kinematics.signs)
     return found
 
 
 def _weights(system: WillisSystem, outputs: Sequence[Mapping[str, int]]) -> list[set[str]]:
-    """Return, for each output, the labels of the equations on which it depends; redundant equations are omitted."""
+    """Return, for each output, the labels of the equations (of pairs, inputs and brakes) that determine its speed."""
     columns: dict[str, LinearForm] = {link: {} for link in system.links}
     for at, row in enumerate(system.equations):
         for link, coefficient in row.terms:
@@ -188,7 +188,10 @@ def find_dials(stage: SceneContext) -> Mapping[Key, DialFace]:
 
 @lru_cache(maxsize=64)
 def _engraving(scale: DialScale) -> tuple[tuple[str, float, tuple[tuple[int, ...], ...]], ...]:
-    """Return the engraved lines of a scale, each as integer steps between points, in 1/4,000 of the dial's radius."""
+    """Return the kind, the line width and the lines of each part of an engraving as tuples, which can be compared.
+
+    A line is stored as integer differences of successive coordinates, in 1/4,000 of the dial's radius.
+    """
     return tuple((each.kind, round(each.width, 4), tuple(map(_differences, each.lines))) for each in engrave(scale))
 
 
@@ -203,7 +206,7 @@ def _differences(line: Stroke) -> tuple[int, ...]:
 
 
 def with_balls(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tuple[DialFace, ...]:
-    """Return the dials after moving each ball into the pointer of the link that carries the ball, if one exists."""
+    """Return the dials, with each ball that shows the Moon's phase moved into the hand that carries it."""
     found = list(dials)
     for at, face in enumerate(dials):
         own = (each for each in pointers if each.body == face.body and each.dial is not None)
@@ -297,7 +300,10 @@ def _faces(stage: SceneContext, wheel: WheelPlace, way: Vector) -> tuple[float, 
 
 
 def _fitted(faces: dict[Key, DialFace], gap: float) -> dict[Key, DialFace]:
-    """Return the dials in the same order, nested if they are about one axis, with radii reduced to avoid overlaps."""
+    """Return the dials with radii reduced so that no dials overlap.
+
+    Dials about one axis are nested, and each is `gap` / 4 [mm] above the previous one.
+    """
     about: dict[tuple[Vector, Vector], list[Key]] = {}
     for key, face in faces.items():
         about.setdefault((_rounded(face.centre), _rounded(face.normal)), []).append(key)
@@ -345,9 +351,9 @@ def find_pointers(stage: SceneContext, dials: Mapping[Key, DialFace]) -> tuple[P
 
 
 def _orbit(stage: SceneContext, name: str, face: DialFace) -> tuple[float, float]:
-    """Return the outermost distance of a bead from the dial centre, and its radius, both in radii of the scale.
+    """Return the outer radius of the ring that a bead (a ball used as a pointer) covers, and the radius of the bead.
 
-    The beads of a dial move on equidistant rings within the scale; the ring of the first output is innermost.
+    Both are in radii of the scale. The rings of a dial are equidistant; the ring of the first output is innermost.
     """
     dial = stage.outputs[name].dial
     rings = [each for each, output in stage.outputs.items() if output.hand == "bead" and output.dial == dial]
@@ -457,7 +463,10 @@ def angles_at_start(
 
 
 def find_targets(stage: SceneContext, output: Output, speed: Fraction | None) -> tuple[PointerTarget, ...]:
-    """Return an output's target speeds divided by the driving link's speed; unsigned ones have the sign of `speed`."""
+    """Return the target speeds of an output, divided by the speed of the driving link.
+
+    A target that prescribes only a magnitude has the sign of `speed`, the speed of the output.
+    """
     if stage.driving_link is None or speed is None:
         return ()
     driving_speed = stage.case.inputs[stage.driving_link]

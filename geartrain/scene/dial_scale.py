@@ -97,7 +97,7 @@ class DialScale:
     """
 
     def radius(self, turned: float) -> float:
-        """Return the radius of the scale after `turned` turns from its inner end, divided by the radius of the dial."""
+        """Return the radius of a spiral scale after `turned` turns from its inner end [radii of the dial]."""
         return self.inner + (self.outer - self.inner) * turned / self.turns
 
     def turn_of(self, cells: Fraction | int) -> Fraction:
@@ -114,7 +114,7 @@ class DialScale:
         return ScaleReading(floor(along) + 1, floor(done) + 1, "", 0)
 
     def number(self, cell: int) -> int:
-        """Return the number by which a cell is read: its own, or that of the last numbered line before the cell."""
+        """Return the number read in a cell: that of the cell or, if lines are numbered, of the last line passed."""
         if not self.counted:
             return cell
         return (cell - 2) % self.counted + 1 if self.radial else (cell - 1) % self.counted
@@ -208,7 +208,7 @@ _PEN = 0.12  # line width divided by the height of letters
 
 @dataclass(frozen=True, slots=True)
 class Engraving:
-    """Engraved lines of one kind and one line width."""
+    """Engraved lines of one kind and one width, in units of the dial's radius."""
 
     kind: Kind
     """Kind of the lines: rim, fine or bold borders, or letters."""
@@ -291,7 +291,7 @@ def _circle(scale: DialScale) -> Iterator[Engraving]:
 
 
 def _names(scale: DialScale) -> Iterator[Engraving]:
-    """Yield the names, each centred on its divisions; where space is limited, only every nth (n up to 6) or none."""
+    """Yield the names of groups of cells, each in the middle of its group; without space, names are omitted."""
     radius = scale.outer - _BAND
     named = [(_engraved(scale, name), first, span) for name, first, span in scale.names if name]
     # fewer names leave more space for each
@@ -309,14 +309,17 @@ def _names(scale: DialScale) -> Iterator[Engraving]:
 
 
 def _fitting(text: str, radius: float, turn: Fraction) -> float:
-    """Return the maximum letter height of a text along a part of a circle, divided by the dial's radius."""
+    """Return the maximum letter height of a text that spans `turn` of a circle [turns], in radii of the dial."""
     return _FULL * 2 * pi * radius * float(turn) / max(text_length(text), 0.5)
 
 
 def _written(
     scale: DialScale, text: str, radius: float, turn: Fraction, height: float, turned: bool = True
 ) -> Iterator[Stroke]:
-    """Yield the strokes of a text along a circle; with `turned`, a text below the centre is inverted to be readable."""
+    """Yield the strokes of a text along a circle, centred at `turn` [turns], with letters of the given height.
+
+    turned   True to turn a text below the centre of the dial upside down, so that it can be read
+    """
     angle = 2 * pi * float(scale.way * turn)
     return curved_text(text, height, radius, angle, turned and cos(angle) < -0.01)
 

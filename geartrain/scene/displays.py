@@ -75,7 +75,7 @@ def _part(stage: SceneContext, link: str, name: str, at: Vector, way: Vector, **
 
 
 def _figure(stage: SceneContext, name: str, link: str) -> Iterator[ScenePart]:
-    """Yield the parts of a standing figure: the robed body, the arm that points like a hand, and the rod below."""
+    """Yield the parts of a figure that points to a direction: a body, an outstretched arm, and a rod as its axis."""
     up, point = facing(stage, name), _origin(stage, link)
     feet = _reach(stage, point, up)[0] + _STAND
     high = _HEIGHT * train_width(stage)
@@ -134,7 +134,7 @@ def _origin(stage: SceneContext, link: str) -> Vector:
 
 
 def _reach(stage: SceneContext, point: Vector, way: Vector) -> tuple[float, float]:
-    """Return the extent of all wheels from a point along the direction `way`, and across the line along it [mm]."""
+    """Return how far the wheels extend along `way` from a point, and across `way` from a line through it [mm]."""
     along, aside = [], []
     for place in stage.layout.wheels.values():
         slope = size(across(stage.along(place.axis), way))

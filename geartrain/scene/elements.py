@@ -19,9 +19,10 @@ from geartrain.scene.layout.wheel_reach import reach, span, web
 
 @dataclass(frozen=True, slots=True)
 class ScenePart(Shown):
-    """Structural part as manufactured, such as an arbor or a plate. It is a turned part or a flat part.
+    """Structural part as manufactured, such as an arbor or a plate.
 
-    The z axis of the part passes through `place`, which is at mid-height of a flat part.
+    A turned part has `bands`, and a flat part has `outlines`. The z axis of the part passes through `place`, which is
+    at mid-height of a flat part.
     """
 
     body: int

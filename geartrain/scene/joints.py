@@ -153,7 +153,7 @@ def _coupling(stage: SceneContext, moved: MovementStart, circuit: Circuit, decla
 
 
 def _clear_of_carried(stage: SceneContext, declared: Declared, middle: Vector, axis: Vector, towards: Vector) -> Vector:
-    """Return the unit vector from the axis of the pin's link to its first pin; pins in holes avoid carried axes."""
+    """Return the unit vector from the axis of the pin's link to its first pin, with pins between carried axes."""
     if isinstance(declared, PinsInHoles):
         tree = stage.train.kinematics.tree
         same = (each for each in stage.train.declaration.pin_couplings if isinstance(each, PinsInHoles))
@@ -207,7 +207,7 @@ def _point(stage: SceneContext, label: str | None) -> Vector:
 
 
 def _height(stage: SceneContext, declared: Declared, axis: Vector) -> float:
-    """Return the height along the axis [mm] midway between the nearest wheels of two coupled links, or of one wheel."""
+    """Return the height of a pin along its axis [mm], if possible midway between the nearest wheels of both links."""
     levels = [
         [dot(stage.layout.wheels[wheel].centre, axis) for wheel in stage.train.declaration.links[link].wheels]
         for link in (declared.pin, declared.slot)

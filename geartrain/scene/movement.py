@@ -52,9 +52,9 @@ class ErrorSource(Shown):
 
         S = start + period frac(cycles t) + from_known delta[known] + own delta[sources]
 
-    with the coefficients of the step that contains the source (`ErrorStep`). The error of the pair is delta = sense
-    e(S), where e is the transmission error of the table, and every body in `bodies` has this error multiplied by its
-    weight.
+    with `start`, `period` and `cycles` of the source, and `from_known`, `known`, `own` and `sources` of the step that
+    contains it (`ErrorStep`). The error of the pair is delta = sense e(S), where e is the transmission error of the
+    table, and every body in `bodies` has this error multiplied by its weight.
     """
 
     pair: str
@@ -75,7 +75,7 @@ class ErrorSource(Shown):
 
 @dataclass(frozen=True, slots=True)
 class ErrorStep(Shown):
-    """Step in the combination of errors: the errors of some sources are computed from those of earlier sources."""
+    """Step in the calculation of errors: it computes the errors of some pairs from those computed in earlier steps."""
 
     sources: Sequence[int]
     """Indices of the sources whose errors are computed in this step."""
@@ -155,7 +155,7 @@ def tables_and_sources(
 
 
 def tabulated(pair: str, transmission: ToothTransmission) -> ErrorTable:
-    """Return the transmission error as the smallest table of polynomials that is accurate to `TOLERANCE` [pitches]."""
+    """Return a pair's transmission error as the smallest table of polynomials accurate to `TOLERANCE` [pitches]."""
     import numpy as np
 
     from geartrain.teeth.transmission_table import fit, folded_kinks
@@ -291,7 +291,7 @@ def _backward(stage: SceneContext, motion: Motion, ahead: Movement) -> tuple[Mov
 
 
 def _movement(stage: SceneContext, composition: ErrorComposition, way: int) -> Movement:
-    """Return the movement that follows from a composition of errors; its kind is `exact` if all ratios are constant."""
+    """Return the movement with the given errors of pairs; `way` is -1 if the driving link turns backwards, else 1."""
     transmissions, sources = tables_and_sources(composition, way)
     links = tuple(stage.train.declaration.links)
     return Movement(

@@ -131,7 +131,10 @@ def body_errors(scene: Scene, turns: Fraction) -> Floats:
 
 
 def _evaluate_step(scene: Scene, step: ErrorStep, turns: Fraction, delta: Floats) -> None:
-    """Compute the errors of a step and store them in `delta`, by iteration if they move the drivers of the step."""
+    """Compute the errors of one step and store them in `delta`.
+
+    Iteration is required if these errors change the angles of the drivers in the same step.
+    """
     sources, known = list(step.sources), list(step.known)
     base = np.array(step.from_known).reshape(len(sources), len(known)) @ delta[known]
     # fixed-point iteration, which converges if transmission errors vary slowly with the angle

@@ -142,7 +142,10 @@ class ShownSamples:
         return np.asarray(self.run.time > self.run.skip - self.run.step / 2)
 
     def of(self, values: Floats, first: float = 0.0) -> Floats:
-        """Return the values at the replayed samples. If the replay starts at time 0, `first` is prepended."""
+        """Return the values at the samples that a page replays.
+
+        first   value at time 0, which is not in `values`, for a replay that starts at time 0
+        """
         picked = values[self._picked]
         return np.concatenate(([first], picked)) if self.run.skip == 0 else picked
 
@@ -258,7 +261,7 @@ def find_run(
 
 
 def _tolerance(stage: SceneContext, link: str) -> float:
-    """Return the tolerance of stored angles [rad], smaller for the driving link, from which ideal angles follow."""
+    """Return the tolerance of stored angles [rad], smaller for the driving link, whose error all ratios multiply."""
     if link != stage.driving_link:
         return TOLERANCE
     ratios = (stage.ratio(each) for each in stage.train.declaration.links)

@@ -53,7 +53,7 @@ class AxisLine:
 
 @dataclass(frozen=True)
 class Parallels:
-    """Group of parallel axes, for which one plan and one stack of wheels are computed."""
+    """Group of parallel axes, with the coordinate system in which their positions (plan) and heights are computed."""
 
     lines: tuple[AxisLine, ...]
     up: Vector
@@ -97,7 +97,7 @@ def upwards(direction: Vector) -> Vector:
 
 @dataclass(frozen=True, slots=True)
 class ContactSide:
-    """Gear pair as seen from one of its wheels: this wheel, its mate, and their axes."""
+    """Names in a gear pair with one wheel regarded as its own: the wheel, its axis, the mate, and the mate's axis."""
 
     wheel: str
     axis: str
@@ -163,7 +163,7 @@ class CouplingTie:
 
 
 class DialEnds(NamedTuple):
-    """Number of hands at each end of an arbor: 0 without a dial, 2 if its hand passes over that of a smaller dial."""
+    """Number of hands that each end of an arbor carries above a dial: 0, 1, or 2 to pass over a smaller dial."""
 
     low: int = 0
     high: int = 0
@@ -315,7 +315,7 @@ def _lantern_discs(declared: Train) -> Iterator[tuple[str, float]]:
 
 
 def _stretches(train: GearTrain) -> dict[str, Fraction]:
-    """Return declared centre distances over those at which pitch circles touch, by pair, if this quotient is not 1."""
+    """Return the quotient of declared and nominal centre distance of each gear pair, by pair, unless it is 1."""
     try:
         sizes = find_sizes(train.meshes)
     except GearTrainError:

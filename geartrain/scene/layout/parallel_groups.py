@@ -41,7 +41,7 @@ Node = tuple[str, str]
 
 
 class _HeightSets:
-    """Wheels and crossing axes with fixed relative heights, as a weighted union-find structure."""
+    """Sets of wheels and crossing axes that keep their height differences (union-find with height differences)."""
 
     def __init__(self) -> None:
         self._above: dict[Node, tuple[Node, float]] = {}
@@ -97,7 +97,10 @@ def _plates(blocks: Sequence[WheelBlock], parallels: Parallels) -> dict[str, str
 
 
 def _pins(blocks: Sequence[WheelBlock], ties: Sequence[CouplingTie]) -> Iterator[tuple[str, str]]:
-    """Yield, for each pin and slot, the widest wheels of the two links if the pin's circle encloses the slot's axis."""
+    """Yield pairs of wheels that need different heights because a pin moves around the other axis.
+
+    The first wheel is the widest on the link of the pin, the second the widest on the link of the slot.
+    """
     widest = _widest([block for block in blocks if not block.across])
     for tie in ties:
         pin, slot = (widest.get(link) for link in tie.links)
@@ -115,11 +118,11 @@ def _widest(blocks: Sequence[WheelBlock]) -> dict[str, WheelBlock]:
 
 
 class _BlockBuilder:
-    """Builder of the wheel blocks of one group of parallel axes.
+    """Builder of the discs (`WheelBlock`) of all wheels in one group of parallel axes.
 
-    crossing   pairs with one wheel on an axis of the group, as seen from this wheel
-    met        crossing axis -> point in the plan from which its height is measured: declared, or of its first pair
-    number     indices of stacks, in the order of their first use
+    crossing   gear pairs with one wheel on an axis of the group, with this wheel as their own wheel
+    met        reference point of each crossing axis in the plan: its declared point, or that of its first pair
+    number     index of each set of parts with fixed relative heights
     """
 
     def __init__(self, geometry: SizedGeometry, parallels: Parallels, places: Mapping[str, Point]) -> None:
@@ -172,16 +175,16 @@ class _BlockBuilder:
         return found
 
     def _stack(self, node: Node) -> tuple[int, float]:
-        """Return the index of the stack of a node, and the height of the node in this stack [mm]."""
+        """Return the index of the stack that contains a wheel or crossing axis, and its height in the stack [mm]."""
         root, height = self.heights.find(node)
         return self.number.setdefault(root, len(self.number)), height
 
     def _rise(self, line: AxisLine) -> float:
-        """Return the component of the direction of an axis along the upward direction of the group."""
+        """Return the component of an axis's direction along the direction in which heights increase."""
         return dot(line.direction, self.parallels.up)
 
     def _height_at(self, across: AxisLine, place: Point) -> float:
-        """Return the height of a crossing axis at a point in the plan, relative to that at its reference point [mm]."""
+        """Return by how much a crossing axis rises from its reference point to a given point in the plan [mm]."""
         u, v = self.parallels.flat(across.direction)
         start = place if across.given is None else self.parallels.flat(across.given)
         x, y = self.met.setdefault(across.label, start)
@@ -202,7 +205,7 @@ class _BlockBuilder:
                     self.heights.join(("axis", one), ("axis", other), 0.0)
 
     def _across(self, each: CrossingSide) -> WheelBlock:
-        """Return the block of a mate on a crossing axis: its strip in the plan, or the area it sweeps on a carrier."""
+        """Return the disc of a mate on a crossing axis; its area in the plan is a strip, or a circle if carried."""
         side, far, size = each.side, each.mate_seat.far, self.sizes[each.side.mate]
         axis, across = self.declared.lines[side.axis], self.declared.lines[side.mate_axis]
         stack, offset = self._stack(("axis", side.mate_axis))
@@ -235,7 +238,7 @@ _TRIES = 20_000  # maximum number of trials for one group of wheels; then they s
 
 
 class AxialSlots(NamedTuple):
-    """Lowest and highest slot that a wheel occupies along the width of its mates. Slots are numbered from 0."""
+    """Range of axial positions (slots, from 0) of a wheel among wheels that lie next to each other on a broad mate."""
 
     low: int
     high: int
@@ -378,7 +381,7 @@ class _Placing:
             self.centres[wheel] = plus(feet[self.geometry.declared.axis[wheel]], parallels.up, height)
 
     def _determined_axes(self, parallels: Parallels) -> Iterator[tuple[CrossingSide, Vector]]:
-        """Yield each pair of an axis of the group and a placed axis, with a point on the former axis [mm]."""
+        """Yield each pair that meshes with a wheel placed earlier, and a point of its axis in the group [mm]."""
         for each in self.geometry.crossing:
             side = each.side
             if side.axis in parallels.index and side.mate_axis in self.points and side.mate in self.centres:
@@ -390,7 +393,10 @@ class _Placing:
                 yield each, point
 
     def _fixed(self, parallels: Parallels, determined: Sequence[tuple[CrossingSide, Vector]]) -> dict[str, Point]:
-        """Return points in the plan for the axes that cannot move, or for some axes if all can move, by axis [mm]."""
+        """Return the points in the plan of all axes that cannot move, by axis [mm].
+
+        If all axes can move, one or more are placed at a declared crossing axis or at the origin.
+        """
         fixed = {line.label: parallels.flat(line.given) for line in parallels.lines if line.given is not None}
         for each, point in determined:
             fixed.setdefault(each.side.axis, parallels.flat(point))

@@ -20,7 +20,7 @@ _CARRIED = 1.2  # from an axis to that of its carrier
 
 @dataclass(frozen=True)
 class PlanProblem:
-    """Conditions on the plan of a group of parallel axes, as the input of `plan_axes`."""
+    """Conditions on the positions of parallel axes in the plan: fixed points, distances, rows, and wheels."""
 
     labels: Sequence[str]
     """Labels of the parallel axes, in the order of their indices."""
@@ -53,10 +53,10 @@ class PlanProblem:
 def plan_problem(
     geometry: SizedGeometry, parallels: Parallels, fixed: Mapping[str, Point], standing: Mapping[str, Vector]
 ) -> PlanProblem:
-    """Return the conditions on the plan of parallel axes.
+    """Return the conditions on the positions of parallel axes.
 
-    fixed      points in plan of the axes that cannot move [mm]
-    standing   axes that are already placed, which set no preferred side
+    fixed      points in the plan of the axes that cannot move [mm]
+    standing   axes that are already placed; wheels that mesh with their wheels need no preferred side
     """
     declared, labels = geometry.declared, list(parallels.index)
     discs: dict[str, dict[str, WheelSize]] = {label: {} for label in labels}
@@ -91,7 +91,12 @@ def _chosen_distances(
     pivots: Mapping[str, str],
     radius: Mapping[str, float],
 ) -> dict[tuple[str, str], float]:
-    """Return the distances [mm] chosen for pins without dimensions and carried axes without distances, by axes."""
+    """Return distances [mm] for pairs of axes without a declared or required distance, by pair: pins and carried axes.
+
+    forced   required distances
+    pivots   axis of the carrier of each carried axis
+    radius   radius of the widest wheel on each axis [mm]
+    """
     found: dict[tuple[str, str], float] = {}
     joined: DisjointSets[str] = DisjointSets()
     for pair in forced:
@@ -116,7 +121,7 @@ def _chosen_distances(
 def _rows(
     declared: DeclaredGeometry, parallels: Parallels, crossing: Sequence[CrossingSide]
 ) -> Iterator[tuple[tuple[str, str], Point]]:
-    """Yield pairs of parallel axes that intersect the same third axis, and the third axis's unit vector in the plan."""
+    """Yield pairs of parallel axes whose wheels mesh with wheels on one crossing axis, and its direction."""
     met: dict[str, list[str]] = {}
     for each in crossing:
         if each.contact.kind != "screw":

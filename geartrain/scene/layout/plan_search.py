@@ -39,7 +39,7 @@ _COVER = 2.0  # cost per mm of a disc over another axis, whose arbor it may hit
 
 
 class PlanClearance:
-    """Cost of overlap of wheels whose axes have a constant distance: axes on one carrier, and the axis of that carrier.
+    """Cost of overlap of wheels at constant distance: on axes of one carrier, or on these axes and the carrier's axis.
 
     Wheels on axes that carriers move relative to each other are placed on different levels instead.
 
@@ -69,7 +69,7 @@ class PlanClearance:
                 self.meet[both[0], both[1]] = self.meet[both[1], both[0]] = True
 
     def cost(self, at: int, placed: Indices, candidates: Floats, points: Floats) -> Floats:
-        """Return the cost of each candidate position of an axis, from its overlap with the placed axes."""
+        """Return the cost of each candidate position of an axis: weighted overlaps with placed wheels [mm]."""
         near = placed[self.still[at, placed]]
         # only axes whose wheels may overlap those of this axis at one of its candidate positions cause a cost
         low, high = candidates.min(axis=0), candidates.max(axis=0)
@@ -125,7 +125,7 @@ class DistanceBound(NamedTuple):
 
 @dataclass(frozen=True)
 class PlanStep:
-    """Step of the search: the index of the axis to be placed, and the placed axes that restrict its position."""
+    """Step of the search for a plan: the axis to be placed, and the bounds on its distances from placed axes."""
 
     axis: int
     placed: Indices
@@ -136,16 +136,15 @@ class PlanStep:
 
 
 class PlanOrder:
-    """Order in which the axes are placed. Axes are joints, and required distances are bars between them.
+    """Order in which the axes are placed in the plan, with their distances regarded as bars between joints.
 
     index    index of each axis
     radius   radius of the widest wheel of each axis [mm]
     bars     all required distances
-    pivot    carried axis -> axis of its carrier
-    alike    axis -> all axes of its carrier, including itself, that have only one bar, of equal length, to the axis of
-             the carrier
-    rotated  axis of a group of carried axes -> corresponding axis of the first group with equal bars, and the angle
-             between the groups about the axis of the carrier [turns]
+    pivot    axis of the carrier of each carried axis
+    alike    for an axis with only one bar, to the axis of its carrier: all such axes with a bar of equal length
+    rotated  for an axis in a repeated group of planets: the same axis in the first group, and the angle between the
+             groups about the axis of the carrier [turns]
     steps    axes in the order in which they are placed
     """
 
@@ -170,7 +169,7 @@ class PlanOrder:
         self.steps = self._find_steps(fixed)
 
     def _find_alike(self, fixed: set[int]) -> Iterable[Sequence[Sequence[int]]]:
-        """Return lists of equal groups of axes on one carrier; bars join each group only to the axis of the carrier."""
+        """Return lists of groups of carried axes with equal wheels and distances, connected only to the carrier."""
         carried = [at for at in self.pivot if at not in fixed]
         bars = [bar[:2] for bar in self.bars if self.pivot.get(bar[0]) != bar[1] and self.pivot.get(bar[1]) != bar[0]]
         alike: dict[tuple[object, ...], list[list[int]]] = {}
@@ -215,7 +214,10 @@ class PlanOrder:
         return late, -tied, -round(weight, 9)
 
     def _bounds(self, at: int, placed: set[int], closing: set[int]) -> list[DistanceBound]:
-        """Return bounds on the distances of an axis from placed axes, from shortest paths over axes not placed yet."""
+        """Return bounds on the distances of an axis from placed axes to which a chain of axes will connect it.
+
+        closing   axes in closed chains, through which the chain may lead
+        """
         ways: list[tuple[float, float, int]] = [(0.0, 0.0, at)]  # (length, longest bar, end)
         done: set[int] = set()
         found: list[DistanceBound] = []
@@ -383,7 +385,7 @@ class _BeamSearch:
         return np.array(found or self._round_first(step, points))
 
     def _in_row(self, step: PlanStep, points: Floats) -> list[Point]:
-        """Return candidate points of an axis that must be in a row with a placed axis; empty for other axes."""
+        """Return candidate points for an axis that meets a crossing axis with a placed axis; empty for others."""
         label, placed = self.problem.labels[step.axis], set(step.placed.tolist())
         for pair, way in self.problem.rows.items():
             if label not in pair:
@@ -404,7 +406,7 @@ class _BeamSearch:
         return []
 
     def _rotated(self, step: PlanStep, points: Floats) -> list[Point]:
-        """Return the point of an axis in a repeated group of planets; return an empty list for any other axis."""
+        """Return the point of an axis in a repeated group of planets, rotated from the first group; else empty."""
         first, turn = self.order.rotated.get(step.axis, (None, 0.0))
         placed = set(step.placed.tolist())
         if first not in placed or self.order.pivot[step.axis] not in placed:
@@ -428,7 +430,7 @@ class _BeamSearch:
     def _round_first(self, step: PlanStep, points: Floats) -> list[Point]:
         """Return points on the circle about the first placed axis at a prescribed distance, in all directions.
 
-        Planets have only the positions in which they can be assembled. Equivalent axes on a carrier are evenly spaced.
+        Planets have only the positions in which they can be assembled. Equal planets on a carrier are evenly spaced.
         """
         pivot, far = step.tied[0].axis, step.tied[0].most
         x, y = points[pivot].tolist()

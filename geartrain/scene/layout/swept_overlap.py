@@ -49,7 +49,7 @@ class SweptDistances:
 
 
 class _Swept(NamedTuple):
-    """Position of an axis relative to a link that carries it: `low` to `high` [mm] from the axis `centre`."""
+    """Minimum and maximum distance of an axis from another axis (`centre`) over all angles of carriers [mm]."""
 
     at: int
     centre: str
@@ -136,9 +136,9 @@ def find_plan_overlap(
     plates: Mapping[str, str],
     pins: Sequence[tuple[str, str]] = (),
 ) -> tuple[Flags, Flags]:
-    """Return the masks `clash` and `pierce` of a `StackProblem`.
+    """Return which wheels must not be at equal height, and through which an arbor would pass (see `StackProblem`).
 
-    plates   arbor -> the wheel that carries its axis, and has a hole for it
+    plates   wheel that carries the axis of each arbor, and has a hole for it
     pins     pairs of wheels: the wheel that has the pin, and the wheel that has the slot
     """
     if not blocks:

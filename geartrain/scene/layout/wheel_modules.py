@@ -51,7 +51,10 @@ class AxisDistance:
 def close_chains(
     distances: Sequence[AxisDistance], modules: Mapping[int, Fraction], free: frozenset[int]
 ) -> dict[int, Fraction]:
-    """Return the modules of reference clusters [mm], those in `free` changed so that all chains of axes can close."""
+    """Return the modules of clusters of wheels [mm], changed so that the distances around all loops of axes can close.
+
+    free   clusters whose modules may be changed
+    """
     found = dict(modules)
     if not free or len(distances) > _MOST:
         return found
@@ -63,7 +66,7 @@ def close_chains(
 
 
 def _relax(distances: Sequence[AxisDistance], at: int, modules: dict[int, Fraction], free: frozenset[int]) -> bool:
-    """Shorten, in place, a distance that is too long, or lengthen the path between its ends; return True if changed."""
+    """Shorten the distance `at` or lengthen the path between its ends, by a module; return True if changed."""
     one = distances[at]
     way = _way_round(distances, at, modules)
     length, way_length = one.length(modules), sum(other.length(modules) for other in way)
@@ -94,7 +97,7 @@ def _simple(factor: float) -> Fraction:
 
 
 def _way_round(distances: Sequence[AxisDistance], at: int, modules: Mapping[int, Fraction]) -> list[AxisDistance]:
-    """Return the shortest path between the axes of a distance without this distance (Dijkstra); empty if none."""
+    """Return the shortest path between the axes of the distance `at` that avoids it (Dijkstra); empty if none."""
     import networkx as nx
 
     graph: nx.Graph[str] = nx.Graph()
@@ -180,7 +183,7 @@ class _ModuleSearch:
 
     @cached_property
     def _multiples(self) -> list[tuple[int, Fraction]]:
-        """Root (reference cluster) of each cluster, and the module of the cluster divided by the module of the root."""
+        """Cluster on whose module each cluster's module depends, and the factor between the two modules."""
         ratios: RatioSets[int] = RatioSets()
         for contacts in self.between.values():
             for first, second in pairwise(contacts):
@@ -195,14 +198,14 @@ class _ModuleSearch:
         return [ratios.root(at) for at in self.clusters]
 
     def _join(self, ratios: RatioSets[int], first: PitchContact, second: PitchContact) -> None:
-        """Record the ratio of the modules of two pairs, which follows from their equal centre distances."""
+        """Record the ratio of the modules of two pairs on the same axes, which must have equal centre distances."""
         ends = self.cluster[first.wheels[0]], self.cluster[second.wheels[0]]
         far, other = self.geometry.distance(first), self.geometry.distance(second)
         if far and other and not (ends[0] in self.given and ends[1] in self.given):
             ratios.join(*ends, far / other)
 
     def _anchored(self) -> dict[int, Fraction]:
-        """Return the modules of reference clusters [mm] that are declared, or fitted to positions (least squares)."""
+        """Return known modules [mm] by cluster: declared, or from declared axis positions by least squares."""
         # for distances d_i = m a_i with one unknown module m, the solution is m = sum a_i d_i / sum a_i^2
         roots: dict[int, Fraction] = {}
         for at, module in self.given.items():
@@ -269,7 +272,7 @@ _WORM = 12.0  # length of a worm in modules
 
 @dataclass(frozen=True, slots=True)
 class Seat:
-    """Position of a wheel relative to its mate in a pair whose axes are not parallel."""
+    """Position of a wheel in a pair on non-parallel axes, relative to the nearest points of both axes."""
 
     far: float
     """Distance of the wheel's centre along its axis from the point nearest to the other axis [mm]."""
@@ -336,7 +339,7 @@ class WheelSize:
     """Thickness of the wheel before it was broadened to mesh with several mates [mm]."""
 
     def across_slots(self, low: int, high: int) -> WheelSize:
-        """Return the wheel broadened to occupy the slots from `low` to `high`, counted from 0 for the lowest slot."""
+        """Return the wheel broadened to extend over the axial positions (slots) `low` to `high`, counted from 0."""
         step = _SLOT * self.thickness
         broad = (high - low) * step + self.thickness
         return replace(self, thickness=broad, slot=(low + high) / 2 * step)
@@ -349,7 +352,7 @@ class WheelSize:
 
 @dataclass(frozen=True, slots=True)
 class CrossingSide:
-    """Gear pair with non-parallel axes, as seen from one of its wheels, with the seats of both wheels."""
+    """Gear pair with non-parallel axes from the view of one wheel, with the places (`Seat`) of both wheels."""
 
     contact: PitchContact
     side: ContactSide

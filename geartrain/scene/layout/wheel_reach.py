@@ -21,7 +21,7 @@ _MOST_FACE = 0.45  # maximum face width divided by the cone distance
 
 
 def taper(cone: float, radius: float, thickness: float) -> float:
-    """Return the tooth size of a bevel wheel at its small end over that at its large end, limited to 0.55 to 1.
+    """Return the tooth size at the small end of a bevel wheel divided by that at its large end, 0.55 or more.
 
     cone        half angle of the wheel's pitch cone [rad], above 0; a right angle for a crown wheel
     radius      pitch radius at the large end [mm]
@@ -32,10 +32,10 @@ def taper(cone: float, radius: float, thickness: float) -> float:
 
 
 def height_on_cone(cone: float, radius: float, depth: float, scale: float) -> float:
-    """Return the distance between a point of a tooth and the plane of the pitch circle [mm], positive towards the apex.
+    """Return the axial distance of a point of a tooth from the pitch circle's plane [mm], positive towards the apex.
 
-    depth   height above the pitch cone, along the back cone at the large end [mm]
-    scale   1 at the large end, `taper` at the small end
+    depth   distance of the point from the pitch cone, along the back cone, at the large end [mm]
+    scale   tooth size at the point: 1 at the large end, `taper` at the small end
     """
     apex = radius / tan(cone)
     return apex + (depth * sin(cone) - apex) * scale
@@ -76,5 +76,5 @@ def web(cone: float, radius: float, thickness: float, root: float) -> tuple[floa
 
 
 def span(facing: int, away: float, towards: float) -> tuple[float, float]:
-    """Return the extents of `reach` as ascending positions along the axis relative to the pitch circle [mm]."""
+    """Return the extents of `reach` as positions along the axis [mm]; `facing` is 1 for an apex below, else -1."""
     return (-towards, away) if facing > 0 else (-away, towards)

@@ -38,7 +38,7 @@ _SEARCHED = 80  # maximum number of stacks for the local search
 
 @dataclass(frozen=True)
 class StackProblem:
-    """Problem of stacking the wheels of one group of parallel axes in levels."""
+    """Discs of the wheels on a group of parallel axes, with the conditions on their heights."""
 
     blocks: Sequence[WheelBlock]
     clash: Flags
@@ -105,7 +105,7 @@ class _OrderSearch:
         return {axis: tuple(stacks) for axis, stacks in found.items() if len(stacks) > 1}
 
     def _mates(self, at: int) -> Iterator[int]:
-        """Yield the stacks that share an arbor with a stack, and itself, repeated for each shared arbor."""
+        """Yield the stacks on the arbors of the stack `at`, including itself, once for each common arbor."""
         return (stack for arbor in self.bearing[at] for stack in self.carried[arbor])
 
     @cached_property
@@ -125,7 +125,7 @@ class _OrderSearch:
     # ------------------------------------------------------------------------------------------------ every place tried
 
     def local_search(self) -> Floats:
-        """Return the key of each stack, found by moving stacks and adjacent levels until no move improves the order."""
+        """Return the sort key of each stack, after moving stacks and levels until no move lowers the cost."""
         keys = np.full(self.count, np.nan)
         for at in self.order:
             self._place_best(keys, at, 0.0)
@@ -140,7 +140,10 @@ class _OrderSearch:
         return keys
 
     def _best_shift(self, keys: Floats, fixed_cost: float) -> tuple[Floats, bool]:
-        """Return the best order after moving or reversing one group of adjacent levels, and True if it is better."""
+        """Return the best order after moving or reversing one group of adjacent levels, and True if it is better.
+
+        fixed_cost   cost of each change between fixed and turning wheels on an axis
+        """
         level = np.searchsorted(np.unique(keys), keys)
         ranks = np.concatenate(list(_shifts(int(level.max()) + 1)))[:, level].astype(float)
         costs = self._costs(ranks, fixed_cost)
@@ -149,7 +152,7 @@ class _OrderSearch:
         return ranks[best], bool(costs[best].round(9) < costs[0].round(9))
 
     def _place_best(self, keys: Floats, at: int, fixed_cost: float) -> None:
-        """Move one stack to the position of minimum cost: a level (integer key) or between levels (half-integer)."""
+        """Move the stack `at` to its position of minimum cost: a level (integer key) or between two levels."""
         keys[at] = np.nan
         known = np.unique(keys[~np.isnan(keys)])
         if not len(known):
@@ -166,7 +169,11 @@ class _OrderSearch:
         keys[at] = tries[int(np.argmin(np.round(self._costs(every, fixed_cost), 9)))]
 
     def _costs(self, every: Floats, fixed_cost: float) -> Floats:
-        """Return the cost of each order; a row of `every` has the keys of one order, NaN for stacks not placed yet."""
+        """Return the costs of several orders of stacks.
+
+        every        keys of the stacks in each order, one order per row; NaN for stacks not placed yet
+        fixed_cost   cost of each change between fixed and turning wheels on an axis
+        """
         keys = np.ascontiguousarray(every.T, np.float32)  # exact for small half-integers, and fast to compare
         low, high = keys[self._stack_table[0]], keys[self._stack_table[0]]  # two copies, each modified in place below
         for stacks in self._stack_table[1:]:
@@ -186,7 +193,7 @@ class _OrderSearch:
         return np.asarray(_PIERCED * pierced + _LONG * span.astype(float) + _LEVEL * levels, float)
 
     def _interleaved(self, keys: NDArray[np.float32], low: NDArray[np.float32], high: NDArray[np.float32]) -> Floats:
-        """Return, for each order, the number of coaxial pairs of arbors, each with a stack between the other's ends."""
+        """Return, for each order, how many pairs of coaxial arbors overlap so that neither can be a pipe."""
         arbor, stack, starts = self._coaxial
         if not len(starts):
             return np.zeros(keys.shape[1])
@@ -195,9 +202,10 @@ class _OrderSearch:
         return np.asarray((covers[::2] & covers[1::2]).sum(axis=0), float)
 
     def _split_fixed(self, keys: NDArray[np.float32]) -> Floats:
-        """Return, for each order, half the number of alternations between wheels of arbors and fixed wheels.
+        """Return, for each order, half the number of changes between fixed wheels and the wheels of an arbor on an
+        axis.
 
-        One alternation per axis and arbor is free, because the arbor is then next to the fixed wheels.
+        One change per axis and arbor is free, because the arbor is then next to the fixed wheels.
         """
         found = np.zeros(keys.shape[1])
         below, above = (frozenset(each.tolist()) for each in self._dial_arbors)
@@ -216,7 +224,7 @@ class _OrderSearch:
 
     @cached_property
     def _coaxial(self) -> tuple[Indices, Indices, Indices]:
-        """Pairs of an arbor and a stack of a coaxial arbor: the arbors, the stacks, first index of each arbor pair."""
+        """Arbors, stacks on other arbors of the same axis, and the first index of each ordered pair of arbors."""
         rows, starts = list[tuple[int, int]](), list[int]()
         for about in self._hubs.values():
             for one, other in combinations(about, 2):
@@ -228,7 +236,7 @@ class _OrderSearch:
 
     @cached_property
     def _hubs(self) -> dict[int, dict[int, dict[int, None]]]:
-        """Stacks of the wheels on each arbor except rings, by axis and arbor."""
+        """Stacks of the wheels on each arbor except rings: axis -> arbor -> stacks (as keys, in order)."""
         hubs: dict[int, dict[int, dict[int, None]]] = {}
         for block in self.problem.blocks:
             if block.link in self.problem.arbors and not block.across and not block.inner:
@@ -285,7 +293,7 @@ class _OrderSearch:
 
 
 def _shifts(count: int) -> Iterator[Indices]:
-    """Yield orders of levels as ranks, shape (orders, count): unchanged, then with some levels moved or reversed."""
+    """Yield new positions of the levels, shape (orders, count): unchanged, then with some levels moved or reversed."""
     rank = np.arange(count)
     yield rank[None, :]
     for length in (each for each in _RUNS if each < count):
@@ -320,7 +328,7 @@ def stack_heights(problem: StackProblem, gap: float) -> dict[int, float]:
 
 
 def _level_heights(problem: StackProblem, level: Indices, count: int, gap: float) -> Floats:
-    """Return the heights of levels [mm], each above the previous one and above all blocks that clash with its own."""
+    """Return the heights of `count` levels [mm], each clear of lower levels; `level` is the level of each stack."""
     blocks = problem.blocks
     level_of = np.array([level[block.stack] for block in blocks])
     bottom = np.array([block.offset - block.low for block in blocks])
@@ -358,7 +366,7 @@ class WheelStack:
     def heights(self) -> dict[str, float]:
         """Return the height of each upright wheel [mm], by wheel.
 
-        Stacks without a given height are shifted by the same distance as the first stack with a given height.
+        If parts that are placed earlier determine the height of a stack, all other stacks are shifted with it.
         """
         found = stack_heights(self.problem, self.gap)
         shift = next((height - found[stack] for stack, height in self.given.items()), 0.0)

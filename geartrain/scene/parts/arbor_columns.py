@@ -51,7 +51,7 @@ class FramePlaces:
 
 @dataclass(frozen=True, slots=True)
 class ColumnMember:
-    """Arbor or pipe of a column: its link, its ends, its inner diameter (0 if solid) and its outer diameter [mm]."""
+    """Arbor or pipe on an axis: its link, its ends, its inner diameter (0 if solid) and its outer diameter [mm]."""
 
     link: str
     low: float
@@ -64,7 +64,7 @@ class ColumnMember:
 
 @dataclass(frozen=True, slots=True)
 class AxisColumn:
-    """All arbors, pipes and studs on one axis, with their obstacles."""
+    """All arbors, pipes and studs on one axis of the frame, and the discs of other axes that they would touch."""
 
     axis: str
     at: Point
@@ -141,7 +141,11 @@ class ColumnProblem:
     def _thinned(
         self, bearing: AxisBearing, places: FramePlaces, order: Sequence[CoaxialLink], tangled: tuple[str, str] | None
     ) -> AxisColumn:
-        """Return the column with the given core, or with the thickest standard core that is clear of all obstacles."""
+        """Return the column with the requested diameter of its arbor or stud, or with the thickest one that fits.
+
+        order     links from the innermost outwards
+        tangled   two links that cannot be nested, or None
+        """
         stud = bearing in (AxisBearing.BACK_STUD, AxisBearing.FRONT_STUD) or all(each.fixed for each in order)
 
         def column(core: float) -> AxisColumn:
@@ -172,7 +176,7 @@ class ColumnProblem:
         return [AxisBearing.THROUGH]
 
     def _ordered(self, places: FramePlaces) -> tuple[tuple[CoaxialLink, ...], tuple[str, str] | None]:
-        """Return the pieces from the innermost outwards, and two links that cannot be nested (None if all can)."""
+        """Return the arbors and pipes from the innermost outwards, and two links that cannot be nested, or None."""
         if not self._fixed_discs:
             return self._turning_order
         middle = (self._fixed_discs[0].low + self._fixed_discs[-1].high) / 2
@@ -217,7 +221,7 @@ class ColumnProblem:
         return sorted((disc for disc in self.discs if disc.hub and disc.link == self.frame), key=lambda disc: disc.low)
 
     def _fixed_pieces(self, plates: Sequence[tuple[float, float]]) -> Iterator[list[CoaxialLink]]:
-        """Yield the possible sets of pieces that hold the fixed wheels, one or two pieces, each fixed in a plate."""
+        """Yield the possible arrangements of the fixed wheels on one or two parts, each fixed in a plate."""
         own = self._fixed_discs
         yield from ([self._fixed_piece(own, plate)] for plate in plates)
         hubs = [height for each in self._turning_pieces for height in each.hubs]
@@ -235,7 +239,7 @@ class ColumnProblem:
                 )
 
     def _fixed_piece(self, discs: Sequence[StackDisc], plate: tuple[float, float]) -> CoaxialLink:
-        """Return the fixed piece of the given wheels, which extends into a plate; the plate is its last hub."""
+        """Return a part that holds the given fixed wheels and ends in a plate, whose height is its last hub."""
         low, high = min(discs[0].low, plate[0]), max(discs[-1].high, plate[1])
         hubs = (*(disc.middle for disc in discs), sum(plate) / 2)
         return CoaxialLink(self.frame, hubs, low, high, True, tuple(discs))
@@ -266,7 +270,7 @@ class ColumnProblem:
         return with_hits(column, self.beside)
 
     def _core(self, order: Sequence[CoaxialLink], stud: bool) -> float:
-        """Return the diameter of the core [mm], as given, or such that every pipe fits into its smallest wheel."""
+        """Return the diameter of the arbor or stud [mm]: as requested, or so that each pipe fits in its wheels."""
         if self.core is not None:
             return self.core
         roots = [min((disc.root for disc in each.discs if disc.root), default=9.0) for each in order]
@@ -291,7 +295,7 @@ class ColumnProblem:
 
 
 def _reach(order: Sequence[CoaxialLink]) -> list[tuple[float, float]]:
-    """Return the ends of each piece [mm]; inner pieces that carry hands extend beyond the hands of outer pieces."""
+    """Return the ends of each arbor or pipe [mm]; an inner one whose hand is above another hand is longer."""
     found, steps = [], [0, 0]
     for each in reversed(order):
         below, above = each.ends
@@ -306,7 +310,7 @@ def beside(axis: str, at: Point, discs: Iterable[StackDisc]) -> list[tuple[Stack
 
 
 def with_hits(column: AxisColumn, others: Iterable[tuple[StackDisc, float]]) -> AxisColumn:
-    """Return the column with its obstacles: discs of other axes at the same heights that are nearer than `APART`."""
+    """Return the column with the discs of other axes to which its clearance is less than 0.2 mm (`APART`)."""
     # most discs are too far off for the widest part, which saves computing the radius at their height
     room = APART + max([column.core, *(each.outer for each in column.members)]) / 2
     near = ((disc, free, column.radius(disc.low, disc.high)) for disc, free in others if free < room)
@@ -319,7 +323,7 @@ def with_hits(column: AxisColumn, others: Iterable[tuple[StackDisc, float]]) -> 
 
 @dataclass(frozen=True, slots=True)
 class CoaxialLink:
-    """Piece of one link on an axis, which becomes an arbor or a pipe from `low` to `high` [mm]."""
+    """Part of a link on one axis: an arbor, or a pipe around other arbors, from `low` to `high` [mm]."""
 
     link: str
     hubs: tuple[float, ...]

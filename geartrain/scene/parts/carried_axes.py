@@ -37,7 +37,7 @@ class TurningPlate:
 
 @dataclass(frozen=True, slots=True)
 class CarrierSeat:
-    """Arrangement in which a link carries axes: on one of its wheels, or on a separate plate."""
+    """Support of the axes that a link carries: one of its wheels, or a separate plate."""
 
     link: str
     seat: str
@@ -69,7 +69,13 @@ def plate_seat(
     round_: bool = False,
     flange: bool = False,
 ) -> CarrierSeat:
-    """Return a seat on a plate at the given height [mm], in a gap of the stack."""
+    """Return a support that consists of one plate at the given height [mm], in a gap of the stack.
+
+    spots    axes that the plate carries
+    ring     ring that the plate holds, or ""
+    round_   True for a round plate
+    flange   True for the plate of a shaft with only brakes or clutches
+    """
     disc = replace(disc, low=height - _THIN, high=height + _THIN)  # nominal faces until heights are set
     return CarrierSeat(disc.link, disc.name, (TurningPlate(disc, spots, ring, round_, flange),))
 
@@ -96,7 +102,7 @@ def carrier_seats(
 
 
 def ring_seats(ring: StackDisc, rim: float, slab_gaps: Sequence[float]) -> list[CarrierSeat]:
-    """Return the possible seats on a disc that holds a turning ring: above the ring and below it."""
+    """Return the two possible supports of a turning ring: a disc in the gap above the ring, or in the gap below it."""
     disc = replace(ring, name=f"{ring.name} disc", outer=rim, inner=0.0, root=rim, hub=True)
     heights = gap_beside(slab_gaps, ring.high, 1) - _FAR, gap_beside(slab_gaps, ring.low, -1) + _FAR
     return [plate_seat(disc, height, (), ring.name, round_=True) for height in heights]
@@ -156,7 +162,8 @@ def _stepped(near: AxisColumn, far: AxisColumn, others: Sequence[StackDisc]) -> 
 
 
 def seen_from_carrier(carrier: str, middle: Point, disc: StackDisc) -> StackDisc:
-    """Return a disc relative to a turning carrier: discs of the carrier and on its axes are fixed, all others revolve.
+    """Return a disc as seen from a turning carrier: at rest if it turns with the carrier, else revolving about its
+    axis.
 
     middle   position of the axis of the carrier [mm]
     """

@@ -87,7 +87,7 @@ class Wave:
 
 @dataclass(frozen=True, slots=True)
 class Eccentric:
-    """Eccentric disc on the arbor of a link, on which wheels turn; or the wave generator of a strain wave gear."""
+    """Round disc off centre on an arbor, on which wheels turn, or the wave generator of a strain wave gear."""
 
     name: str
     link: str
@@ -140,7 +140,11 @@ class Eccentric:
         return [disc for disc in discs if disc.name in self.wheels]
 
     def disc(self, discs: Iterable[StackDisc], carrier: Point | None) -> StackDisc:
-        """Return the cylinder that the eccentric and its washers sweep in the stack."""
+        """Return a cylinder that contains the eccentric and its washers in all positions.
+
+        discs     discs of all wheels
+        carrier   position of the axis about which the arbor is carried, or None
+        """
         own = self.turning(discs)
         low, high = min(disc.low for disc in own) - ROOM, max(disc.high for disc in own) + ROOM
         reach, high = self.rise + self.radius, high + (0.0 if self.wave is None else self.wave.length)
@@ -186,7 +190,7 @@ def too_thin(eccentric: Eccentric, arbor: float) -> Problem | None:
 
 
 def on_eccentrics(discs: Sequence[StackDisc], eccentrics: Sequence[Eccentric]) -> Iterator[StackDisc]:
-    """Yield all discs, with central holes in wheels that turn on eccentrics, and then the discs of the eccentrics."""
+    """Yield the discs of wheels, with holes in those that turn on eccentrics, then a disc for each eccentric."""
     for disc in discs:
         own = [each for each in eccentrics if disc.name in each.wheels]
         yield replace(disc, inner=own[0].middle or own[0].radius) if own else disc
@@ -233,7 +237,7 @@ class PinCircle:
 
 @dataclass(frozen=True, slots=True)
 class StandingPins:
-    """Pins at their positions, which are fixed in a plate and extend into a wheel."""
+    """Pins of one link that are fixed in a plate and extend into a wheel, such as the pins of a ring."""
 
     name: str
     link: str

@@ -51,7 +51,7 @@ _INSIDE, _OUTSIDE, _PASSING = 30, 15, 11  # costs of a stud between the plates o
 
 @dataclass(frozen=True, slots=True)
 class PlateChoice:
-    """Choice of the heights of the frame plates, of the seats of carriers and of all columns, with its cost."""
+    """Heights of the frame plates, supports of carried axes, and columns of all axes, with the cost of this choice."""
 
     places: FramePlaces
     seats: tuple[CarrierSeat, ...]
@@ -107,7 +107,11 @@ def best_places(
 def _columns(
     problems: list[ColumnProblem], places: FramePlaces, cost: tuple[int, int], bound: tuple[float, int]
 ) -> tuple[dict[str, AxisColumn], tuple[int, int]] | None:
-    """Return the best column of every axis, by axis, and their total cost; None if the cost reaches the bound."""
+    """Return the best column of every axis, by axis, and their total cost; None if the cost reaches the bound.
+
+    cost    cost of the plates themselves; the first number counts obstacles
+    bound   lowest total cost that is known
+    """
     found: dict[str, AxisColumn] = {}
     for at, problem in enumerate(problems if cost < bound else ()):
         column = found[problem.axis] = best_column(problem.columns(places))
@@ -217,7 +221,7 @@ class FramePlan:
         return 1000 * thinnest.diameter.si, None if thinnest.pivot is None else 1000 * thinnest.pivot.si
 
     def _seats(self) -> Iterator[list[CarrierSeat]]:
-        """Yield the list of possible seats of each carrier, circle of pins, cup, turning ring and flange."""
+        """Yield the possible plates or wheels that can support each carrier, circle of pins, cup, ring and flange."""
         by_carrier: dict[str, list[CarriedAxis]] = {}
         for each in self.stack.carried.values():
             by_carrier.setdefault(each.carrier, []).append(each)
@@ -253,7 +257,7 @@ class FramePlan:
         return [disc for disc in self.stack.wheel_discs if disc.link in same | {circle.slot}]
 
     def _cut(self, height: float) -> int:
-        """Return the number of crossing wheels that a plate at a given height would cut."""
+        """Return the number of crossing wheels with which a plate at a given height would collide."""
         points = [self.stack.flat(axis.point) for axis in self.stack.axes.values()]
         (left, low), (right, high) = ([end(each) for each in zip(*points, strict=True)] for end in (min, max))
         return sum(
@@ -273,7 +277,7 @@ class FramePlan:
     def _carried_cost(
         self, way: CarrierSeat, carried: Sequence[CarriedAxis], plates: Sequence[TurningPlate] = ()
     ) -> int:
-        """Return the number of obstacles on the axes of a carrier, if no space is reserved for the heads of studs."""
+        """Return the number of obstacles on the axes of a carrier that is supported by `way`, without stud heads."""
         every = [*self.stack.discs, *(plate.disc for plate in plates or way.plates)]
         if not carried:
             return 0
@@ -416,7 +420,7 @@ class FramePlan:
         return replace(self.stack, layout=self.layout).across
 
     def across(self, low: float, high: float) -> list[tuple[Point, float]]:
-        """Return circles (centre and radius [mm]) around those wheels on inclined axes that are between two heights."""
+        """Return circles (centre, radius [mm]) around the wheels on inclined axes that extend between two heights."""
         return [circle for wheel in self.wheels_across if wheel.is_between(low, high) for circle in wheel.circles]
 
     @cached_property

@@ -63,7 +63,7 @@ class FlatPlate:
 
 
 def _windows(eccentric: Eccentric, bore: float) -> Iterator[Hole]:
-    """Yield six or more holes between the lobes of a wide wave generator with a central hole of `bore` [mm]."""
+    """Yield six or more round openings of a large wave generator, between its hub and its edge; none for others."""
     wave, radius = eccentric.wave, eccentric.radius
     if wave is None or radius < _WIDE * bore:
         return
@@ -127,9 +127,8 @@ class FramePlates:
         if bridge is None:
             return []
         low, high = min(bridge[0], self.plan.bridged_plate[1]), max(bridge[0], self.plan.bridged_plate[1])
-        circles = [swept_circle(disc) for disc in self.plan.discs if low < disc.middle < high] + self.plan.across(
-            low, high
-        )
+        circles = [swept_circle(disc) for disc in self.plan.discs if low < disc.middle < high]
+        circles += self.plan.across(low, high)
         circles += [(column.at, column.radius(low, high)) for column in self.plan.columns]
         circles += [(at, self.pillar) for at in self.pillars]
         return pillar_places([column.at for column in self.plan.columns if column.passes(bridge)], circles, self.pillar)
@@ -179,7 +178,7 @@ class FramePlates:
         return [*own, *self._disjoint(self._bearings(faces), own)]
 
     def _tenon_holes(self, faces: tuple[float, float]) -> list[Hole]:
-        """Return the holes for pillars, and for the posts, feet and pins that pass through a plate."""
+        """Return the holes in a plate for the ends of pillars, and for posts, feet and pins."""
         press = self.plan.process.press
         pillars = [] if faces == self.plan.bridge else self.pillars
         if faces in (self.plan.bridge, self.plan.bridged_plate):
@@ -197,7 +196,7 @@ class FramePlates:
         return [hole for column in self.plan.columns if (hole := self._bearing(column, faces))]
 
     def _bearing(self, column: AxisColumn, faces: tuple[float, float]) -> Hole | None:
-        """Return the hole in a plate for the arbor of an axis; None if the plate has no such hole."""
+        """Return the hole in a plate for the arbor, pipe or stud on an axis; None if none of them reaches the plate."""
         process = self.plan.process
         middle = sum(faces) / 2
         passing = [
@@ -217,7 +216,7 @@ class FramePlates:
         return Hole(column.axis, column.at, column.core + process.press) if own == faces else None
 
     def seat_holes(self, seat: str) -> list[Hole]:
-        """Return the holes for studs, posts, pins and eccentrics in a wheel or plate, except that for its own arbor."""
+        """Return the holes in a wheel or plate for studs, posts, pins and eccentrics, but not for its own arbor."""
         eccentric = [
             Hole("eccentric", each.centre, running_hole(each, self.plan.process))
             for each in self.plan.stack.eccentrics

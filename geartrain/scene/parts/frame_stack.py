@@ -214,7 +214,7 @@ class FrameStack:
 
     @cached_property
     def pin_circles(self) -> dict[str, PinCircle]:
-        """Circles of pins in round holes, by coupling, if the link of the pins has no wheel of sufficient size."""
+        """Circles of pins that a plate carries because no wheel of their link is large enough, by coupling."""
         return {each.name: each for each in find_pin_circles(self)}
 
     @cached_property
@@ -387,7 +387,7 @@ def _on_arbor(stack: FrameStack, link: str, own: str, label: str, discs: Sequenc
 
 
 def _arbor(stack: FrameStack, link: str) -> float | None:
-    """Return the requested or declared diameter of the arbor of a link [mm]; None if it may be chosen."""
+    """Return the requested or declared diameter of a link's arbor [mm]; None if neither exists."""
     declared = stack.train.declaration.links[link].arbor
     return stack.core if stack.core is not None or declared is None else 1000 * declared.diameter.si
 

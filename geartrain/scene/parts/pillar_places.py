@@ -81,7 +81,12 @@ def _free(middle: Floats, angle: float, blocked: Sequence[tuple[Floats, float]])
 
 
 def _around(tried: Floats, axes: Floats, count: int, minimum_edge: float, even: bool) -> Floats | None:
-    """Return the shortest polygon of `count` candidates around all axes, shape (count, 2); None if none exists."""
+    """Return the shortest polygon around all axes, shape (count, 2); None if none exists.
+
+    tried          candidates for its corners, counter-clockwise
+    minimum_edge   minimum length of an edge [mm]
+    even           True for a polygon that is wider than high
+    """
     best, minimum = None, np.inf
     steps = tried[None, :, :] - tried[:, None, :]
     cross = steps[:, :, None, 0] * (axes[None, None, :, 1] - tried[:, None, None, 1])

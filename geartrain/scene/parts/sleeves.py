@@ -43,7 +43,7 @@ def sleeves(plan: FramePlan, held: str = "") -> Iterator[TurnedPart]:
 def _beside(
     disc: StackDisc, longest: float, shortest: float
 ) -> Iterator[tuple[tuple[float, float], tuple[float, float]]]:
-    """Yield the ends of possible rings at a wheel, longest first, each with the ends of the space it needs [mm]."""
+    """Yield the ends of possible spacers or collets at a wheel, each with the ends of the space it needs [mm]."""
     for part in (1.0, 0.75, 0.5, 0.25):
         length = max(part * longest, shortest)
         yield (disc.high, disc.high + length), (disc.high, disc.high + length + _FREE)
@@ -132,7 +132,7 @@ class _MemberSleeves:
                     break
 
     def _ring(self, low: float, high: float) -> Band | None:
-        """Return the thickest ring between two heights that has clearance to all other parts; None if no ring fits."""
+        """Return the thickest spacer or collet that fits between two heights; None if none is clear of other parts."""
         bore = self.member.outer / 2
         walls = (wall for wall in _WALLS if self.around.is_free(self.member, low, high, bore + wall))
         wall = next(walls, None)

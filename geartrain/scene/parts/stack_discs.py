@@ -23,7 +23,7 @@ _SAME = 1e-6  # mm: touching faces must not overlap due to rounding errors
 
 @dataclass(frozen=True, slots=True)
 class StackDisc:
-    """Cylinder around a wheel or a turning plate of a link, from `low` to `high` along its axis; lengths are in mm."""
+    """Cylinder that represents a wheel, an eccentric or a turning plate in the stack; lengths are in mm."""
 
     name: str
     link: str
@@ -147,7 +147,7 @@ class Passage:
 
 
 def with_passages(edge: Contour, passages: Iterable[Passage]) -> tuple[Contour, tuple[Contour, ...]]:
-    """Return the convex edge of a plate with notches, and its windows. Passages that would divide it are omitted."""
+    """Return the edge of a plate with notches, and its windows, without passages that would cut the plate in two."""
     windows = []
     for each in passages:
         x, y = each.way
@@ -187,7 +187,7 @@ def _notched(line: Floats, start: float, width: float) -> Floats:
 
 
 def _exit(line: Floats, level: float, start: float) -> tuple[int, Floats]:
-    """Return the index of the first edge beyond x = `start` that crosses y = `level`, and the intersection."""
+    """Return the index of the edge of a closed line that crosses y = `level` first beyond x = `start`, and where."""
     after = np.roll(line, -1, axis=0)
     crossing = np.flatnonzero((line[:, 1] < level) != (after[:, 1] < level))
     a, b = line[crossing], after[crossing]

@@ -69,7 +69,7 @@ class TurnedPart:
         return sum(pi * (band.radius**2 - band.bore**2) * (band.high - band.low) for band in self.bands)
 
     def sections(self) -> list[list[Band]]:
-        """Return the bands of the part grouped into connected sections."""
+        """Return the bands in groups; gaps for pinions separate the groups."""
         found = [[self.bands[0]]]
         for before, band in pairwise(self.bands):
             if band.low > before.high + _SAME:
@@ -155,7 +155,7 @@ def _carries(member: ColumnMember) -> str:
 def _core(
     column: AxisColumn, member: ColumnMember, places: FramePlaces, process: Process, cut: frozenset[str]
 ) -> Iterator[TurnedPart]:
-    """Yield an arbor with a shoulder and a pivot at each plate, or with a collar if it passes through the plate."""
+    """Yield an arbor between two plates, with a pivot in each plate, or with a collar where it passes through."""
     low, high = places.back[1] + SHAKE / 2, places.front[0] - SHAKE / 2
     thick, thin = column.core / 2, column.pivot / 2
     below, above = crosses(member, places.back), crosses(member, places.front)

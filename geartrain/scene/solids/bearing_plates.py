@@ -181,12 +181,11 @@ def slotted_bar(r: float, e: float, pin: float) -> tuple[Contour, ...]:
 
 
 def holed_bar(r: float, e: float, pin: float) -> tuple[Contour, ...]:
-    """Return the edge and the round hole of a bar that extends along x from its axis at the origin [mm]. A pin of the
-    diameter `pin` revolves in the hole.
+    """Return the edge and the hole of a bar that extends along x from its axis at the origin [mm].
 
-    The pin moves at the radius `r` about an axis at the distance `e`. A pin without declared sizes moves its slot
-    uniformly, at the mean of the transmission function. If this mean ratio is 1 (r > e), the pin moves relative to the
-    bar on a circle of radius e about (r, 0); if it is 0, on a circle of radius r about (e, 0).
+    A pin of the diameter `pin` moves in the hole, at the radius `r` about an axis at the distance `e`. The bar turns
+    with the mean ratio of the coupling. If this ratio is 1 (r > e), the pin moves relative to the bar on a circle of
+    radius e about (r, 0); if it is 0, on a circle of radius r about (e, 0).
     """
     wide, hole = 1.2 * pin, min(r, e) + 0.55 * pin
     middle, rim = max(r, e), hole + 0.65 * pin

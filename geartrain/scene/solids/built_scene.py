@@ -166,7 +166,7 @@ def _sized_dials(scene: Scene, model: SolidModel) -> tuple[DialFace, ...]:
 
 
 def _with_seated(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tuple[DialFace, ...]:
-    """Return the dials. If a dial turns with a hand of another dial, it is moved to the position of that hand."""
+    """Return the dials; each dial that is fixed to a hand of another dial is moved to the height of this hand."""
     found = list(dials)
     for at, face in enumerate(dials):
         for each in pointers:
@@ -183,9 +183,10 @@ def _with_seated(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tupl
 def _on_bracket(
     at: int, scene: Scene, dials: tuple[DialFace, ...], pointers: tuple[Pointer, ...], parts: Sequence[ScenePart]
 ) -> tuple[tuple[DialFace, ...], tuple[Pointer, ...]]:
-    """Return all dials and pointers, with the dial of index `at` on the bracket of the arbor of its pointers.
+    """Return all dials and pointers, with one dial moved to the bracket that supports the arbor of its pointers.
 
-    Neighbouring arbors limit its radius. It is unchanged if it has a plate, or if a bracket or space is missing.
+    at   index of the dial. Neighbouring arbors limit its radius. It is unchanged if it has a plate, or if a bracket or
+         space is missing.
     """
     face = dials[at]
     own = [n for n, each in enumerate(pointers) if each.dial == at and not each.seat]

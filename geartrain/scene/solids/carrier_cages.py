@@ -211,7 +211,12 @@ def wheel_ends(scene: Scene, at: int) -> tuple[float, float] | None:
 def _brackets(
     scene: Scene, plan: FramePlan, sides: Mapping[str, tuple[float, float]], at: int, radius: float
 ) -> Iterator[Bracket]:
-    """Yield the brackets of an arbor, at both ends or at the end nearer to the middle of the train."""
+    """Yield the brackets of one arbor, at both ends or at the end nearer to the middle of the train.
+
+    sides    heights of the faces of the frame plates, by name
+    at       index of the arbor's body
+    radius   radius of the arbor [mm]
+    """
     body, ends, stack = scene.bodies[at], wheel_ends(scene, at), plan.stack
     if ends is None:
         return
@@ -240,7 +245,11 @@ def _brackets(
 
 
 def _best_plate(plan: FramePlan, place: Floats, sides: Mapping[str, tuple[float, float]]) -> tuple[int, str]:
-    """Return the number of wheels between a bracket at `place` and the best plate for it, and the plate's name."""
+    """Return the number of wheels between a bracket and the frame plate that suits it best, and this plate's name.
+
+    place   centre of the bracket [mm]
+    sides   heights of the faces of the frame plates, by name
+    """
     height, foot = float(place @ np.array(plan.stack.normal)), plan.stack.flat(tuple(place.tolist()))
 
     def cost(side: str) -> tuple[int, float]:
@@ -306,7 +315,7 @@ class _CageBuilder:
         return float((np.asarray(point, dtype=float) - np.array(self.carrier.point)) @ self.along)
 
     def cage(self) -> Cage:
-        """Return the eye with its post, and an arm that holds the post if no wheel of the carrier can hold it."""
+        """Return the bearing of the arbor's outer end (eye), its post, and an arm if no wheel can hold the post."""
         radius = self.bores[self.body.axis] / 2
         post = min(2.0, 0.6 + 0.8 * radius)
         side, end = self._outer_end()
@@ -358,7 +367,7 @@ class _CageBuilder:
         return any(low < each < high for each in plates)
 
     def _beside(self, height: float) -> float:
-        """Return the mid-height of an arm next to the pinion [mm], on the side on which fewer wheels obstruct it."""
+        """Return the mid-height of an arm next to the wheels of the body [mm], where fewer wheels obstruct it."""
         reach = max(wheel.radius for wheel in self.scene.wheels if wheel.body == self.at) + _PAST + _ARM / 2
 
         def hit(level: float) -> int:
@@ -383,7 +392,11 @@ class _CageBuilder:
         return low, high
 
     def _level(self, height: float, inner: float) -> float:
-        """Return the mid-height of an arm beyond all wheels [mm], on the side where fewer wheels obstruct the post."""
+        """Return the mid-height of an arm beyond all wheels [mm], above or below, where fewer wheels obstruct the post.
+
+        height   height of the eye on the carrier's axis [mm]
+        inner    distance of the post's inner edge from this axis [mm]
+        """
         wheels = list(self._coaxial())
 
         def cost(side: int) -> tuple[int, float]:
@@ -400,7 +413,11 @@ class _CageBuilder:
         return beyond(side) + side * (_PAST + _ARM / 2)
 
     def _arm(self, aside: Floats, away: float, level: float, post: float) -> SolidPart:
-        """Return the arm from the carrier's axis, where its hub turns on an arbor or pipe, to a post."""
+        """Return the arm between the carrier's axis, about which its hub turns, and a post.
+
+        aside   vector from the carrier's axis to the post [mm]; `away` is its length
+        level   mid-height of the arm [mm]; `post` is the radius of the post [mm]
+        """
         hub = self.bores.get(self.carrier.axis, 2.0) / 2 + self.plan.process.running / 2
         across = aside / (away or 1.0)
         wide = max(hub + LAND, post)

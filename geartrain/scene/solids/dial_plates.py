@@ -167,7 +167,10 @@ def _plate(
     plan: FramePlan,
     thickness: float,
 ) -> DialPlate | None:
-    """Return the plate of dials on one side; None if no pointer's arbor reaches it, or its dials do not fit."""
+    """Return the plate of dials on one side; None if no pointer's arbor reaches it, or its dials do not fit.
+
+    side   1 above the wheels, -1 below them
+    """
     ends = [face for disc in plan.discs for face in (disc.low, disc.high)]
     ends += [*plan.places.back, *plan.places.front, *(plan.bridge or ())]
     ends += [face for each in plan.wheels_across for face in (each.low, each.high) if plan.has_sized_dials]
@@ -187,7 +190,10 @@ def _plate(
 
 
 def _corners(sheet: FacePlate | None, right: Point, up: Point) -> tuple[Point, ...]:
-    """Return the corners of a declared plate, in the coordinates of the stack [mm]; empty if no plate is declared."""
+    """Return the corners of a declared dial plate, in the coordinates of the stack [mm]; empty if none is declared.
+
+    right, up   unit vectors of the reader of the plate in the plane of the stack
+    """
     if sheet is None:
         return ()
     wide, high = float(millimetres(sheet.width)) / 2, float(millimetres(sheet.height)) / 2
@@ -249,7 +255,7 @@ def dial_feet(
     faces: tuple[float, float],
     corners: Sequence[Point] = (),
 ) -> list[TurnedPart]:
-    """Return up to four feet of a plate of dials, at its corners, inside its dials, or outside all turning parts.
+    """Return up to four feet of a plate of dials, at its declared corners, inside its dials or outside moving parts.
 
     circles   centres and radii of the discs of the dials [mm]
     faces     heights of the faces of the plate [mm]
@@ -285,7 +291,7 @@ def _between(plan: FramePlan, low: float, high: float) -> Iterator[tuple[Point, 
 
 
 def _reaches(spot: Point, dials: Sequence[tuple[Point, float]], others: Sequence[tuple[Point, float]]) -> float:
-    """Return the clearance [mm] of the circles in `others` from a plate that widens from each dial to a foot."""
+    """Return the clearance [mm] between `others` and a strip that joins each dial to a foot at `spot`."""
     minimum = inf
     for (x, y), radius in dials:
         for step in range(_STEPS + 1):

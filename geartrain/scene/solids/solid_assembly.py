@@ -201,7 +201,7 @@ class SolidModel(Shown):
 
     @cached_property
     def _spread(self) -> Layout:
-        """Positions of axes and wheels before plates are inserted."""
+        """Layout at the requested sizes, without space for plates."""
         laid = self._laid if self.sized is self.train else lay_out(self.sized)
         return thick(self.sized.declaration, laid, self.making)
 
@@ -248,7 +248,7 @@ class SolidModel(Shown):
         return replace(flat, drawn=wheel_solid(blank))
 
     def _rods(self) -> Iterator[SolidPart]:
-        """Yield an arbor for every body with wheels that no plate supports, as long as the parts on it require."""
+        """Yield an arbor for every body whose wheels no plate supports; it extends through all wheels and supports."""
         radii, borne = bores(self.layout, self.making), set[str]()
         if self.plan is not None:
             borne = {column.axis for column in self.plan.all_columns} | self.plan.stack.on_eccentrics

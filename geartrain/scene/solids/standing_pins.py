@@ -78,7 +78,7 @@ def pin_width(coupling: SceneCoupling) -> float:
 def _wide_wheels(
     scene: Scene, body: int, blanks: Mapping[str, Blank], bores: Mapping[str, float], reach: tuple[float, float]
 ) -> list[SceneWheel]:
-    """Return the flat external wheels of a body that have material between the two radii in `reach` [mm]."""
+    """Return the flat external wheels of a body that are solid from the first to the second radius in `reach` [mm]."""
     low, high = reach
     return [
         wheel
@@ -260,7 +260,7 @@ def with_pins_apart(scene: Scene, plan: FramePlan) -> Scene:
 
 
 def _tooth_between_seats(blank: Blank) -> tuple[tuple[float, float], ...]:
-    """Return the profile of a ring between the middles of two seats, as points (radius in pitch radii, angle [rad])."""
+    """Return the tooth of a pin ring between two recesses for pins, as points (radius in pitch radii, angle [rad])."""
     assert blank.pins is not None
     x, y = (float(part) for part in blank.contours[1].points[0])  # on the inner circle, at the start of the first seat
     R, half, pitch = blank.pins.circle * blank.module, pi / blank.teeth, blank.pitch_radius
@@ -283,7 +283,7 @@ _PARTS = 8  # samples of half a swing of a bar with a slot
 
 
 def side_bars(scene: Scene, plan: FramePlan) -> Iterator[StandingPins]:
-    """Yield all eccentric bars of a plan, in the coordinates of its stack."""
+    """Yield the bars, off the axis, that connect arms to the wheels of their links, in the coordinates of the stack."""
     discs = {disc.name: disc for disc in plan.discs}
     for plate in plan.turning:
         if plate.disc.apart:
@@ -294,7 +294,10 @@ def side_bars(scene: Scene, plan: FramePlan) -> Iterator[StandingPins]:
 
 
 def _spot(scene: Scene, plan: FramePlan, wheel: StackDisc, arm: StackDisc) -> Point:
-    """Return the outermost position of a bar with sufficient clearance, or the position with the most clearance."""
+    """Return the position in the plane of the stack at which a bar from a wheel to an arm has sufficient clearance.
+
+    The outermost such position is preferred. If none exists, it is the position with the largest clearance.
+    """
     low, high = min(wheel.high, arm.high), max(wheel.low, arm.low)
     seen = [seen_from_carrier(wheel.link, wheel.at, disc) for disc in plan.discs if disc.low < high and low < disc.high]
     rods = [(each.at, wide) for each in plan.all_columns if (wide := each.radius(wheel.low, high))]
@@ -315,7 +318,10 @@ def _spot(scene: Scene, plan: FramePlan, wheel: StackDisc, arm: StackDisc) -> Po
 
 
 def _swept(scene: Scene, plan: FramePlan, coupling: SceneCoupling, wheel: StackDisc) -> Iterator[tuple[Point, float]]:
-    """Yield circles that a slotted bar sweeps for all positions of its pin, if `wheel` is on the coupling's carrier."""
+    """Yield circles that contain a slotted bar at all positions of its pin, as seen from its carrier.
+
+    Nothing is yielded unless `wheel` belongs to the carrier of the coupling.
+    """
     if scene.bodies[coupling.carrier].id != wheel.link:
         return
     stack = plan.stack

@@ -104,7 +104,7 @@ def _ears(points: Floats, loop: list[int]) -> list[tuple[int, int, int]]:
 
 
 class _Corners:
-    """Corners of a polygon during ear clipping; `left` marks the corners that are not cut off yet."""
+    """Corners of a polygon during ear clipping: neighbours, orientation and shape of each corner that is left."""
 
     def __init__(self, corners: Floats) -> None:
         count = len(corners)
@@ -126,7 +126,7 @@ class _Corners:
                 return at
 
     def _empty(self, at: int) -> bool:
-        """Return True if no other point is in the triangle of a convex corner; if one is, record it as the blocker."""
+        """Return True if no other corner is inside the triangle of a corner, else False and store one in `blocker`."""
         own = self.corners[[self.before[at], at, self.after[at]]]
         (ax, ay), (x, y) = own.T[..., None], self.corners.T
         side = (ax[_NEXT] - ax) * (y - ay) - (ay[_NEXT] - ay) * (x - ax)  # side of each edge, shape (3, n)
@@ -263,7 +263,7 @@ def lathed(rows: Sequence[Floats]) -> Solid:
 
 
 def _pitch(tooth: Floats, radius: float, teeth: int, tolerance: float) -> Floats:
-    """Return the polygon of a tooth and its sector of the web, closed along the bore, or at the centre without one."""
+    """Return the polygon of a tooth and its sector of the web, whose hole is drawn within a `tolerance` [mm]."""
     first, last = (float(np.arctan2(y, x)) for x, y in (tooth[0], tooth[-1]))
     if not radius:
         return np.concatenate([tooth, [[0.0, 0.0]]])
@@ -333,7 +333,7 @@ def _section(wheel: SceneWheel, profile: ToothProfile, bore: float) -> tuple[Flo
 
 
 def _coned(wheel: SceneWheel, profile: ToothProfile, bore: float) -> Solid:
-    """Return the solid of a bevel or crown wheel, through rows of points from the bore at its back to that in front."""
+    """Return the solid of a bevel or crown wheel, from rows of points around it: back bore to front bore."""
     radius, cone, thickness = wheel.radius, wheel.cone, wheel.thickness
     r, turn = _polar(wheel, profile)
     rho = r / radius
@@ -353,7 +353,7 @@ def _coned(wheel: SceneWheel, profile: ToothProfile, bore: float) -> Solid:
 
 
 def _cone_points(wheel: SceneWheel, rho: Floats, turn: Floats, scale: float) -> Floats:
-    """Return the outline of a wheel on its back cone [mm], shape (n, 3), scaled towards the apex, which is upwards."""
+    """Return the outline of a wheel on its back cone [mm], shape (n, 3), scaled towards the apex on the z axis."""
     depth = (rho - 1) * wheel.radius
     r = (wheel.radius + depth * np.cos(wheel.cone)) * scale
     if wheel.cone > CROWN:  # tooth spaces of a crown wheel are wide enough for teeth that pass obliquely

@@ -207,7 +207,7 @@ def _blank(toothing: WheelTeeth, place: WheelPlace) -> Blank:
 
 
 def _without_mates(toothing: WheelTeeth, blank: Blank) -> tuple[Blank, Problem]:
-    """Return the blank of a wheel without mates, which is a disc unless it is an escape wheel, and a notice."""
+    """Return the blank of a wheel without a mate, and a notice. It is a plain disc, except for an escape wheel."""
     if toothing.form == ESCAPEMENT:
         what = f"the teeth of escape wheel '{blank.wheel}' may not match its anchor"
         fix = "make an anchor to match the teeth, or recut them for another escapement"
@@ -221,7 +221,7 @@ def _without_mates(toothing: WheelTeeth, blank: Blank) -> tuple[Blank, Problem]:
 
 
 def with_seats(blank: Blank, wider: float) -> Blank:
-    """Return a ring with its seats for pins widened by `wider` [mm]; any other wheel is returned unchanged."""
+    """Return the blank of a ring with its recesses for pins widened by `wider` [mm]; other blanks are unchanged."""
     if blank.pins is None or not wider:
         return blank
     root = blank.contours[1].points  # corners of the seats are on the inner circle
@@ -231,7 +231,7 @@ def with_seats(blank: Blank, wider: float) -> Blank:
 
 
 def crossed_out(blank: Blank, arms: int) -> tuple[Blank, list[Problem]]:
-    """Return a blank, with openings between spokes if it is a plain spur wheel with enough space, and notices."""
+    """Return the blank, and notices. A plain spur wheel with sufficient space has openings between spokes."""
     own = 1 + (blank.bore > 0)
     if blank.kind != "external" or blank.helix:
         return blank, []

@@ -311,7 +311,7 @@ def _compare(
     files: tuple[Sink, Path | None, ThemeName, bool],
     json: bool,
 ) -> NoReturn:
-    """Compare losses, stresses, heat and depth of several tooth forms with the 20 degree involute, then exit."""
+    """Compare friction losses, stresses, heating and depth of teeth of several forms with the involute, then exit."""
     from geartrain.report.conjugate_pair_page import describe_form_comparison
     from geartrain.teeth.form_comparison import USUAL, compare_forms
 
@@ -358,7 +358,7 @@ VARIED = (*parameters_of(Triangular), *PAIR)
 
 
 def read_operation(inertia: str | None, rate: str | None, load: str | None) -> PairOperation:
-    """Return the operation of a pair: inertia and load of the driven wheel, and speed of the driving wheel."""
+    """Parse the operating data of a pair: inertia and load of the driven wheel, and speed of the driving wheel."""
     from geartrain.dynamics.motion.pair_impacts import PairOperation
     from geartrain.numerics.quantity import RADIANS_PER_TURN
 
@@ -403,7 +403,7 @@ def sweep(pair: PairRequest, vary: list[str], picture: Sink, json: bool, to: Sin
 
 
 def _ranges(vary: list[str]) -> tuple[dict[str, list[float]], dict[str, str]]:
-    """Return two mappings by parameter: the values to be computed, and the unit in which the range was given."""
+    """Parse the ranges of one or two parameters; return the values and the unit of each parameter, keyed by name."""
     if len(vary) > 2:
         raise option_error("--vary", f"{len(vary)} parameters are given", "give --vary once or twice")
     ranges: dict[str, list[float]] = {}

@@ -82,8 +82,8 @@ _Radius = Annotated[MeasuredLength, above_zero("give a length such as 1.5 mm")]
 
 
 class BearingFriction(Declared):
-    """Friction of a bearing, which is the sum of a torque that does not depend on the load and a part proportional to
-    the load. In a declaration, a single torque instead of a mapping sets `sliding`.
+    """Friction of a bearing: a torque that does not depend on the bearing load, plus a torque proportional to it. In a
+    declaration, a single torque instead of a mapping sets `sliding`.
     """
 
     SHORT: ClassVar = {"type": ["string", "number"], "format": "torque"}
@@ -482,7 +482,10 @@ class Link(Declared):
 
     @property
     def friction_radius(self) -> float:
-        """Radius of the friction circle [m]: r f/sqrt(1 + f^2) for pivot radius r and friction f; 0 if undeclared."""
+        """Radius of the friction circle of the bearing [m]; 0 without a friction coefficient.
+
+        It is r mu/sqrt(1 + mu^2) for a pivot of radius r and the friction coefficient mu.
+        """
         if self.bearing is None or not self.bearing.coefficient or not self.bearing.coefficient.value:
             return 0.0
         mu, radius = float(self.bearing.coefficient.value), self.bearing.radius
@@ -491,8 +494,10 @@ class Link(Declared):
 
     @property
     def shoulder_friction(self) -> float:
-        """Friction torque of the shoulder divided by its thrust [m], for a uniform pressure: 2/3 mu (r_o^3 -
-        r_i^3)/(r_o^2 - r_i^2); 0 without a shoulder.
+        """Friction torque of the bearing's shoulder divided by the axial force [m]; 0 without a shoulder.
+
+        For a uniform pressure, it is 2/3 mu (r_o^3 - r_i^3)/(r_o^2 - r_i^2), with the friction coefficient mu and the
+        outer and inner radius r_o and r_i.
         """
         if self.bearing is None or self.bearing.shoulder is None or self.bearing.coefficient is None:
             return 0.0

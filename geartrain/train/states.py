@@ -231,7 +231,7 @@ class Drive(Declared):
 
     @property
     def arm(self) -> float | None:
-        """Descent of the weight per radian of its drum [m]; None for other drives, and for a weight that is a link."""
+        """Descent of the weight per radian of its drum [m]; None for other drives, and for a weight without a drum."""
         return None if self.drum is None else self.drum.si / self.falls
 
     @property
@@ -345,7 +345,7 @@ class Clutch(Declared):
     """Brake (`fixes`) or clutch (`locks`); exactly one of the two keys is required.
 
     A clutch with `one_way` is an overrunning clutch, freewheel or ratchet, which is active in every state: depending on
-    speeds and torques, it holds, or it overruns in the given sense.
+    speeds and torques, it holds, or it overruns in the sense `one_way`.
     """
 
     fixes: Id | None = Field(None, description="Link that the brake fixes to the frame")
@@ -371,7 +371,7 @@ class Clutch(Declared):
 
     @property
     def senses(self) -> frozenset[int]:
-        """Signs of the torques that the clutch can exert on the last link in `links`: 1, -1 or both."""
+        """Signs of the torques that the clutch can exert on the last link in `links`: {1}, {-1} or {1, -1}."""
         return frozenset((1, -1)) if self.one_way is None else frozenset((1 if self.one_way == "forward" else -1,))
 
 
@@ -440,7 +440,7 @@ class Remove(Declared):
 
 @dataclass(frozen=True)
 class OneWayAction(Result):
-    """Behaviour of a one-way clutch in one state: it holds or overruns."""
+    """Behaviour of a one-way clutch in one state (holding or overrunning), with its torque and its slip."""
 
     name: str
     """Name of the clutch."""
@@ -483,7 +483,7 @@ class OneWayAction(Result):
 
 
 class SteppedLink(NamedTuple):
-    """Link that clutches drive in steps, when a swinging link would overtake it; friction holds it otherwise."""
+    """Link that one-way clutches drive in steps: oscillating links push it, and friction holds it between the steps."""
 
     link: str
     """Name of the link."""
@@ -550,7 +550,7 @@ class StateCase(Shown):
 
     @property
     def closed(self) -> tuple[str, ...]:
-        """Names in `engaged`, without the one-way clutches that hold but transmit no torque."""
+        """Names of the engaged clutches and brakes, without the one-way clutches that hold but transmit no torque."""
         idle = {each.name for each in self.one_way if each.torque == 0}
         return tuple(name for name in self.engaged if name not in idle)
 
@@ -576,7 +576,7 @@ class StateCase(Shown):
         return abridged_text(speed) if self.exact else decimal(speed)
 
     def says(self, *links: str) -> str:
-        """Describe a brake on one link or a lock of two links; for an indirect brake or lock, with its declared cause.
+        """Describe a brake on one link or a lock of two links, and the declared brake or lock that causes it, if any.
 
         Parameters
         ----------

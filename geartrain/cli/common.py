@@ -89,7 +89,7 @@ def exit_code(sound: bool, to: Sink) -> int:
 
 
 def chosen_states(train: GearTrain, state: str | None) -> tuple[str | None, ...]:
-    """Return only the given state, or, if it is None, all states with determined speeds; print a note on each other."""
+    """Return only the given state, or, if it is None, all states with determined speeds; print notes on the others."""
     if state is not None:
         return (state,)
     for case in train.kinematics.cases.values():

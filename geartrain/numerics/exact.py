@@ -240,7 +240,7 @@ def _factor(value: Fraction) -> tuple[Fraction, int]:
 
 
 def with_other_pi(value: Fraction) -> Fraction:
-    """Return a multiple of pi or 1/pi computed with `OTHER_PI`, a less accurate pi; return other numbers unchanged."""
+    """Return a multiple of pi or 1/pi with pi approximated by `OTHER_PI`; return other numbers unchanged."""
     factor, power = _factor(value)
     return factor * OTHER_PI**power
 

@@ -150,7 +150,7 @@ def _invalid_name(path: Path, why: str) -> Problem:
 
 
 def _link(temporary: Path, real: Path, path: Path) -> bool:
-    """Give a file a new name by a hard link, which fails if the name exists; return False without hard links."""
+    """Give a file a new name by a hard link, which fails if the name exists; return False if the disk has no links."""
     try:
         os.link(temporary, real)
     except FileExistsError:

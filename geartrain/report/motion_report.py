@@ -208,7 +208,7 @@ def separation_rates(train: GearTrain, state: str | None, without: Sequence[str]
 
 
 def ripples(train: GearTrain) -> bool:
-    """Return True if a coupling or pair has a variable speed ratio, so that outputs do not turn uniformly."""
+    """Return True if a coupling or pair has a variable speed ratio, so that outputs may not turn uniformly."""
     return bool(train.mechanics.couplings) or any(not mesh.rigid for mesh in train.meshes)
 
 

@@ -600,7 +600,7 @@ class Train(Declared):
 
     @cached_property
     def unit_days(self) -> Fraction | None:
-        """Length of the train's unit of time [d]; None if speeds are not per time (no unit, or turns per length)."""
+        """Length of the time in the key `unit` [d]; None if `unit` is not declared or does not contain a time."""
         if self.unit is None:
             return None
         row = period_table().get(self.unit.per)

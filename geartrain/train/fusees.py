@@ -58,7 +58,7 @@ class ConicalSection(NamedTuple):
         return self.wound - (self.radius + self.slope * x / 2) * x / self.barrel, self.radius + self.slope * x
 
     def extremes(self) -> Iterator[float]:
-        """Yield the angles of the fusee [rad] at which its torque can be extreme: both ends, and roots of the slope."""
+        """Yield the angles of the fusee [rad] at which its torque can be extreme: both ends, and stationary points."""
         yield from (self.start, self.start + self.width)
         # with r = radius + r' x this is a quadratic in x
         a, b = 1.5 * self.slope**2, 3 * self.radius * self.slope

@@ -147,8 +147,8 @@ class BearingFriction(Declared):
             raise bad("bearing", what, "give both with a unit, or both without")
         if static.base < sliding.base:
             what = f"the static friction torque {static} is below the sliding friction torque {sliding}"
-            fix = "give `static` as `sliding` or more: static friction is never less than sliding friction"
-            raise bad("bearing", what, fix)
+            fix, why = f"give `static: {sliding}` or more", "static friction is never less than sliding friction"
+            raise bad("bearing", what, fix, why)
         return self
 
     @property
@@ -408,12 +408,12 @@ class Wheel(Declared):
     @model_validator(mode="after")
     def _check_kind(self) -> Wheel:
         if self.helix_angle is not None and self.kind in ("bevel", "contrate"):
-            fix = "remove `helix_angle`: only spur wheels, rings and worms have one"
-            raise bad("helix_angle", f"a {self.kind} wheel cannot have a helix angle", fix)
+            why = "only spur wheels, rings and worms can have helical teeth"
+            raise bad("helix_angle", f"a {self.kind} wheel cannot have a helix angle", "remove `helix_angle`", why)
         if self.flexible and (self.internal or self.kind != "spur"):
             kind = "ring" if self.internal else f"{self.kind} wheel"
-            fix = "write `flexible: true` for the spur wheel (flexspline) that meshes with the ring"
-            raise bad("flexible", f"a {kind} cannot be flexible", fix)
+            why = "the flexible wheel of a strain-wave gear (flexspline) is a spur wheel in a ring"
+            raise bad("flexible", f"a {kind} cannot be flexible", "write `flexible: true` for the spur wheel", why)
         return self
 
     @property
@@ -509,7 +509,8 @@ class Link(Declared):
         rubs = self.bearing is not None and self.bearing.coefficient is not None
         if rubs and self.bearing is not None and self.bearing.radius is None and self.arbor is None:
             fix = "give `radius`, such as `bearing: {coefficient: 0.15, radius: 1.5 mm}`, or the `arbor`"
-            raise bad("bearing", "the coefficient of friction of the bearing has no radius", fix)
+            why = "the friction torque is proportional to the radius of the pivot"
+            raise bad("bearing", "the coefficient of friction of the bearing has no radius", fix, why)
         return self
 
 

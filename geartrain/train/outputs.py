@@ -414,7 +414,7 @@ class Target(Declared):
         tolerance = self.tolerance
         if self.sense is not None and self.speed is not None:
             fix = "omit `sense`, and write a retrograde speed with a minus sign"
-            raise bad("target", f"the speed {self.speed} and `sense` are both given", fix)
+            raise bad("target", f"the speed {self.speed} and `sense` are both given", fix, "a speed has a sign")
         if tolerance and tolerance.unit is not None and self.speed is not None and not self.speed.value:
             fix = "give the maximum difference as a number in the train's unit"
             raise bad("target", f"a relative tolerance of {tolerance} is 0 for a speed of 0", fix)
@@ -495,11 +495,12 @@ class Published(Declared):
         exact = self.value.half is None and (self.tolerance is None or not self.tolerance.value)
         if self.as_ == "input/output" and not self.value.value and exact:
             what = "an input/output ratio of 0 would mean that the input is at rest"
-            raise bad("published", what, "write `{value: 0, as: output/input}` for an output at rest")
+            why = "a ratio describes an input that turns"
+            raise bad("published", what, "write `{value: 0, as: output/input}` for an output at rest", why)
         period = self.as_ == "period"
         if period and not (isinstance(self.value, PrintedPeriod) and self.value.above_zero):
-            fix = "write `{value: 0, as: speed}` for a link at rest"
-            raise bad("published", f"a period of {self.value} is not above 0", fix)
+            fix, why = "write `{value: 0, as: speed}` for a link at rest", "a period is the time of one turn"
+            raise bad("published", f"a period of {self.value} is not above 0", fix, why)
         if self.magnitude and (period or self.value.value < 0):
             what = "a period is a magnitude" if period else f"{self.value} with `magnitude: true` is negative"
             fix = "remove `magnitude`; `sense` gives a period a sign" if period else "remove the minus sign"

@@ -108,10 +108,12 @@ class SpringDrive(Declared):
     def _check_fusee(self) -> SpringDrive:
         if (self.barrel is None) != (self.fusee is None):
             fix = "give `barrel: 15 mm` and `fusee: {turns: 6, torque: 0.27 N m}`, or neither"
-            raise bad("drive", "`barrel` and `fusee` must be given together", fix)
+            why = "a fusee is pulled by a chain that is wound on the barrel"
+            raise bad("drive", "`barrel` and `fusee` must be given together", fix, why)
         if (chained := self.chained) is not None and (end := chained.end) < inf:
             what = f"the spring has run down after {end:.6g} of the {chained.turns:g} turns of the fusee"
-            raise bad("drive", what, "give more `turns` of winding, fewer turns of the fusee, or smaller radii")
+            fix = "give more `turns` of winding, fewer turns of the fusee, or smaller radii"
+            raise bad("drive", what, fix, "the spring must pull the chain until the fusee has no more chain")
         return self
 
     @property
@@ -165,7 +167,8 @@ class HandDrive(Declared):
         exactly_one(self, "a hand", ("torque", "rate"))
         if self.torque is not None and self.stiffness is not None:
             fix = "omit `stiffness`, or give `rate` instead of `torque`"
-            raise bad("drive", "`stiffness` applies only to a hand with a `rate`", fix)
+            why = "a stiffness connects the crank to a hand of given speed"
+            raise bad("drive", "`stiffness` applies only to a hand with a `rate`", fix, why)
         check_range("drive", self.torque, self.range)
         return self
 
@@ -220,7 +223,8 @@ class Drive(Declared):
         if given:
             needed = "drum" if self.weight is not None else "weight"
             fix = "give `weight`, a mass, and `drum`, its lever arm, such as `weight: 4 kg, drum: 20 mm`"
-            raise bad("drive", f"`{given[0]}` is given without `{needed}`", fix)
+            why = "the weight hangs from a cord that is wound on the drum"
+            raise bad("drive", f"`{given[0]}` is given without `{needed}`", fix, why)
         return self
 
     @property
@@ -320,8 +324,9 @@ class Escapement(Declared):
             # simple pendulum whose half period is one beat
             length = GRAVITY * (self.beat.si / pi) ** 2
             if abs(self.pendulum.length.si / length - 1) > _NEAR:
-                fix = f"give {1000 * length:.4g} mm, which follows from pi sqrt(l/g), or another `beat`"
-                raise bad("escapement", "the length of the pendulum does not match the beat", fix)
+                fix = f"give {1000 * length:.4g} mm as its length, or another `beat`"
+                why = "the beat of a pendulum of length l is pi sqrt(l/g)"
+                raise bad("escapement", "the length of the pendulum does not match the beat", fix, why)
         return self
 
     @property
@@ -360,8 +365,8 @@ class Clutch(Declared):
     @model_validator(mode="after")
     def _has_one_key(self) -> Clutch:
         if self.teeth is not None and self.one_way is None:
-            fix = "add `one_way: forward`, or omit `teeth`"
-            raise bad("teeth", "`teeth` applies only to a one-way clutch", fix)
+            fix, why = "add `one_way: forward`, or omit `teeth`", "they are the teeth of a ratchet"
+            raise bad("teeth", "`teeth` applies only to a one-way clutch", fix, why)
         return exactly_one(self, "a clutch", ("fixes", "locks"))
 
     @property

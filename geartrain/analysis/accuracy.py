@@ -33,7 +33,7 @@ _NO_FORM = "no pair declares a tooth form, and no pin its dimensions"
 
 @dataclass(frozen=True, slots=True)
 class MethodAccuracy(Shown):
-    """Run time and error of one computation method in one stage of the computation."""
+    """Run time and error of one method for computing speeds, motion or torques."""
 
     stage: Stage
     """Stage of the computation, such as "speeds"."""
@@ -55,7 +55,7 @@ class MethodAccuracy(Shown):
 
 @dataclass(frozen=True, slots=True)
 class TrainAccuracy(Tabular, TrainResult):
-    """Run time and error of each method for one train in one state."""
+    """Run time and error of each method for speeds, motion and torques of one train in one of its declared states."""
 
     ROW = "MethodAccuracy"
     MEANINGS: ClassVar = {
@@ -106,7 +106,7 @@ def find_accuracy(train: GearTrain, state: str | None = None, positions: int = 1
 
 
 def _best_of(task: Callable[[], Any]) -> tuple[float, Any]:
-    """Return the minimum run time of a task [s], without the imports of its first run, and its result."""
+    """Run a task repeatedly; return its minimum run time [s], and its result. Modules are imported in the first run."""
     times: list[float] = []
     while not times or sum(times) < _ENOUGH or (len(times) < 2 and sum(times) < _LONG):
         start = time.perf_counter()
@@ -116,7 +116,7 @@ def _best_of(task: Callable[[], Any]) -> tuple[float, Any]:
 
 
 def _measure_speeds(train: GearTrain, state: str | None, _: int) -> Iterator[MethodAccuracy]:
-    """Yield the accuracy of the methods for speeds: exact elimination, where it is the default, and floats."""
+    """Yield the accuracy of exact elimination, if it is the default for the train, and of elimination in floats."""
     usual = train.solve(state)
     if not usual.verdict:
         raise QuestionError(Problem(usual.verdict.text))
@@ -139,7 +139,7 @@ def _measure_speeds(train: GearTrain, state: str | None, _: int) -> Iterator[Met
 
 
 def _measure_motion(train: GearTrain, state: str | None, positions: int) -> Iterator[MethodAccuracy]:
-    """Yield the accuracy of the methods for motion: composed transmission functions, and first-order superposition."""
+    """Yield the accuracy of exact composition of transmission functions, and of the superposition of small errors."""
     if not train.mechanics.meshes_in(state) and not train.mechanics.couplings:
         raise QuestionError(Problem(_NO_FORM))
     import numpy as np
@@ -172,7 +172,7 @@ def _measure_motion(train: GearTrain, state: str | None, positions: int) -> Iter
 
 
 def _measure_torques(train: GearTrain, state: str | None, _: int) -> Iterator[MethodAccuracy]:
-    """Yield the accuracy of torques by two methods: balance with losses, and means of runs with few or many samples."""
+    """Yield the accuracy of the torque balance, and of mean torques over a revolution for few and many positions."""
     if not train.declaration.is_loaded(state):
         raise QuestionError(Problem("no loads are declared"))
     # a new train in each run, because results are cached

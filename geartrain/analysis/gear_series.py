@@ -55,7 +55,7 @@ class GearSeries(Result):
 
     @property
     def spread(self) -> Fraction:
-        """Spread of the series: ratio of the first gear divided by the ratio of the last gear."""
+        """Ratio of the first gear divided by the ratio of the last gear [1]."""
         return self.ratios[0] / self.ratios[-1]
 
     @property
@@ -65,7 +65,7 @@ class GearSeries(Result):
 
     @property
     def double_shifts(self) -> int:
-        """Number of shifts between neighbouring gears at which two or more elements open, or two or more close."""
+        """Number of shifts to the next gear at which two or more clutches or brakes open, or two or more close."""
         return sum(not _is_single(a, b) for a, b in pairwise(self.gears))
 
 
@@ -115,7 +115,7 @@ class GearSearch(Tabular, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Columns of a table with a row for each gear: closed elements, ratio (None at rest), exact ratio, states."""
+        """Columns of a table with a row for each gear: closed elements, ratio (None for an output at rest), states."""
         return {
             "closed": [", ".join(gear.engaged) for gear in self.gears],
             "ratio": [None if gear.ratio is None else as_float(gear.ratio) for gear in self.gears],
@@ -182,7 +182,7 @@ def find_gears(
 
 
 def _rank(gear: PossibleGear) -> tuple[int, Fraction]:
-    """Return the sort key of a gear: forward gears, then reverse, then resting output; larger ratios first in each."""
+    """Return the sort key of a gear: forward gears precede reverse gears, and larger ratios precede smaller ratios."""
     return (2, Fraction(0)) if gear.ratio is None else (int(gear.ratio < 0), -abs(gear.ratio))
 
 
@@ -191,7 +191,7 @@ def _is_single(one: PossibleGear, other: PossibleGear) -> bool:
 
 
 def _all_gears(train: GearTrain, source: str, link: str) -> GearSearch:
-    """Return all gears; each closes the same number of elements, because they are the bases of a matroid."""
+    """Return all gears, each with the smallest number of closed elements for which the speeds are determined."""
     declared = train.declaration
     names: dict[frozenset[str], list[str]] = {}
     for name, state in declared.states.items():
@@ -248,7 +248,7 @@ _Way = tuple[float, int, tuple[int, ...]]
 
 
 def _series(gears: Sequence[PossibleGear], links: Links, number: int) -> _Found:
-    """Return the number of series of `number` gears, and those of maximum spread and of most uniform steps, or None."""
+    """Return the number of gear series, the one of maximum spread and the one of most uniform steps, or 0 and None."""
     # for a given first and last gear, the mean logarithmic step is fixed, so that the minimum sum of squares gives the
     # minimum variance
     ratios = [each.ratio or Fraction(1) for each in gears]
@@ -267,7 +267,7 @@ def _series(gears: Sequence[PossibleGear], links: Links, number: int) -> _Found:
 
 
 def _series_from(start: int, gears: Sequence[PossibleGear], links: Links, number: int) -> dict[int, tuple[_Way, int]]:
-    """Return, by last gear, the series from gear `start` with the most uniform steps, and the number of all series."""
+    """Return, for each possible last gear, the series with the most uniform steps, and the number of all series."""
     logs = [log(each.ratio or 1) for each in gears]
     reach: dict[int, tuple[_Way, int]] = {start: ((0.0, 0, (start,)), 1)}
     for _ in range(number - 1):

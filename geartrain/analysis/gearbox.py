@@ -28,7 +28,7 @@ ElementKind = Literal["brake", "clutch", "one-way brake", "one-way clutch"]
 
 @dataclass(frozen=True)
 class GearState(Result):
-    """Results for one state of a gearbox: speeds, ratio, slips, torques and recirculating power."""
+    """Results for one state of a gearbox: speeds, ratio, slip and torques of clutches, and recirculating power."""
 
     KEYS = (
         *("state", "engaged", "one_way", "verdict", "ratio", Key("step", to=as_float), "driven_by", "speeds", "slips"),
@@ -77,7 +77,7 @@ class GearState(Result):
 
 @dataclass(frozen=True)
 class Shift(Result):
-    """Shift to the next state that has a ratio, with the elements that open and those that close."""
+    """Shift from one state to another, with the clutches and brakes that open and those that close."""
 
     KEYS = ("before", "after", "released", "applied", "is_double")
 
@@ -256,7 +256,7 @@ def _state(train: TrainMechanics, answer: Answer, source: str, link: str) -> Gea
 
 
 def _slip(speeds: Mapping[str, Fraction], clutch: Clutch) -> Fraction | None:
-    """Return the speed of a clutch's first link minus that of the second, or the speed of a braked link, or None."""
+    """Return the slip: speed of the first link minus that of the second, or of a braked link; None if undetermined."""
     one, other = clutch.locks or (clutch.fixes or "", "")
     if one not in speeds or (other and other not in speeds):
         return None
@@ -264,14 +264,14 @@ def _slip(speeds: Mapping[str, Fraction], clutch: Clutch) -> Fraction | None:
 
 
 def _load(train: TrainMechanics, state: str, source: str, link: str) -> Torques | None:
-    """Return the torques if the link `source` drives and unit power leaves at `link`; None if they are undetermined."""
+    """Return the torques if power enters at `source` and unit power leaves at `link`; None if they are undetermined."""
     found = solve_driven(train, link, source, state)
     # torques are divided by the input torque, so a torque of 0 counts as undetermined
     return found if found.verdict and found.external.get(source) else None
 
 
 def _torques(load: Torques, source: str, engaged: Mapping[str, tuple[str, ...]]) -> dict[str, Fraction | None]:
-    """Return the torque of each closed element divided by that of `source`, by name; None if elements share links."""
+    """Return the torque of each closed clutch divided by the input torque; None if clutches connect the same links."""
     drive, held = load.external[source], {each.links: each.torques for each in load.held}
     known = {name: held[links] for name, links in engaged.items() if links in held}
     # elements that hold the same links share their torque in an unknown ratio
@@ -289,7 +289,7 @@ def _circulation(load: Torques) -> Fraction | None:
 
 
 def _between_sets(load: Torques, flow: PowerFlow) -> list[PowerStream]:
-    """Return the power streams between gear sets. All pairs of a gear set are merged into one node.
+    """Return the power that flows between the gear sets of a train.
 
     A gear set is a group of pairs that have the same carrier and are connected by links other than the carrier.
     """

@@ -36,7 +36,7 @@ def _refuse(*_: object, **__: object) -> NoReturn:
 
 
 class _Attributes(LazyDict):
-    """Attributes of a node or edge of the graph; those that describe the train are read-only."""
+    """Attributes of a node or edge of the graph. Attributes that geartrain sets are read-only; users can add others."""
 
     __slots__ = ()
     clear = popitem = _refuse
@@ -112,7 +112,7 @@ def build_train_graph(train: TrainMechanics, state: str | None = None) -> Graph:
 
 
 def _frozen(graph: Graph) -> Graph:
-    """Return the graph with nodes, edges and declared attributes read-only; users can add other attributes."""
+    """Make the nodes, edges and given attributes of a graph read-only, and return it. Users can add attributes."""
     before = {"frozen", *vars(graph)}
     nx.freeze(graph)
     for name in vars(graph).keys() - before:  # methods replaced by nx.freeze
@@ -124,7 +124,7 @@ def _frozen(graph: Graph) -> Graph:
 
 
 class _GraphFacts:
-    """Attribute values of the links and pairs of a train in one state. Each value is computed only once."""
+    """Values of the attributes of nodes and edges, for a train in one state. Each value is computed only once."""
 
     def __init__(self, train: TrainMechanics, state: str | None) -> None:
         self._train, self._state = train, state
@@ -151,11 +151,11 @@ class _GraphFacts:
         return tree.axis_seen_from(circuit.carrier, circuit.i), tree.axis_seen_from(circuit.carrier, circuit.j)
 
     def mesh(self, name: str) -> GearMesh | CouplingMesh | None:
-        """Return the pair with its teeth in this state, or the coupling with its sizes; None if undeclared."""
+        """Return a pair with its tooth form, or a coupling with its dimensions; None if these are not declared."""
         return self._meshes.get(name)
 
     def transmission(self, name: str) -> TransmissionFunction:
-        """Return the transmission function of a pair or coupling in this state; by default one of constant ratio."""
+        """Return the transmission function of a pair or coupling; it has a constant ratio if no form is declared."""
         from geartrain.teeth.transmission import ExactRatio
 
         if (mesh := self.mesh(name)) is not None:
@@ -166,7 +166,7 @@ class _GraphFacts:
         return ExactRatio(abs(Fraction(driver, driven)), 2 * pi / (abs(driver) if circuit.kind == "gear" else 1))
 
     def efficiency(self, name: str) -> tuple[Fraction | float, Fraction | float]:
-        """Return the basic efficiencies of a pair if the first and if the second link of its circuit drives."""
+        """Return two basic efficiencies of a pair: with its first link as the driver, and with its second link."""
         from geartrain.dynamics.torques.mean_efficiencies import find_mean_efficiencies
 
         found = find_mean_efficiencies(self._losses, self._circuits[name])
@@ -187,7 +187,7 @@ class _GraphFacts:
 
     @cached_property
     def _losses(self) -> LoadCase:
-        """Load case with all carriers fixed, in which the losses of a pair do not depend on the train's speeds."""
+        """Load case without speeds, which has the data for basic efficiencies: losses relative to fixed carriers."""
         from geartrain.dynamics.torques.load_case import LoadCase
 
         own = self._train

@@ -27,7 +27,7 @@ from geartrain.cli.verbs import EndingGroup, LazyGroup, Verbs, guarded
 
 
 class VerbGroup(EndingGroup, LazyGroup):
-    """Group of all commands of `geartrain`. A command is imported when it is used."""
+    """Group of all commands of `geartrain`. The module of a command is imported when the command is used."""
 
     verbs = Verbs(
         {

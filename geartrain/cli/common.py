@@ -61,7 +61,7 @@ Seed = Annotated[int, typer.Option("--seed", min=0, help="Random seed.")]
 
 
 def load_all(files: list[str]) -> list[GearTrain]:
-    """Load all trains. If files cannot be read, raise one `GearTrainError` with the problems of all these files."""
+    """Load all trains. If files cannot be read, raise one `GearTrainError` that lists the problems in every file."""
     from geartrain.analysis.gear_train import load
 
     trains: list[GearTrain] = []
@@ -77,19 +77,19 @@ def load_all(files: list[str]) -> list[GearTrain]:
 
 
 def is_sound(train: GearTrain, state: str | None) -> bool:
-    """Return True if the speeds of a state (by default the first) are as expected, and all declared teeth can turn."""
+    """Return True if the speeds of a state (by default the first) meet all expectations and the teeth can turn."""
     return bool(train.solve(train.declaration.state_or_first(state))) and not train.mechanics.faults
 
 
 def exit_code(sound: bool, to: Sink) -> int:
-    """Return the exit code, 0 or 1 for failures; print a note if an unsound train was written to a file."""
+    """Return 0 if trains have no failures (`sound`), else 1; in that case, print a note if a file was written."""
     if not sound and to.path is not None:
         tell("a train is not determined, or not as expected: `geartrain check` lists why (exit code 1)")
     return GOOD if sound else VERDICT
 
 
 def chosen_states(train: GearTrain, state: str | None) -> tuple[str | None, ...]:
-    """Return the named state, or all states with computable speeds if it is None; report omitted states on stderr."""
+    """Return only the given state, or, if it is None, all states with determined speeds; print notes on the others."""
     if state is not None:
         return (state,)
     for case in train.kinematics.cases.values():
@@ -99,7 +99,7 @@ def chosen_states(train: GearTrain, state: str | None) -> tuple[str | None, ...]
 
 
 def option_error(place: str, what: str, fix: str, why: str = "") -> QuestionError:
-    """Return an error whose location `place` is an argument or option of the command line."""
+    """Return an error with the option `place` as location, the problem `what`, its cause `why` and the remedy `fix`."""
     return QuestionError(Problem(what, why, fix, place))
 
 
@@ -116,7 +116,7 @@ def complain(error: GearTrainError) -> None:
 
 @dataclass(frozen=True)
 class Sink:
-    """Destination of a result: a file that may be written, or standard output."""
+    """Destination of a result: a file, or standard output."""
 
     path: Path | None = None
     """Path of the file; None for standard output."""
@@ -135,7 +135,7 @@ class Sink:
         return self.path.suffix.lower() if self.path is not None else self.form
 
     def write(self, data: bytes, said: str = "") -> None:
-        """Write a result to standard output, or atomically to the file and then report its name, followed by `said`."""
+        """Write a result to standard output or atomically to the file; then print `wrote FILE` and the text `said`."""
         if self.path is None:
             # text printed so far must precede the bytes
             sys.stdout.flush()
@@ -202,7 +202,7 @@ def check_distinct_outputs(*sinks: Sink) -> None:
 
 
 def emit(text: str, out: Sink = STANDARD) -> None:
-    """Write text atomically to a file, or print it. Control characters in the text are escaped."""
+    """Write text atomically to the file of a destination, or to standard output. Control characters are escaped."""
     text = printable(text)
     text = text if text.endswith("\n") else text + "\n"
     if out.path is None:
@@ -232,7 +232,7 @@ def show(documents: Sequence[Document], out: Sink, suffix: str | None = None) ->
 
 
 def give(out: Sink, json: bool, data: Callable[[], Any], documents: Callable[[], Sequence[Document]]) -> None:
-    """Write a result as JSON if --json or the suffix requests it, else as documents; only one of them is computed."""
+    """Write a result as JSON if --json or the suffix requests it, else as documents. The other form is not computed."""
     if json or out.suffix == ".json":
         emit(as_json(data()), out)
     else:
@@ -247,7 +247,7 @@ def draw(figure: Any, out: Sink) -> None:
 
 
 def suffix_of(out: Path | None, allowed: Iterable[str], option: str = "-o") -> str:
-    """Return the suffix of an output file, or "" if it has none; raise an error if it is not allowed."""
+    """Return the suffix of an output file, or "" if it has none; raise `QuestionError` if it is not allowed."""
     suffix = out.suffix.lower() if out else ""
     if suffix and allowed and suffix not in allowed:
         raise option_error(option, f"'{suffix}' is not an output format of this option", f"use {', '.join(allowed)}")

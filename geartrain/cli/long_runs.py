@@ -48,17 +48,17 @@ COMPILING = "compiling kernels for this machine: 10 to 30 s, only once"
 
 
 class ProgressBar:
-    """Progress bar of a long computation, displayed only on a terminal."""
+    """Progress bar with the completed part of a long computation, displayed only on a terminal."""
 
     def __init__(self, shown: Progress, task: TaskID, patience: float) -> None:
         self._shown, self._task, self._from = shown, task, time.monotonic() + patience
 
     def advance(self, steps: int = 1) -> None:
-        """Add `steps` to the number of completed steps."""
+        """Add `steps` to the number of completed parts of the computation."""
         self._shown.update(self._task, advance=steps, visible=time.monotonic() >= self._from)
 
     def reach(self, done: int, total: int) -> None:
-        """Set the number of completed steps and the total number of steps; a bar for one step is hidden."""
+        """Set the numbers of completed and of all parts of the computation; hide the bar if there is only one part."""
         self._shown.update(self._task, completed=done, total=total or None, visible=total > 1)
 
 
@@ -80,7 +80,7 @@ def progress(what: str, total: int | None = None, patience: float = 0.0) -> Iter
 
 @dataclass(frozen=True)
 class RunOptions:
-    """Options of a long computation: number of workers, and whether to resume an interrupted computation."""
+    """Options of a long computation: the workers, and whether an interrupted computation is resumed."""
 
     workers: str | None
     """Number of processes or address of a dask scheduler, as text; None for one process per core."""
@@ -88,7 +88,7 @@ class RunOptions:
 
     @contextmanager
     def executor(self, what: str) -> Iterator[Executor | None]:
-        """Open the executor of one computation, and print its number of tasks and workers on standard error."""
+        """Open an executor and print the numbers of tasks and workers; yield None if tasks run in this process."""
         from geartrain.numerics.work import open_executor
 
         def announce(tasks: int, workers: int) -> None:
@@ -103,7 +103,7 @@ class RunOptions:
 
 
 def close_journal(journal: Journal | None, cut: bool) -> None:
-    """Remove the journal of a complete computation; if it was interrupted (`cut`), print how to resume it."""
+    """Remove the journal of a complete computation, or print how an interrupted (`cut`) computation can be resumed."""
     if not cut:
         if journal is not None:
             journal.finish()
@@ -115,7 +115,7 @@ def close_journal(journal: Journal | None, cut: bool) -> None:
 
 @contextmanager
 def long_run(what: str, question: Mapping[str, Any], out: Path | None, options: RunOptions) -> Iterator[Execution]:
-    """Open the execution of a computation, with an executor, a progress bar and, if possible, a journal file."""
+    """Open an executor, a progress bar and, if the folder is writable, a journal for the computation of `question`."""
     from geartrain.numerics.work import Execution
 
     # in the form in which it is read from a journal, so that both can be compared
@@ -133,7 +133,7 @@ def long_run(what: str, question: Mapping[str, Any], out: Path | None, options: 
 
 @contextmanager
 def _journal(path: Path, question: Mapping[str, Any], resume: bool) -> Iterator[Journal | None]:
-    """Open the journal file at `path`, and yield the journal, or None if the folder is not writable."""
+    """Yield the journal at `path` for the computation of `question`; None if its folder is not writable."""
     from geartrain.numerics.work import Journal, another_question
 
     # a run works without a journal, but it cannot be resumed then
@@ -197,7 +197,7 @@ _WHOLE = 1_000_000  # length of a progress bar
 
 @dataclass(frozen=True)
 class TimeRequest:
-    """Options of a simulation in the time domain. An option that the user did not give is None."""
+    """Options of a simulation in the time domain. Options that are not given on the command line are None."""
 
     rate: str | None = None
     turns: str | None = None
@@ -231,7 +231,7 @@ def run_in_time(train: GearTrain, state: str | None, requested: dict[str, Any]) 
 
 @contextmanager
 def interruptible(what: str) -> Iterator[Callable[[float], bool]]:
-    """Yield a function that adds a completed fraction and returns True after Ctrl-C; the next Ctrl-C ends the work."""
+    """Yield a function that advances a progress bar by a fraction of the work, and returns True after a Ctrl-C."""
     interrupted = False
 
     def note(number: int, frame: Any) -> None:

@@ -9,7 +9,7 @@ from functools import partial
 from inspect import signature
 from math import isfinite, nan, prod
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, NoReturn
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -59,7 +59,7 @@ from geartrain.wings import wing
 
 if TYPE_CHECKING:
     from geartrain.dynamics.motion.pair_impacts import PairOperation
-    from geartrain.scene.palette import ThemeName
+    from geartrain.teeth.form_comparison import FormComparison
     from geartrain.teeth.tooth_form import ToothForm
     from geartrain.teeth.triangular.parameter_sweep import ParameterSweep
     from geartrain.teeth.triangular.triangular_transmission import TriangularTransmission
@@ -221,7 +221,15 @@ def run(
     to = sink(out, force, (".csv", ".json") if vary else (".md", ".html", ".json"))
     if compare and not keys:
         _refuse(context, {*_COMPARED}, "a comparison")
-        _compare(_counts(z1, z2), form, parameter or (), (internal, shaft_angle), (to, plot, theme, force), json)
+        from geartrain.report.conjugate_pair_page import describe_form_comparison
+
+        picture = picture_sink(plot, force, theme)
+        check_distinct_outputs(to, picture)
+        found = _compare(_counts(z1, z2), internal, shaft_angle, form or (), parameter or ())
+        give(to, json, lambda: found, lambda: [describe_form_comparison(found)])
+        if plot is not None:
+            draw(found.plot(), picture)
+        raise typer.Exit(GOOD if all(each.runs for each in found.forms) else VERDICT)
     name, *others = form or [DEFAULT]
     check_choice("tooth form", name, FORMS if name in FORMS else [each for each in form_names() if each != "ideal"])
     model = tooth_form(name)
@@ -304,36 +312,23 @@ def _refuse(context: typer.Context, applicable: set[str], what: str) -> None:
 
 
 def _compare(
-    teeth: tuple[int, int],
-    forms: Sequence[str] | None,
-    parameters: Sequence[str],
-    axes: tuple[bool, str | None],
-    files: tuple[Sink, Path | None, ThemeName, bool],
-    json: bool,
-) -> NoReturn:
-    """Compare losses, stresses, heat and depth of several tooth forms with the 20 degree involute, then exit."""
-    from geartrain.report.conjugate_pair_page import describe_form_comparison
+    teeth: tuple[int, int], internal: bool, angle: str | None, forms: Sequence[str], parameters: Sequence[str]
+) -> FormComparison:
+    """Compare friction losses, stresses, heating and depth of teeth of several forms with the 20 degree involute."""
     from geartrain.teeth.form_comparison import USUAL, compare_forms
 
-    to, plot, theme, force = files
-    picture = picture_sink(plot, force, theme)
-    check_distinct_outputs(to, picture)
     own = read_assignments(parameters, ("arcs", "pressure_angle"), "-p")
-    wheels = read_wheels(teeth, *axes)
-    angle = own.get("pressure_angle")
+    wheels = read_wheels(teeth, internal, angle)
+    pressure_angle = own.get("pressure_angle")
     try:
-        found = compare_forms(
+        return compare_forms(
             wheels,
             list(dict.fromkeys(forms or USUAL)),
             _arcs(own.get("arcs", "0.5,0.5")),
-            None if angle is None else read_quantity("-p pressure_angle", angle, "angle"),
+            None if pressure_angle is None else read_quantity("-p pressure_angle", pressure_angle, "angle"),
         )
     except GearTrainError as error:
         raise at_parameter(error, "--form") from None
-    give(to, json, lambda: found, lambda: [describe_form_comparison(found)])
-    if plot is not None:
-        draw(found.plot(), picture)
-    raise typer.Exit(GOOD if all(form.runs for form in found.forms) else VERDICT)
 
 
 def _arcs(text: str) -> tuple[float, float]:
@@ -358,7 +353,7 @@ VARIED = (*parameters_of(Triangular), *PAIR)
 
 
 def read_operation(inertia: str | None, rate: str | None, load: str | None) -> PairOperation:
-    """Return the operation of a pair: inertia and load of the driven wheel, and speed of the driving wheel."""
+    """Parse the operating data of a pair: inertia and load of the driven wheel, and speed of the driving wheel."""
     from geartrain.dynamics.motion.pair_impacts import PairOperation
     from geartrain.numerics.quantity import RADIANS_PER_TURN
 
@@ -403,7 +398,7 @@ def sweep(pair: PairRequest, vary: list[str], picture: Sink, json: bool, to: Sin
 
 
 def _ranges(vary: list[str]) -> tuple[dict[str, list[float]], dict[str, str]]:
-    """Return two mappings by parameter: the values to be computed, and the unit in which the range was given."""
+    """Parse the ranges of one or two parameters; return the values and the unit of each parameter, keyed by name."""
     if len(vary) > 2:
         raise option_error("--vary", f"{len(vary)} parameters are given", "give --vary once or twice")
     ranges: dict[str, list[float]] = {}

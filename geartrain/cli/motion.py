@@ -138,7 +138,7 @@ def _turns(text: str, motion: Motion) -> float:
 
 
 def _run_analyses(requested: MotionRun, phases: int, seed: int, spectrum: bool) -> bool:
-    """Compute the results of a run; return True if Ctrl-C stopped it, with results for the positions before."""
+    """Compute a run, its random phases and spectra; return True if Ctrl-C ended it, so that positions are missing."""
     # each analysis evaluates all positions once
     work = requested.samples * (1 + phases + spectrum)
     with progress("motion", work) as bar:

@@ -78,7 +78,7 @@ def input_rate(text: str) -> float:
 
 
 def exact(place: str, text: str, what: str, such_as: str, low: float = -inf, high: float = inf) -> Fraction:
-    """Parse a number from `low` to `high`, both included; errors name it `what` and give the example `such_as`."""
+    """Parse a number from `low` to `high`. In an error, `what` is the name of the number, and `such_as` an example."""
     try:
         found = Figure.parse(text.strip()).value
     except PydanticCustomError:
@@ -117,5 +117,5 @@ def whole(place: str, text: str, what: str, such_as: str, low: int = 0) -> int:
 
 
 def at_option(error: GearTrainError, place: str) -> GearTrainError:
-    """Return the error with `place`, the option that caused it, as the location of problems without a location."""
+    """Return an error whose problems have the option `place` as location, unless they have another location."""
     return GearTrainError(replace(each, place=each.place or place.replace("_", "-")) for each in error.problems)

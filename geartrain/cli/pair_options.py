@@ -39,9 +39,9 @@ PAIR = ("friction", "z1", "z2")
 
 
 def parameters_of(model: type[ToothForm]) -> dict[str, FieldInfo]:
-    """Return the fields of a tooth form that describe one pair, keyed by name.
+    """Return the fields of a tooth form that can be set for a single pair, keyed by name.
 
-    Fields for simulations in time, fields without `repr`, and a `centre_distance` that has no effect are omitted.
+    Fields for simulations in time, internal fields, and a `centre_distance` that has no effect are omitted.
     """
     hidden = {"form", *model.in_time} | (set() if model.any_distance else {"centre_distance"})
     return {name: field for name, field in model.model_fields.items() if name not in hidden and field.repr}
@@ -62,14 +62,14 @@ def describe_parameters(form: str, model: type[ToothForm]) -> Document:
 
 
 def _meaning(field: FieldInfo) -> str:
-    """Return the description of a parameter. A list is described as two values separated by a comma."""
+    """Return the description of a parameter, in which a list of two values is written with a comma, as in an option."""
     text = (field.description or "").replace("a list of two gives", "a,b gives").replace("a list of two", "two: a,b")
     words = [word for word in _words(field.annotation) if word not in text]
     return f"{text}: {', '.join(words)}" if words else text
 
 
 def _words(annotation: Any) -> list[str]:
-    """Return the words that a field with this type annotation accepts as values."""
+    """Return the literal strings that a field with this type annotation accepts as values."""
     if get_origin(annotation) is Literal:
         return [each for each in get_args(annotation) if isinstance(each, str)]
     return [word for each in get_args(annotation) for word in _words(each)]
@@ -113,7 +113,7 @@ def at_parameter(error: GearTrainError, place: str, fix: str = "") -> GearTrainE
 
 
 def _value(field: FieldInfo, given: str) -> Any:
-    """Convert the text of a field's value: text in brackets or braces is YAML, and text with commas is a list."""
+    """Convert text to a field's value: YAML if it begins with a bracket or brace, a list if it contains a comma."""
     if given[:1] in ("[", "{"):
         from geartrain.train.yaml_nodes import parse_yaml
 
@@ -166,7 +166,7 @@ def read_wheels(teeth: tuple[int, int], internal: bool, angle: str | None) -> Wh
 
 @dataclass(frozen=True)
 class PairRequest:
-    """Pair of wheels that is described by options. Some of the options can be varied."""
+    """Pair of wheels that is described by the options of `geartrain mesh`. A sweep replaces some of their values."""
 
     model: type[ToothForm]
     teeth: tuple[int, int]
@@ -184,7 +184,7 @@ class PairRequest:
     """Helix angle of the first wheel [rad]; 0 for spur wheels."""
 
     def mesh(self, **varied: str) -> GearMesh:
-        """Create the gear mesh of the pair, with parameters replaced by those in `varied`, or raise an error."""
+        """Create the gear mesh of the pair with the values in `varied`; raise `GearTrainError` if it is invalid."""
         from geartrain.teeth.meshing_wheels import MeshDriver, MeshingWheels
         from geartrain.train import GearPair
 
@@ -210,7 +210,7 @@ class PairRequest:
             raise at_parameter(error, f"-p {placed[0]}" if placed and min(z1, z2) >= FEWEST else COUNTS) from None
 
     def form(self, varied: Mapping[str, str]) -> ToothForm:
-        """Create the tooth form with some parameters replaced; a varied clearance replaces all given clearances."""
+        """Create the tooth form with the values in `varied`. If one of them is a clearance, others are not used."""
         replaced = {*CLEARANCES} if {*varied} & {*CLEARANCES} else set()
         return read_form(
             self.model, {name: text for name, text in self.own.items() if name not in replaced} | dict(varied)
@@ -225,7 +225,7 @@ BLANK = ("bore", "tolerance", "clearance", "fillet", "rim")
 
 
 def write_profile(mesh: GearMesh, wheel: int, blank: Mapping[str, str], to: Sink) -> list[WheelOutline]:
-    """Write the outline of a wheel with the sizes `blank`; return a list of the outline, or [] if no file is named."""
+    """Write the outline of a wheel to the file `to`; return a list with the outline, empty if there is no file."""
     if to.path is None:
         return []
     from geartrain.drawing import outline_text
@@ -257,14 +257,14 @@ class PairFrictionOption:
     law: FrictionLaw | None = None
 
     def number(self, option: str) -> float:
-        """Return the coefficient of friction; raise an error for a law, because `option` needs a coefficient."""
+        """Return the coefficient of friction; raise `QuestionError` for a law, because `option` needs a coefficient."""
         if self.law is not None:
             what, fix = f"{option} needs a coefficient of friction", "for example, give --friction 0.1"
             raise option_error("--friction", what, fix, "a friction law is given")
         return self.coefficient
 
     def of(self, mesh: Mesh, rate: str | None) -> Mesh:
-        """Return the mesh with this friction; raise an error if a law needs a speed or module that is not known."""
+        """Return a mesh with the friction of the option; raise `QuestionError` if a law lacks data, such as a speed."""
         if self.law is None:
             return mesh
         radius = mesh.pitch_radius
@@ -283,7 +283,7 @@ class PairFrictionOption:
 
 
 def read_pair_friction(text: str) -> PairFrictionOption:
-    """Parse a coefficient of friction or a friction law with its parameters; raise an error for other text."""
+    """Parse a coefficient of friction or a friction law; raise `QuestionError` for text that is neither of them."""
     name = text.split(",")[0].strip()
     if "=" not in text and name not in ("buckingham", "dokos", "stribeck", "table"):
         return PairFrictionOption(read_coefficient(text))

@@ -86,7 +86,7 @@ def _shared(train: GearTrain, view: bool) -> Document:
 
 
 def _pictures(train: GearTrain) -> tuple[list[Picture], list[str]]:
-    """Return pictures of the plan and of declared dials, and notes on the pictures that could not be drawn."""
+    """Draw the plan and any dials; return the pictures, and a note for each picture that could not be drawn."""
     from geartrain.report.document import Picture
 
     drawn: list[Picture] = []

@@ -126,7 +126,7 @@ def run(
 
 
 def _over_turn(train: GearTrain, found: Sequence[Torques], turns: str, samples: int, link: str | None) -> TorqueCycle:
-    """Return the torque over the requested revolutions in the requested state, or in the only state with loads."""
+    """Return the torque over `turns` revolutions of the input in the only state with loads in `found`."""
     state = _loaded_state(train, found, "--turns").state
     if turns == "period":
         from geartrain.dynamics.turn.train_turn import find_torque_period
@@ -143,7 +143,7 @@ def _over_turn(train: GearTrain, found: Sequence[Torques], turns: str, samples: 
 
 
 def _friction_trials(plan: Any, trials: int, seed: int, out: Path | None, options: RunOptions) -> Any:
-    """Compute the torques over the revolutions of a plan in trials with random friction."""
+    """Compute the torques over the revolutions of a plan in trials with random friction coefficients."""
     wing("workshop.monte_carlo.trial_run").check_trials(trials)
     with long_run("torques", plan.question(trials, seed), out, options) as given:
         found = wing("workshop").try_frictions(plan, trials, seed, given)
@@ -154,7 +154,7 @@ def _friction_trials(plan: Any, trials: int, seed: int, out: Path | None, option
 
 
 def _loaded_state(train: GearTrain, found: Sequence[Torques], option: str) -> Torques:
-    """Return the torques of the requested state or of the only state with loads; raise an error if there is none."""
+    """Return the torques of the only state with loads in `found`; raise `QuestionError` if none or several have any."""
     loaded = [each for each in found if each.verdict.kind != "unloaded"] if len(found) > 1 else list(found)
     if not loaded:
         raise option_error(option, "no state has loads", "declare `loads`", "torques follow from loads")
@@ -168,7 +168,7 @@ def _loaded_state(train: GearTrain, found: Sequence[Torques], option: str) -> To
 
 
 def _table(found: TorqueCycle) -> str:
-    """Return CSV text with torque, starting torque and losses at every position."""
+    """Return CSV text with the torque, the breakaway torque, and the loss of each part at every position of a run."""
     from geartrain.numerics.files import csv_text
 
     if found.turns is None or found.torque is None or found.standing is None or found.losses is None:
@@ -181,7 +181,7 @@ def _table(found: TorqueCycle) -> str:
 
 
 def _draw(train: GearTrain, found: Sequence[Torques], over_turn: TorqueCycle | None, picture: Sink) -> None:
-    """Draw the torque over the requested revolutions or, without them, the power flow."""
+    """Draw the torque over a run, or the power flow if no run is given (`over_turn` is None)."""
     from geartrain.drawing.output_error_plots import torque_cycle_figure
     from geartrain.drawing.power_sankey import power_figure
     from geartrain.dynamics.torques.power_flow import watts_per_unit

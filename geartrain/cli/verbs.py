@@ -78,7 +78,7 @@ class Verbs(Mapping[str, Command]):
 
     @cached_property
     def _added(self) -> dict[str, EntryPoint]:
-        """Commands added by other distributions, keyed by name."""
+        """Entry points of commands that other installed packages add to the group, keyed by name."""
         if self._group is None:
             return {}
         from importlib.metadata import entry_points
@@ -155,7 +155,7 @@ class _ReaderGoneError(Exception):
 
 
 class EndingGroup(TyperGroup):
-    """Group of commands that handles closed pipes and Ctrl-C itself; typer would exit with the code of a verdict."""
+    """Group of commands that handles closed pipes and Ctrl-C itself; exit codes of typer have other meanings here."""
 
     def make_context(self, *given: Any, **more: Any) -> Any:
         """Parse the command line and return the context. The options `--help` and `--version` exit here."""
@@ -170,7 +170,7 @@ class EndingGroup(TyperGroup):
 
 @contextmanager
 def _translated_exits() -> Iterator[None]:
-    """Convert exceptions to the error classes of this package before typer reports them in another form."""
+    """Convert usage errors, closed pipes and Ctrl-C to exceptions of this package, which typer does not report."""
     try:
         yield
     except BrokenPipeError:
@@ -217,7 +217,7 @@ def usage_problem(error: Any) -> Problem:
 
 
 def guarded(run: Callable[[], Any]) -> int:
-    """Run the command, report errors on standard error, and return the exit code."""
+    """Call a function that runs the command line, report errors on standard error, and return the exit code."""
     try:
         code = _code(run)
         # errors of the disk or a closed pipe may appear only when the buffer is written

@@ -127,7 +127,7 @@ def _write_page(scenes: Sequence[Scene], to: Sink, shown: Shown, compare: bool, 
 
 
 def _layout(embed: bool, kiosk: bool, other: str | None) -> Shown:
-    """Return the layout `embed`, `kiosk` or `page`; raise `QuestionError` for both, or for one with two trains."""
+    """Return the layout `embed`, `kiosk` or `page`; raise `QuestionError` if `embed` or `kiosk` cannot be used."""
     if embed and kiosk:
         what, why = "--embed and --kiosk are given together", "a page can have only one layout"
         raise option_error("view", what, "omit one of them", why)
@@ -205,7 +205,7 @@ def _pages(path: Path) -> LivePages:
 
 
 def _files(path: Path) -> tuple[Path, ...]:
-    """Return a declaration file and all files that it extends; only the file itself if it cannot be read."""
+    """Return a declaration file and all files that it extends; only the file itself if one of them cannot be read."""
     from geartrain.train.declaration_files import files_of
 
     try:

@@ -18,7 +18,7 @@ class Block(NamedTuple):
 
 
 def find_blocks(rows: Sequence[Sequence[int]]) -> list[Block] | None:
-    """Return the blocks of a square system in order of dependence; None if there is no perfect matching."""
+    """Return the blocks of a square system, each preceded by the blocks it depends on; None without a matching."""
     row_of = _maximum_matching(dict(enumerate(rows)))
     if len(row_of) < len(rows):
         return None
@@ -27,7 +27,7 @@ def find_blocks(rows: Sequence[Sequence[int]]) -> list[Block] | None:
 
 
 def _strongly_connected_components(rows: Sequence[Sequence[int]], taken: Sequence[int]) -> list[Block]:
-    """Return the strongly connected components in order of dependence, by an iterative form of Tarjan's algorithm."""
+    """Return the strongly connected components (Tarjan's algorithm); `taken` is the row matched to each column."""
     order: dict[int, int] = {}
     low = [0] * len(rows)
     done = [False] * len(rows)
@@ -88,7 +88,7 @@ def dulmage_mendelsohn_blocks(rows: Mapping[int, Collection[int]], columns: int)
 
 
 def _square_blocks(rows: Mapping[int, Collection[int]], known: Collection[int]) -> list[Block]:
-    """Return the blocks of the square part, with the original row and column numbers."""
+    """Return the blocks of square rows without their `known` columns, with the original row and column numbers."""
     names = list(rows)
     columns = sorted({column for held in rows.values() for column in held}.difference(known))
     number = {column: at for at, column in enumerate(columns)}
@@ -113,7 +113,7 @@ def _maximum_matching(rows: Mapping[int, Collection[int]]) -> dict[int, int]:
 
 
 def _augment_from(rows: Mapping[int, Collection[int]], root: int, row_of: dict[int, int], seen: set[int]) -> bool:
-    """Extend the matching by a row by breadth-first search; return True if an augmenting path exists."""
+    """Match the row `root` along an augmenting path outside the columns `seen`; return True if there is such a path."""
     # column -> the row that reached it, and the column matched to that row
     came: dict[int, tuple[int, int | None]] = {}
     queue: list[tuple[int, int | None]] = [(root, None)]
@@ -135,7 +135,7 @@ def _augment_from(rows: Mapping[int, Collection[int]], root: int, row_of: dict[i
 
 
 def _reachable(starts: list[int], across: Mapping[int, Collection[int]], back: Mapping[int, int]) -> set[int]:
-    """Return the rows (or columns) that alternating paths reach from the rows (or columns) `starts`."""
+    """Return the rows that alternating paths reach from `starts`: `across` to columns, `back` to their matched rows."""
     found, queue = set(starts), list(starts)
     for here in queue:
         for there in across[here]:

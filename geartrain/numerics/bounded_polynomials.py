@@ -30,7 +30,7 @@ _SAFE = 250
 
 
 def products_of(columns: Sequence[Floats]) -> Product:
-    """Return a `Product` that multiplies columns of values, one for each variable. Powers must be 1 or more."""
+    """Return a function that computes monomials with powers of 1 or more from arrays of values of each variable."""
 
     def product(monomial: Monomial) -> Floats:
         factors = [columns[variable] for variable, power in monomial for _ in range(power)]
@@ -40,7 +40,7 @@ def products_of(columns: Sequence[Floats]) -> Product:
 
 
 def sum_and_size(terms: Iterable[Floats], shape: tuple[int, ...] = ()) -> tuple[Floats, Floats]:
-    """Return the sum of arrays in order, and the sum of their absolute values; zeros of `shape` for an empty sum."""
+    """Return the sum of arrays in order, and the sum of their absolute values; zeros of shape `shape` for no arrays."""
     each = list(terms)
     if not each:
         return np.zeros(shape), np.zeros(shape)
@@ -83,7 +83,7 @@ def bounded_quotient(
 def _bounded_sum(
     terms: Sequence[WholeTerm], scale: int, roundings: Sequence[int], product: Product
 ) -> tuple[Floats, Floats]:
-    """Return the values of a polynomial divided by `scale`, and bounds on their absolute errors."""
+    """Return the values of a polynomial divided by `scale`, and bounds on their errors; see `bounded_quotient`."""
     monomials = [tuple((at, power) for at, power in enumerate(exponents) if power) for _, exponents in terms]
     # the exact quotient of two integers is rounded once
     factors = [float(Fraction(coefficient, scale)) for coefficient, _ in terms]

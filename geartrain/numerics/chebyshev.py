@@ -22,7 +22,7 @@ def series_through(values: Floats, start: float, end: float) -> Chebyshev:
 
 
 def tail(series: Chebyshev) -> float:
-    """Return the maximum magnitude of the last four coefficients divided by that of all: a measure of convergence."""
+    """Return the maximum magnitude of the last four coefficients of a series divided by the maximum of all."""
     size = np.abs(series.coef)
     return float(size[-4:].max() / max(size.max(), 1e-300))  # the last coefficient only may be 0 by symmetry
 

@@ -54,7 +54,7 @@ class ProbabilityEstimate(Result):
 
 
 def wilson(count: float, of: float) -> tuple[float, float]:
-    """Return the 95 % Wilson score interval for `count` successes in `of` trials; (0, 1) if there are no trials.
+    """Return the 95 % Wilson score interval of a probability for `count` successes in `of` trials; (0, 1) for 0 trials.
 
     For weighted trials, `count` and `of` are effective numbers, which need not be integers.
     """
@@ -92,7 +92,7 @@ class IntervalEstimate:
 
 
 def in_degrees(figure: IntervalEstimate) -> list[float | None]:
-    """Return the estimate of an angle [rad] as [value, low, high] in degrees for JSON."""
+    """Return [value, low, high] in degrees for an estimated angle [rad], with null for numbers that are not finite."""
     return [finite(degrees(each)) for each in (figure.value, figure.low, figure.high)]
 
 
@@ -142,9 +142,9 @@ def percentile_of(ordered: Floats, percent: float) -> IntervalEstimate:
 
 @cache
 def _counts_below(n: int, p: float) -> tuple[int, int]:
-    """Return the shortest range that contains the number of n values below their quantile p with probability 95 %.
+    """Return the shortest range that contains a binomial number with a probability of 95 % (n trials, probability p).
 
-    The number is binomial (David and Nagaraja, Order Statistics, 3rd ed., 2003, section 7.1).
+    The number of n values below their quantile is binomial (David and Nagaraja, Order Statistics, 3rd ed., 2003, 7.1).
     """
     from scipy.special import bdtr
 
@@ -162,6 +162,6 @@ def _counts_below(n: int, p: float) -> tuple[int, int]:
 
 
 def percentiles_of(values: Floats) -> dict[float, IntervalEstimate]:
-    """Return the percentiles listed in `PERCENTILES` of some values, with their confidence intervals, by percentage."""
+    """Return the percentiles in `PERCENTILES` of some values, with confidence intervals, keyed by percentage."""
     ordered = np.sort(values)
     return {percent: percentile_of(ordered, percent) for percent in PERCENTILES}

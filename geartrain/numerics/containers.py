@@ -109,7 +109,7 @@ class ItemwiseMapping(Mapping[K, V]):
         return len(self._keys)
 
     def __reduce__(self) -> tuple[type[dict[K, V]], tuple[dict[K, V]]]:
-        """Return the pickle form, a dictionary of all values, because the function that creates them may be local."""
+        """Return the mapping as a plain dictionary for pickling, because local functions cannot be pickled."""
         return dict, (dict(self),)
 
 
@@ -128,7 +128,7 @@ class FrozenFields:
 
 @contextmanager
 def collector_paused() -> Iterator[None]:
-    """Suppress garbage collection, each pass of which visits all objects, while many long-lived ones are created."""
+    """Suppress garbage collection in this context, to save time while many long-lived objects are created."""
     running = gc.isenabled()
     gc.disable()
     try:

@@ -24,7 +24,7 @@ LinearForm = dict[int, Fraction]
 
 @dataclass(frozen=True, slots=True)
 class Echelon:
-    """Echelon form, which consists of pivots in the order of elimination, conditions on symbols, and redundant rows."""
+    """Echelon form of rows in unknowns and symbols: solved unknowns, conditions on symbols, and redundant rows."""
 
     pivots: tuple[tuple[int, LinearForm], ...]
     """Pairs (column, rest), which mean that the unknown is -(rest). `rest` contains no column of an earlier pair."""
@@ -39,7 +39,7 @@ class Echelon:
         return len(self.pivots)
 
     def forms(self, budget: int | None = None) -> dict[int, LinearForm]:
-        """Return each pivot's unknown as a form in symbols and free unknowns; raise `TooDenseError` beyond `budget`."""
+        """Return each solved unknown as a linear form; raise `TooDenseError` after `budget` operations."""
         solved: dict[int, LinearForm] = {}
         work = 0
         for column, rest in reversed(self.pivots):  # the rest of the last pivot contains free columns only
@@ -103,7 +103,7 @@ class Ring(Protocol[T]):
 
 
 class _Rationals:
-    """Field of the rational numbers, with Fractions as elements, as a ring for `eliminate_units`."""
+    """Field of the rational numbers, for `eliminate_units`. Its elements are Fractions."""
 
     modulus = 0
 
@@ -209,7 +209,7 @@ def eliminate_units(
 
 
 def residues(row: Mapping[int, Fraction], modulus: int = PRIME) -> LinearForm:
-    """Return a multiple of a rational row that has integer coefficients, reduced modulo a prime."""
+    """Return a rational row, multiplied by the common denominator of its entries and reduced modulo a prime."""
     # one factor for the whole row does not change the rank, and avoids inverting denominators modulo the prime
     scale = math.lcm(*(value.denominator for value in row.values()))
     return {c: residue for c, value in row.items() if (residue := int(value * scale) % modulus)}  # type: ignore[misc]
@@ -248,7 +248,7 @@ def feasible(forms: Sequence[Mapping[int, Fraction]], constant: int = -1) -> boo
 
 
 def _reaches_zero(table: list[list[Fraction]], basis: list[int], artificial: int) -> bool:
-    """Return True if the artificial variables, whose indices begin at `artificial`, can all be reduced to 0."""
+    """Return True if all artificial variables, those from index `artificial` on, reach 0 in the simplex `table`."""
     while True:
         lacking = [row for row, own in zip(table, basis, strict=True) if own >= artificial]
         if not any(row[-1] for row in lacking):

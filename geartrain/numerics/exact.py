@@ -231,7 +231,7 @@ def touches_pi(value: Fraction) -> bool:
 
 
 def _factor(value: Fraction) -> tuple[Fraction, int]:
-    """Return the rational factor and the power of a rational multiple of pi or 1/pi; (value, 0) for other numbers."""
+    """Return factor and power (1 or -1) of a rational multiple of pi or 1/pi; the number and 0 for other numbers."""
     if value and value.numerator % PI.numerator == 0 and value.denominator % PI.denominator == 0:
         return value / PI, 1
     if value and value.numerator % PI.denominator == 0 and value.denominator % PI.numerator == 0:
@@ -240,7 +240,7 @@ def _factor(value: Fraction) -> tuple[Fraction, int]:
 
 
 def with_other_pi(value: Fraction) -> Fraction:
-    """Return a multiple of pi or 1/pi computed with `OTHER_PI` instead of `PI`; return other numbers unchanged."""
+    """Return a multiple of pi or 1/pi with pi approximated by `OTHER_PI`; return other numbers unchanged."""
     factor, power = _factor(value)
     return factor * OTHER_PI**power
 

@@ -18,10 +18,10 @@ _KEPT = 64
 
 
 class FactoredRatios:
-    """Numbers by index: roots with given values, and numbers defined as a ratio times an earlier number.
+    """Exact numbers in a numbered list, each either a given root or a ratio times an earlier number.
 
     parent           index of the number from which it is derived; -1 for a root
-    anchor           index of the number that is multiplied by `top`/`bottom`; -1 if this quotient is the value itself
+    anchor           index of the number by which `top`/`bottom` is multiplied to give the value; -1 for 1
     top, bottom      ratio in lowest terms, bottom > 0; bottom is 0 if the number is not yet known
     """
 
@@ -37,7 +37,7 @@ class FactoredRatios:
         self.top[at], self.bottom[at] = top, bottom
 
     def follow(self, at: int, parent: int, a: int, b: int) -> None:
-        """Define a number as a/b times a known number; the integers a and b have few digits."""
+        """Define the number with index `at` as a/b times the known number with index `parent`; a and b are short."""
         n, d = times(self.top[parent], self.bottom[parent], a, b)
         self.parent[at] = parent
         if n.bit_length() <= _SHORT and d.bit_length() <= _SHORT:

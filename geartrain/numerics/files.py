@@ -97,7 +97,7 @@ def place(temporary: Path, path: Path, force: bool = False) -> None:
 
 
 def unfinished_file(path: Path, error: Exception) -> GearTrainError:
-    """Return the `GearTrainError` that reports that a disk error prevented writing a file."""
+    """Return an error for a file that could not be written because of the disk error `error`."""
     why = getattr(error, "strerror", None) or str(error)
     fix = "free disk space, or check the folder and its permissions"
     return GearTrainError(Problem("the file cannot be written", why, fix, str(path)))
@@ -111,7 +111,7 @@ def umask() -> int:
 
 
 def _obstacle(path: Path, real: Path, mode: int, force: bool) -> Problem | None:
-    """Return the problem that prevents writing a file, or None. `mode` is the file's mode, 0 if the file is missing."""
+    """Return the problem that prevents writing the file `real` with the permissions `mode` (0 if missing), or None."""
     if stat.S_ISDIR(mode):
         fix = f"give a file in it: {path / 'NAME'}"
         return Problem("this is a folder", "a result is written to one file", fix, str(path))
@@ -150,7 +150,7 @@ def _invalid_name(path: Path, why: str) -> Problem:
 
 
 def _link(temporary: Path, real: Path, path: Path) -> bool:
-    """Give a file a new name by a hard link, which fails if the name exists; return False without hard links."""
+    """Give a file a new name by a hard link, which fails if the name exists; return False if the disk has no links."""
     try:
         os.link(temporary, real)
     except FileExistsError:
@@ -275,7 +275,7 @@ class LongTable:
             raise unfinished_file(self.partial, error) from None
 
     def _truncate_to_whole_rows(self) -> int:
-        """Remove an incomplete row at the end of the partial file; return the number of complete rows."""
+        """Remove an incomplete row at the end of the partial file; return the number of rows that remain."""
         # -1, because the first line is the header
         rows, end = -1, 0
         with self.partial.open("rb") as file:
@@ -431,7 +431,7 @@ def read_edges(path: Path) -> list[tuple[str, str]]:
 
 
 def _parsed_rows(path: Path, parse: Callable[[list[str]], T], what: str, why: str, fix: str) -> list[T]:
-    """Return the parsed lines of a file; `parse` raises `ValueError` for invalid words."""
+    """Return the words of each line of a file as parsed by `parse`. Lines with errors are reported as problems."""
     try:
         text = path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:

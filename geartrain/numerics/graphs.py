@@ -15,7 +15,7 @@ V = TypeVar("V", bound=Hashable)
 
 
 def chain_to_root(vertex: V, above: Callable[[V], V | None]) -> list[V]:
-    """Return a vertex and all its ancestors, up to its root."""
+    """Return a vertex and its ancestors, in ascending order up to the root, for which `above` returns None."""
     chain = [vertex]
     while (vertex_above := above(chain[-1])) is not None:
         chain.append(vertex_above)
@@ -64,7 +64,7 @@ class DisjointSets(Generic[V]):
 class RatioSets(Generic[V]):
     """Sets of quantities with known ratios: union-find with exact weights.
 
-    The ratio of a new quantity is known only to itself. `join` does not change ratios that are already known.
+    A new quantity is in a set by itself. `join` does not change ratios that are already known.
 
     >>> sizes = RatioSets()
     >>> sizes.join("inch", "foot", Fraction(12))

@@ -42,7 +42,7 @@ def saturated_lattice(rows: Sequence[Mapping[int, int]]) -> tuple[list[Row], lis
 
 
 def _reduce(columns: dict[int, Row], moves: dict[int, Row], at: int) -> int | None:
-    """Reduce the entries of one row by Euclid's algorithm until only one column has an entry; return this column."""
+    """Reduce row `at` by Euclid's algorithm until only one column has an entry in it; return this column, or None."""
     live = [key for key, column in columns.items() if at in column]
     while len(live) > 1:
         # divide by the smallest entry: remainders, and the numbers in `moves`, stay short

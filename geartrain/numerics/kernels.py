@@ -24,7 +24,7 @@ _listeners: list[Callable[[], None]] = []  # functions called once when a kernel
 
 @contextmanager
 def telling(say: Callable[[], None]) -> Iterator[None]:
-    """Call `say` before the first kernel is compiled in this context; loading kernels from disk is not reported."""
+    """Call the function `say` when numba first compiles a kernel in this context, which takes seconds."""
     _listeners.append(say)
     try:
         yield
@@ -35,7 +35,7 @@ def telling(say: Callable[[], None]) -> Iterator[None]:
 
 @contextmanager
 def compilation() -> Iterator[None]:
-    """Return a context in which Ctrl+C interrupts the work that numba does before a kernel runs.
+    """Return a context in which Ctrl+C interrupts numba's compilation of kernels.
 
     Python drops an interrupt while a compiler calls back into it; here it is recorded, and raised after compilation.
     """
@@ -49,7 +49,7 @@ def compilation() -> Iterator[None]:
 
 
 class _Listener:
-    """Listener for numba's events at the beginning and end of a compilation."""
+    """Listener that reports the first compilation of a kernel by numba to the functions in `_listeners`."""
 
     def notify(self, event: Any) -> None:
         while _listeners:
@@ -95,7 +95,7 @@ class Kernel(Generic[P, R]):
         self._function = cast(FunctionType, function)
 
     def __call__(self, *arguments: P.args, **named: P.kwargs) -> R:
-        """Call the function as plain Python."""
+        """Call the original Python function, which is not compiled."""
         return cast(R, self._function(*arguments, **named))
 
     @cached_property
@@ -105,7 +105,7 @@ class Kernel(Generic[P, R]):
 
     @cached_property
     def _called(self) -> Callable[P, R]:
-        """Compiled function that can only be called from other kernels, which takes less time to compile."""
+        """Compiled function for calls from other kernels only. Without a wrapper for Python, it is compiled faster."""
         return self._made(no_cpython_wrapper=True)
 
     def _made(self, **options: bool) -> Callable[P, R]:
@@ -127,7 +127,7 @@ class Kernel(Generic[P, R]):
 
     @property
     def _named(self) -> dict[str, Any]:
-        """Global objects to which the function refers, by name of the global variable."""
+        """Objects that the function uses as global variables, keyed by name."""
         known = self._function.__globals__
         return {name: known[name] for name in _names(self._function.__code__) if name in known}
 

@@ -102,7 +102,7 @@ class LabelledArray(Tabular, Result):
 
 
 def _shown(count: int) -> list[int | None]:
-    """Return the displayed positions of an axis: all, or the first and the last ones with None between them."""
+    """Return the positions shown of an axis with `count` labels; None marks the positions that are omitted."""
     if count <= _MOST:
         return list(range(count))
     return [*range(_MOST // 2), None, *range(count - _MOST // 2, count)]

@@ -51,7 +51,7 @@ class PeriodicFunction(ABC):
 
     @property
     def waves(self) -> float:
-        """Oscillations of the fastest component in one period; 0 if only breakpoints limit the sampling."""
+        """Number of periods of the fastest component in one period of the function; 0 if only breakpoints count."""
         return self.period / self.resolution / _PER_WAVE
 
     @abstractmethod
@@ -64,7 +64,7 @@ class PeriodicFunction(ABC):
 
     @cached_property
     def _samples(self) -> Floats:
-        """Ascending positions over one period, at most `resolution` apart, on both sides of every breakpoint."""
+        """Ascending positions over a period, at most `resolution` apart, with one close to each side of breakpoints."""
         starts = self.breakpoints if len(self.breakpoints) else np.zeros(1)
         widths = np.diff(starts, append=starts[0] + self.period)
         counts = self.per_interval + np.ceil(widths / self.resolution).astype(np.int64)

@@ -64,7 +64,7 @@ def fitted(curve: Callable[[Floats], Floats], start: float, end: float, depth: i
 
 
 def _piece(curve: Callable[[Floats], Floats], start: float, end: float) -> tuple[PolynomialPiece, float]:
-    """Return the interpolant of the curve at Chebyshev nodes, and the relative size of its last coefficients."""
+    """Return the Chebyshev interpolant of a curve, and its last coefficients relative to the values of the curve."""
     half, middle = (end - start) / 2, start + (end - start) / 2
     t = middle + half * np.concatenate([_NODES, _BETWEEN])
     t[0], t[COUNT - 1] = start, end  # rounding must not move a node outside, where the curve may be undefined
@@ -79,7 +79,7 @@ def _piece(curve: Callable[[Floats], Floats], start: float, end: float) -> tuple
 
 
 def value(coefficients: Floats, piece: Indices, u: Floats) -> tuple[Floats, Floats]:
-    """Return the value and derivative at u of the pieces with indices `piece`, given their coefficients."""
+    """Return values and derivatives at `u` of pieces with indices `piece`; `coefficients` has shape (COUNT, pieces)."""
     single = coefficients.shape[1] == 1
     found, slope = np.zeros(u.shape), np.zeros(u.shape)
     for row in coefficients[::-1]:  # Horner's rule in place for value and derivative

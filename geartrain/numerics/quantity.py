@@ -130,12 +130,12 @@ SPELT = {
 
 
 def bad(kind: str, what: str, fix: str, why: str = "") -> PydanticCustomError:
-    """Return a validation error for a value in a declaration, with its cause and its fix."""
+    """Return a validation error of the type `kind` for an invalid value, with the problem, its cause and its fix."""
     return PydanticCustomError(kind, "{what}", {"what": what, "fix": fix} | ({"why": why} if why else {}))
 
 
 def check_range(part: str, value: Any, ends: tuple[Any, Any] | None) -> None:
-    """Raise an error if a range (minimum, maximum) does not contain a figure or quantity; None is not checked."""
+    """Raise `PydanticCustomError` if a number or quantity is outside the range `ends` (minimum, maximum), if given."""
     if ends is None:
         return
     low, given, high = (
@@ -147,12 +147,12 @@ def check_range(part: str, value: Any, ends: tuple[Any, Any] | None) -> None:
 
 
 def scale(unit: str) -> tuple[str, Fraction]:
-    """Return the dimension of a unit, and its size in base units."""
+    """Return the dimension of a known unit, and the size of the unit in base units of this dimension."""
     return UNITS.get(unit) or IRRATIONAL[unit]
 
 
 def turns_in(unit: str) -> Fraction:
-    """Return the angle per unit of time [turn] at a speed of 1 in a unit: 1/360 for deg/s, 1 for rpm or no unit."""
+    """Return the angle in a unit of angular speed [turn]: 1/360 for deg/s, 1 for rpm or for a unit without an angle."""
     angle = unit.partition("/")[0] if "/" in unit else TURN
     return scale(angle)[1]
 
@@ -292,7 +292,8 @@ class Figure:
 
 @dataclass(frozen=True, slots=True)
 class Amount(Figure):
-    """Number and its digits as written, or a travel with a unit of length, for which `value` and `half` are in mm.
+    """Number as written in a declaration, or length with a unit, such as the travel of a slide. The `value` and `half`
+    (half a unit of the last written digit) of a length are in mm.
 
     Examples
     --------
@@ -462,7 +463,7 @@ class Quantity:
 
 
 def _in_range(quantity: Quantity, dimension: str) -> Quantity:
-    """Return the quantity; raise an error outside the range in which float64 represents products and squares."""
+    """Return the quantity, or raise `PydanticCustomError` if float64 cannot represent its products and squares."""
     low, high = _BOUNDS.get(dimension, _EXACT)
     if not quantity.value or low <= abs(quantity.base) <= high:
         return quantity

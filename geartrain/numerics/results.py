@@ -40,7 +40,7 @@ class Shown:
     """Name of the function that returns the text of the command, if this is not the text of the document; else ""."""
 
     def __init_subclass__(cls, **options: Any) -> None:
-        """Keep the inherited `__repr__` of a class, which `dataclass` would otherwise replace."""
+        """Make each subclass keep the inherited `__repr__`, which the decorator `dataclass` would otherwise replace."""
         super().__init_subclass__(**options)
         if "__repr__" not in vars(cls):
             cls.__repr__ = cls.__repr__  # type: ignore[method-assign]
@@ -53,7 +53,7 @@ class Shown:
         return summary_line(type(self).__name__, self._summary())
 
     def __dir__(self) -> list[str]:
-        """List the members without class constants, which are for internal use."""
+        """List the attributes of the result without class constants in capital letters, which are internal."""
         return [name for name in super().__dir__() if not name.isupper()]
 
     def __str__(self) -> str:
@@ -76,7 +76,7 @@ class Shown:
 
 
 def _described(result: object, name: str) -> Any:
-    """Call the function named `package.module:function` with an object and return its result; None if unnamed."""
+    """Return the result of calling the function `package.module:function` with an object; None for an empty name."""
     if not name:
         return None
     module, _, function = name.partition(":")
@@ -130,7 +130,7 @@ def values_summary(result: Any, names: Iterable[str]) -> str:
 
 
 def short_repr(result: Any) -> str:
-    """Return the summary line of a named tuple, which cannot inherit it from a base class."""
+    """Return the summary line of a named tuple. Named tuples use this function, because they cannot inherit it."""
     return summary_line(type(result).__name__, fields_summary(result))
 
 
@@ -264,7 +264,7 @@ class Tabular(Shown):
 
 
 def _property_doc(member: object) -> str:
-    """Return the first paragraph of a property's docstring; "" for other objects."""
+    """Return the first paragraph of the docstring of a class member that is a property; "" for other members."""
     maker = member if isinstance(member, property) else getattr(member, "func", None)
     return " ".join((getattr(maker, "__doc__", None) or "").split("\n\n")[0].split())
 
@@ -341,7 +341,7 @@ _ITSELF = "."
 
 
 def group(name: str, *keys: str | Key) -> Key:
-    """Return a key whose value is an object with further keys of the same result."""
+    """Return a key of a result's plain data whose value is an object that contains further keys of this result."""
     return Key(name, _ITSELF, keys=keys)
 
 
@@ -432,7 +432,7 @@ def keys_of(kind: Any) -> tuple[Key, ...]:
 
 
 def whole(keys: tuple[str | Key, ...]) -> tuple[Key, ...]:
-    """Return the keys for a sequence of keys and names; a name becomes the key of the attribute with this name."""
+    """Return a tuple of `Key` objects, in which each string is replaced by the key of the attribute with this name."""
     return tuple(each if isinstance(each, Key) else Key(each) for each in keys)
 
 

@@ -25,11 +25,11 @@ def roots_by_false_position(
     at_high: Floats,
     fine: float = 1e-15,
 ) -> Floats:
-    """Return a root of each function between `low` and `high`, by the Anderson-Bjorck variant of false position.
+    """Return, for each of n functions, a root between `low` and `high`, found by the Anderson-Bjorck method.
 
     value(x, which)   function that returns, at x, the values of the functions with the indices `which`
     at_low, at_high   values of the functions at `low` and `high`
-    fine              step length at which the iteration stops
+    fine              width of a bracket of a root, or length of a step, at which the iteration stops
 
     An iteration that stalls is continued by bisection. For a bracket without a change of sign, the end at which the
     function has the smaller absolute value is returned.
@@ -134,7 +134,7 @@ def root(value: Function, low: float, high: float, at_low: float, at_high: float
 
 
 def _quadratic_share(a: float, b: float, c: float, at_a: float, at_b: float, at_c: float) -> float:
-    """Return the root of the inverse quadratic as a fraction of the distance from a to b; 1/2 if unreliable."""
+    """Return the root of x as a quadratic of the values at a, b and c, as a fraction of b - a; 1/2 if unreliable."""
     if not all(map(isfinite, (at_a, at_b, at_c))) or at_b == at_c or at_a in (at_b, at_c):
         return 0.5
     xi, phi = (a - b) / (c - b), (at_a - at_b) / (at_c - at_b)

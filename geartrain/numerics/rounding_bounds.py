@@ -34,7 +34,7 @@ def two_product(a: Floats, b: Floats) -> tuple[Floats, Floats]:
 
 
 def split(a: F) -> tuple[F, F]:
-    """Split a float into two floats with 26 bits whose sum it is (Dekker 1971; Veltkamp)."""
+    """Return two floats with 26 significant bits, the sum of which is exactly `a` (Dekker 1971; Veltkamp)."""
     big = SPLITTER * a
     high = big - (big - a)  # overflows beyond about 2^996
     return high, a - high

@@ -88,7 +88,7 @@ def frame(n: Vector) -> tuple[Vector, Vector]:
 
 
 def foot(point: Vector, way: Vector, other: Vector, cut: Vector) -> tuple[Vector, Vector]:
-    """Return the points at which two non-parallel lines, each a point and a unit vector, are nearest to each other."""
+    """Return the nearest points of two lines: through `point` along `way`, and through `other` along `cut`."""
     apart, turn = minus(other, point), dot(way, cut)
     # squared sine of the angle between the lines; 0 only for parallel lines
     square = 1.0 - turn * turn
@@ -120,7 +120,7 @@ def azimuth(u: Vector, axis: Vector, reference: Vector) -> float:
 
 
 def basis(normal: Vector) -> tuple[Vector, Vector]:
-    """Return the unit vectors that point right and up for a viewer who looks against a normal; x and y for z."""
+    """Return the unit vectors right and up, seen against the direction of `normal`; x and y for the normal z."""
     nx, ny, nz = normal
     if hypot(nx, ny) < _PARALLEL:
         return (1.0, 0.0, 0.0), (0.0, 1.0 if nz > 0 else -1.0, 0.0)

@@ -77,7 +77,7 @@ def _speed_and_ratio(answer: Answer, name: str) -> str:
 
 
 def answer_sections(train: GearTrain, answer: Answer) -> Iterator[Section]:
-    """Yield the sections on one state: pointers and their targets, then all outputs, targets and speeds as details."""
+    """Yield the sections on one state: first the pointers, and, as details, all outputs, targets and speeds."""
     if answer.outputs:
         yield _pointers(train, answer)
         yield replace(_outputs(train, answer), detail=True)
@@ -121,7 +121,7 @@ def _pointer_row(declared: Train, result: OutputResult) -> tuple[str, ...]:
 
 
 def _is_clock(declared: Train) -> bool:
-    """Return True if the unit of speed is turns per day or turns per shorter time."""
+    """Return True if the train's unit of time is a day or less, so that errors are shown in seconds per day."""
     return declared.unit_days is not None and declared.unit_days <= 1
 
 
@@ -167,8 +167,9 @@ _LONGER = 2  # d: a pointer of such a period may be off by a day
 
 
 def _clock_rates(declared: Train, result: OutputResult, target: TargetResult) -> tuple[str, str, str]:
-    """Return three strings: the error of an output in seconds per day and in seconds per year, both empty for other
-    outputs than clock hands, and the days after which the error is one day, empty for targets of up to about a day.
+    """Return three texts: error in seconds per day, error in seconds per year, and days until the error is one day.
+
+    The first two are empty unless the output is the hand of a clock, the third for periods of up to about a day.
     """
     if declared.unit_days is None or target.days_per_century is None:
         return "", "", ""
@@ -308,7 +309,7 @@ def expectations_met(answers: Iterable[Answer]) -> str:
 
 
 def _as_read(declared: Train, result: OutputResult) -> str:
-    """Return the sense of rotation as seen on the dial, and the times of one turn and of one division, as a string."""
+    """Return a text with the sense of rotation as seen on the dial, and the times of one turn and of one division."""
     dial = declared.dials.get(result.output.dial or "")
     if dial is None or not result.speed:
         return ""
@@ -366,9 +367,9 @@ def _shift(value: float | None) -> str:
 
 
 def speeds_text(answer: Answer, output: str | None, oblique: frozenset[str]) -> str:
-    """Return lines of text with the speeds of one state, or, if `output` is not None, with the speed of one output.
+    """Return lines of text with the speeds of one state, or only with the speed of the output `output`.
 
-    oblique   links whose speeds are sums of joint speeds about axes that are not parallel
+    oblique   links whose speeds are sums of speeds about axes that are not parallel, so that they are not rotations
     """
     state = f" state {answer.state}" if answer.state is not None else ""
     place = "" if answer.verdict else f" ({answer.place})"
@@ -440,7 +441,7 @@ def answer_document(answer: Answer) -> Document | None:
 
 
 def why_floats(answer: Answer) -> str:
-    """Return why a system was solved in floating point, the estimated error, and the way to exact fractions."""
+    """Return sentences: why a system was solved in floats, the estimated error, and the option for exact fractions."""
     error = max((each.estimate for each in answer.accuracy.values()), default=0.0)
     why = "the system is coupled too densely for exact elimination within about a second"
     return (
@@ -460,7 +461,7 @@ def _marks(answer: Answer, link: str, oblique: frozenset[str]) -> str:
 
 
 def _pi(answer: Answer, name: str) -> str:
-    """Return a mark for a speed that contains pi but is not written as a multiple of pi, else ""."""
+    """Return a note that the speed of an output or link contains pi, if its printed value does not show pi, else ""."""
     speed = answer.speeds.get(name) if name not in answer.outputs else answer.outputs[name].speed
     if speed is None or not answer.contains_pi.get(name) or "π" in exact(speed):
         return ""

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def coupling_sections(train: GearTrain) -> Iterator[Section]:
-    """Yield a section on the sizes of couplings and on effects that are not modelled, where there are any."""
+    """Yield a section on the sizes of couplings and on effects that are not modelled; nothing without couplings."""
     shown = [each for each in train.declaration.couplings if each.about or each.UNKNOWN]
     if shown:
         lengths = {}  # of belts around two pulleys with declared diameters and axis positions

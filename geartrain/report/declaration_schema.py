@@ -125,7 +125,7 @@ def _values(models: Schema, shape: Schema, data: Any, name: str) -> Iterator[tup
 
 
 def _fits(body: Schema, data: Any) -> bool:
-    """Return True if a part allows all keys of a mapping, and has no other fixed values (`kind`, `form`) than these."""
+    """Return True if plain data are a mapping that the schema `body` of a part allows: keys and fixed values agree."""
     keys = body["properties"]
     return isinstance(data, dict) and all(
         key in keys and keys[key].get("const", value) == value for key, value in data.items()
@@ -153,7 +153,7 @@ quotes. A quantity is a number and a unit, such as `2.5 mm`:
 
 @dataclass(frozen=True)
 class _Chapter:
-    """Section of the reference: one part of a declaration, or a key whose values can be parts of several kinds."""
+    """Section of the reference, on one part of a declaration, or on a key with parts of several kinds as values."""
 
     title: str
     depth: int
@@ -208,7 +208,7 @@ def _references(shape: Any) -> Iterator[str]:
 
 
 def _chapters(models: Schema, name: str, depth: int, seen: set[str]) -> Iterator[_Chapter]:
-    """Yield the sections of a part's keys, their parts and so on; parts that are already in `seen` are omitted."""
+    """Yield the sections of the parts below the part `name`, at heading level `depth`, without the parts in `seen`."""
     found = {
         key: tuple(dict.fromkeys(_references(shape))) for key, shape in _body(_part(models, name))["properties"].items()
     }
@@ -265,7 +265,7 @@ def _section(
 
 
 def _rows(part: Schema, kinds: Mapping[str, str]) -> dict[tuple[str, ...], str]:
-    """Return the cells of each key of a part (key, type, default and meaning) mapped to a YAML line as an example."""
+    """Return the table of a part: for each row of cells (key, type, default and meaning), an example as a YAML line."""
     body, rows = _body(part), {}
     for key, shape in body["properties"].items():
         meaning, *default = _DEFAULT.split(" ".join(shape["description"].split()), maxsplit=1)

@@ -110,9 +110,9 @@ _CellColumn = tuple[str, Callable[[Any], str]]
 def result_table(results: Iterable[Any], *columns: str | _CellColumn, wide: bool = False) -> Table:
     """Return a table with one row for each result. All results have the same class.
 
-    columns   name of a field, or `field:digits` for a number; the head of the column is the name with the unit from the
-              field's docstring, unless it is given as in `head=field:digits`. A column can also be a pair of a head and
-              a function that returns the cell of a result.
+    columns   name of a field; `field:digits` for a number; or `head=field:digits` with the head of the column, which is
+              otherwise the name with the unit in the field's docstring. A column can also be a pair of a head and a
+              function that returns the cell of a result.
     """
     rows = list(results)
     kind: type = type(rows[0]) if rows else object
@@ -138,7 +138,7 @@ def _field_column(column: str | _CellColumn, docs: Mapping[str, str]) -> _CellCo
 
 @dataclass(frozen=True, slots=True)
 class Branch:
-    """Node of a tree of text lines.
+    """Text line with further lines below it, which form a tree.
 
     See Also
     --------
@@ -375,7 +375,7 @@ _NUMBER = re.compile(r"[+\-−~]?\d[\d ]*(\.\d*)?(e[+-]?\d+)?")
 
 
 def aligned_rows(table: Table) -> list[list[str]]:
-    """Return the rows of a table, with the decimal points of numeric columns aligned by spaces."""
+    """Return the rows of a table, with the decimal points of each column of numbers aligned by spaces."""
     if table.wide:
         return [list(row) for row in table.rows]
     columns = [_aligned(column) for column in zip_longest(*table.rows, fillvalue="")]

@@ -87,7 +87,7 @@ def joined_table(rows: Sequence[AccountTable]) -> Table:
 
 
 def without_losses(mesh: GearMesh) -> Section | None:
-    """Return a section on the friction of a pair whose sliding losses are 0 or unknown; None for other pairs."""
+    """Return a section that states why a pair has no computed sliding losses; None for a pair with such losses."""
     if not mesh.has_friction:
         return Section("Friction", ("No friction is given, so that sliding losses are 0.",))
     return None if mesh.computes_losses else Section("Friction", (f"{mesh.friction_words}.",))

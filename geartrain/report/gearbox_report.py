@@ -57,7 +57,7 @@ def gearbox_sections(found: Gearbox) -> Iterator[Section]:
 
 
 def _unit(found: Gearbox) -> str:
-    """Return a sentence on the unit of speeds, with the states whose speeds refer to another link than the input."""
+    """Return a sentence on the unit of speeds, which lists states in which this unit is not the speed of the input."""
     others = {each.state: each.driven_by or "no input, as declared" for each in found.states}
     named = ", ".join(f"{state} ({link})" for state, link in others.items() if link != found.input)
     return "Relative to the input speed" + (f"; relative to another link's in {named}." if named else ".")

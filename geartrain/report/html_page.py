@@ -30,7 +30,7 @@ _INTO_FRAMES = "'unsafe-inline' blob: data:; worker-src blob:; connect-src data:
 
 @dataclass(frozen=True, slots=True)
 class _Anchors:
-    """Anchor names in one document of a page. `contents` lists the anchor and title of each heading."""
+    """Anchor names of one of the documents on an HTML page. `contents` lists the anchor and title of each heading."""
 
     contents: Sequence[tuple[str, str]]
     sections: Sequence[str]

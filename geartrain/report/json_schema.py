@@ -180,7 +180,7 @@ def shape_of(kind: Any, to: Callable[[Any], Any] | None = None, keys: tuple[str 
 
 
 def _of_one(kind: Any, to: Callable[[Any], Any] | None, keys: tuple[str | Key, ...]) -> Schema:
-    """Return the schema of a single value, as opposed to a union, mapping or list."""
+    """Return the schema for the annotation of a single value, which is not a union, mapping or list."""
     if to is not None:
         return shape_of(to) if isinstance(to, type) or to in _PLAIN else shape_of(_returned(to))
     if keys:
@@ -267,7 +267,7 @@ def _summary(what: Any) -> str:
 
 
 def attribute_kind(kind: Any, path: str) -> Any:
-    """Return the annotation of the field or property at a path, such as `part.attribute`, or raise an error."""
+    """Return the annotation of the field or property at a path such as `part.attribute`, or raise `AttributeError`."""
     for name in path.split("."):
         kind = _own_kind(kind, name)
     return kind
@@ -296,7 +296,7 @@ def _evaluated(annotation: Any, module: ModuleType) -> Any:
 
 
 class _Names(dict[str, Any]):
-    """Names that are defined in a module, including names that the module imports only for annotations."""
+    """Mapping of all names in a module to their values; names imported only for annotations are imported on access."""
 
     def __init__(self, module: ModuleType) -> None:
         super().__init__(vars(builtins) | vars(module))

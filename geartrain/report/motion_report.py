@@ -44,7 +44,7 @@ class PhaseSets(NamedTuple):
 
 
 class PartialRun(NamedTuple):
-    """Progress of an interrupted run."""
+    """Number of positions that were computed in an interrupted run, and number of requested positions."""
 
     done: int
     """Number of positions that were computed."""
@@ -177,7 +177,7 @@ def _phase_range(tallies: list[RunningStatistics]) -> PhaseRange | None:
 
 
 def collect_motions(train: GearTrain) -> Iterator[MotionFigures | UnfollowedMotion]:
-    """Yield the motion in every state; nothing for a train without tooth forms and without pins of known size."""
+    """Yield the motion of a train in every state; yield nothing if the speed ratios of all pairs are constant."""
     if not ripples(train):
         return
     from geartrain.dynamics import MotionRun
@@ -196,7 +196,7 @@ def collect_motions(train: GearTrain) -> Iterator[MotionFigures | UnfollowedMoti
 def separation_rates(train: GearTrain, state: str | None, without: Sequence[str] = ()) -> Any:
     """Return the input speeds at which teeth first separate in a state (`geartrain.simulation.SeparationRates`).
 
-    None without inertia, without units of torque, or without the optional package `simulation`.
+    The result is None if the train has no inertia or no units of torque, or if the package `simulation` is missing.
     """
     # reports are part of the core, which imports optional packages only on demand
     if not (train.declaration.has_inertia and has_wing("simulation")):
@@ -208,7 +208,7 @@ def separation_rates(train: GearTrain, state: str | None, without: Sequence[str]
 
 
 def ripples(train: GearTrain) -> bool:
-    """Return True if a pin has declared dimensions, or if the speed ratio of a gear pair varies within a turn."""
+    """Return True if a coupling or pair has a variable speed ratio, so that outputs may not turn uniformly."""
     return bool(train.mechanics.couplings) or any(not mesh.rigid for mesh in train.meshes)
 
 
@@ -410,7 +410,7 @@ def _shares(motion: Motion, outputs: Sequence[str]) -> Table:
 
 
 def _steps(motion: Motion) -> Iterator[Section]:
-    """Yield a section on the couplings that move in steps; yield nothing if there are no such couplings."""
+    """Yield a section on couplings whose driven link rests for a part of each period; yield nothing without any."""
     rows = []
     for source in motion._forward.used:
         transmission = source.transmission

@@ -165,7 +165,7 @@ def _angle(name: str, angle: float) -> tuple[str, str, str]:
 
 
 def _share(efficiency: float | None) -> str:
-    """Return a string with an efficiency; `-` if friction locks the pin or if no work is done on a constant load."""
+    """Return an efficiency as text; `-` if it is None, because friction locks the pin or no work is done."""
     return "-" if efficiency is None else f"{efficiency:.9f}"
 
 
@@ -258,7 +258,7 @@ def _path(transmission: TriangularTransmission) -> Section:
 
 
 def _course(mesh: TriangularMesh) -> Section:
-    """Return a section on speed ratio, instant centre and moment arms at and between the ends of contact intervals."""
+    """Return a section with a table of speed ratio, instant centre and moment arms at the ends of contact intervals."""
     found = contact_course(mesh.transmission, friction=pair_friction(mesh.wheels))
     angles, lengths = (found.alpha1, found.alpha2), (found.speed_ratio, found.instant_centre, found.driver_arm)
     columns = (each.tolist() for each in (*angles, *lengths, found.driven_arm, found.efficiency))
@@ -323,7 +323,7 @@ def _losses(mesh: TriangularMesh) -> Section:
 
 
 def _impacts(transmission: TriangularTransmission, operation: PairOperation | None) -> PairImpacts | None:
-    """Return the impacts under operating conditions; None without conditions, or if the teeth never touch."""
+    """Return the impacts for given operating data; None if `operation` is None, or if the teeth never touch."""
     from geartrain.dynamics.motion.pair_impacts import find_pair_impacts
 
     return None if operation is None or not transmission.intervals else find_pair_impacts(transmission, operation)

@@ -75,7 +75,7 @@ def _summary(train: GearTrain, answers: Sequence[Answer]) -> str:
 
 
 def _without_findings(train: GearTrain, whole: bool) -> str:
-    """Return a text that names the checks without findings: of equal planets and, if `whole`, of declared teeth."""
+    """Return a text that lists the checked parts without findings: equal planets and, if `whole`, declared teeth."""
     declared, rules = train.declaration, {found.rule for found in train.build_findings}
     checked = []
     if not rules & {"A1", "A2", "A3"}:

@@ -118,7 +118,7 @@ def describe_survey(rows: Iterable[SurveyRow]) -> Document:
 
 
 def describe_suggestions(found: ToothCountSuggestions) -> Document:
-    """Return a document on suggested tooth counts, on loops that close and tips that clear, and on rejected sets."""
+    """Return a document on suggested tooth counts and their properties, and on the number of rejected sets."""
     kinds = list(dict.fromkeys(found.configuration.kinds))
     rows = []
     for each in found:

@@ -151,7 +151,7 @@ def collect_torques(train: GearTrain, found: Torques) -> TorqueFigures:
 
 
 def _belt_pulls(declared: Train, found: Torques) -> Iterator[tuple[str, float]]:
-    """Yield the name of each belt and its pull at the driven pulley [N]: twice the torque over the pitch diameter."""
+    """Yield each belt and the difference of its tensions [N]: torque on the driven pulley divided by pitch radius."""
     for belt in declared.couplings:
         if belt.kind != "belt" or any(size.unit is None for size in belt.lengths):
             continue
@@ -250,7 +250,7 @@ _LOADED = "Loads of bearings follow from declared positions of axes; without axi
 
 
 class _Amounts:
-    """Conversion of powers and torques to strings, in W and N m if the train declares units."""
+    """Converter of powers and torques to strings, in W and N m if the train declares units."""
 
     def __init__(self, found: TorqueFigures) -> None:
         self.watts = found.watts_per_unit
@@ -334,7 +334,7 @@ def _bearings(found: Torques, amounts: _Amounts) -> Iterator[Table]:
 
 
 def _loops(flow: PowerFlow, amounts: _Amounts) -> Iterator[str]:
-    """Yield sentences on the amount of recirculating power and on the pairs and shafts that transmit this power."""
+    """Yield a sentence on each loop of recirculating power: its amount, and the pairs and shafts that carry it."""
     if flow.loops:
         yield "Here power is torque times absolute speed, so that it is balanced at every shaft and pair."
     for loop in flow.loops:
@@ -367,7 +367,7 @@ def _losses(flow: PowerFlow, amounts: _Amounts, impact_power: Mapping[str, float
 
 
 def _loss_row(flow: PowerFlow, amounts: _Amounts, lost: Fraction, struck: float | None) -> tuple[str, ...]:
-    """Return a row with a loss, its fractions of input power and of all losses, and impact power with its fraction."""
+    """Return the loss `lost` with its percentages of input power and total loss, and the impact power `struck`."""
     parts = (percent_text(lost / whole) if whole else "-" for whole in (flow.power_in, flow.loss))
     if struck is None:
         return (amounts.text(lost), *parts, "", "")
@@ -409,7 +409,7 @@ _MINIMUM = 1e-12  # relative to all losses: smaller amounts are rounding
 
 
 def cycle_sections(found: TorqueCycle) -> Iterator[Section]:
-    """Yield sections on crank torque over the positions of `found`, energies, and losses by pair, pin and bearing."""
+    """Yield sections on the torque during a run, its energies, and the losses of each pair, pin and bearing."""
     head = titled(found.state, "torque over a turn")
     lines = [f"Verdict: {found.verdict.kind}: {found.verdict.text}."]
     lines += [f"Not included: {each}: {each.why}." for each in found.neglected]
@@ -443,7 +443,7 @@ def _run(found: TorqueCycle) -> str:
 
 
 def _remarks(found: TorqueCycle) -> Iterator[str]:
-    """Yield sentences on locked and ambiguous stretches, efficiency, largest loss, flank changes and recirculation."""
+    """Yield sentences on a run: shares at which the train locks, efficiency, largest loss, recirculation and others."""
     shares = {
         "no torque balances: the train locks": found.locked_share,
         "loads and the crank both put power in, and all of it is lost": found.held_share,
@@ -499,7 +499,7 @@ def _energies(found: TorqueCycle) -> Table:
 
 
 def energy_table(head: str, amounts: Mapping[str, float], whole: float, digits: int) -> Table:
-    """Return a table of energies and their fractions of the input `whole`, without those within rounding error."""
+    """Return a table of energies and their percentages of the energy input `whole`; rounding errors are omitted."""
     rows = [
         (name, figure(value, digits), _share(value, whole))
         for name, value in amounts.items()

@@ -150,7 +150,7 @@ def _findings(train: GearTrain) -> Iterator[Section]:
 
 
 def _loaded(found: TrainReport) -> Iterator[Section]:
-    """Yield the sections on teeth, torques, strength and motion, whose modules are imported only if needed."""
+    """Yield the sections on teeth, torques, strength and motion. Their modules are imported only if needed."""
     if found.teeth or found.pins:
         from geartrain.report.gear_pairs import teeth_sections
 
@@ -173,7 +173,7 @@ def _loaded(found: TrainReport) -> Iterator[Section]:
 
 
 def _fusees(train: GearTrain) -> Iterator[Section]:
-    """Yield a section on the torque of each spring with a fusee, from the wound to the unwound state."""
+    """Yield a section on each spring with a fusee, with its torque when fully wound, at the end, and at the maximum."""
     runs: dict[FuseeSpring, str | None] = {}
     for state in train.states or (None,):
         drive = train.declaration.case(state).drive
@@ -326,7 +326,7 @@ def _circuits_in_short(train: GearTrain) -> str:
 
 
 def _mobility_lines(found: Mobility, held: Sequence[str] = ()) -> Iterator[str]:
-    """Yield sentences on mobility by count and by rank, redundant circuits, locked links, and links at rest, `held`."""
+    """Yield sentences on mobility by count and by rank, redundant circuits, locked links, and the resting links."""
     minus = f" - {plural(found.couplings, 'coupling')}" if found.couplings else ""
     slides = f" + {plural(found.sliding_pairs, 'sliding pair')}" if found.sliding_pairs else ""
     pairs = f"{plural(found.turning_pairs, 'turning pair')}{slides} - {plural(found.gear_pairs, 'gear pair')}{minus}"
@@ -414,7 +414,7 @@ def describe_shared_page(
 
 
 def _badge(found: TrainReport) -> tuple[str, bool]:
-    """Return a pair: the worst verdict on a train in a few words, and True if this verdict is acceptable."""
+    """Return the worst verdict on a train as a short text, and True if the train is as expected."""
     train, answers = found.train, found.states
     wrong = [answer for answer in answers if not answer.as_expected]
     if wrong:

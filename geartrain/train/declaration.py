@@ -287,7 +287,7 @@ class Train(Declared):
 
     @cached_property
     def tour_parts(self) -> Mapping[str, str]:
-        """Kind (output, link, wheel, dial or coupling, in this order) of each part that a tour can show, by name."""
+        """Kind of each part that a tour can show, keyed by name: output, link, wheel, dial or coupling."""
         outputs = chain(self.outputs, *(state.outputs for state in self.states.values()))
         couplings = (coupling.id for coupling in self.couplings)
         kinds = {"coupling": couplings, "dial": self.dials, "wheel": self.wheels, "link": self.links, "output": outputs}
@@ -355,7 +355,7 @@ class Train(Declared):
 
     @property
     def pin_couplings(self) -> tuple[PinCoupling, ...]:
-        """Couplings by pins, and couplings that keep links parallel by any device, in the order of declaration."""
+        """Couplings by pins, and couplings that keep two links parallel, in the order of declaration."""
         if not self.couplings:
             return ()
         from geartrain.teeth.couplings.pins import PinCoupling
@@ -457,7 +457,7 @@ class Train(Declared):
         return {}
 
     def __copy__(self) -> Train:
-        """Return a copy without the decisions on one-way clutches, which depend on all values of the train."""
+        """Return a copy without the cached cases, in which one-way clutches depend on all values of the train."""
         copied = super().__copy__()
         copied.__dict__.pop("_decided_cases", None)
         return copied
@@ -599,7 +599,7 @@ class Train(Declared):
 
     @cached_property
     def unit_days(self) -> Fraction | None:
-        """Length of the train's unit of time [d]; None if the train's unit is not a time."""
+        """Length of the time in the key `unit` [d]; None if `unit` is not declared or does not contain a time."""
         if self.unit is None:
             return None
         row = period_table().get(self.unit.per)
@@ -642,7 +642,7 @@ class Train(Declared):
 
     @cached_property
     def sliding(self) -> frozenset[str]:
-        """Names of the links that slide on the link that carries them; all other links turn."""
+        """Names of the links that slide on their neighbours in the direction of the frame; all other links turn."""
         if not self.slides:
             return frozenset()
         found, reached = set(), {self.frame}
@@ -657,7 +657,7 @@ class Train(Declared):
 
     @property
     def cases_declared(self) -> Iterator[tuple[Loc, Train | State]]:
-        """Train and its states, with their paths; each can declare inputs, loads, fixed links, locks and outputs."""
+        """Train itself and all of its states, both of which can declare inputs and loads, with their paths."""
         yield (), self
         for name, state in self.states.items():
             yield ("states", name), state

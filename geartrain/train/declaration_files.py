@@ -104,13 +104,13 @@ def _read_source(source: str | Path | Mapping[str, Any], known: Mapping[str, Pat
 
 
 def write_declaration(train: Train) -> str:
-    """Return YAML text of a declaration that includes all inherited parts, so that no other file is needed."""
+    """Return YAML text of a declaration in which everything inherited by `extends` is included."""
     data = train.model_dump(mode="json", exclude_unset=True, by_alias=True, exclude={"extends", "remove"})
     return as_yaml({"name": train.name, **data})
 
 
 def formatted(path: Path, long: bool = False) -> tuple[str, str]:
-    """Return the text of a declaration file, and its text in short (or long) form, checked to have the same meaning."""
+    """Return the text of a file, and this text in short (or long) form, which is checked to have the same meaning."""
     from geartrain.train.declaration_style import with_long_forms, with_short_forms
 
     def declared(text: str) -> dict[str, Any]:

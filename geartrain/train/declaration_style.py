@@ -26,7 +26,7 @@ _RENAMED = {"couplings": "belts", "belts": "couplings"}
 
 @dataclass(frozen=True)
 class _Entry:
-    """Entry of a section: its text, the comment lines before it, and the comment at the end of its line."""
+    """Text of one entry of a section of a declaration, with the comments before it and at the end of its line."""
 
     text: str
     before: tuple[str, ...] = ()
@@ -73,7 +73,7 @@ def _last_line(node: yaml.Node) -> int:
 
 
 class _SectionSource:
-    """Source text of a section: its value, comments at the end of lines, and comments on separate lines."""
+    """Section of a declaration as YAML source text, with its comments by line."""
 
     def __init__(self, text: str, key: yaml.Node, value: yaml.Node) -> None:
         self.text, self.value = text, value
@@ -105,7 +105,7 @@ class _SectionSource:
         return self.text[node.start_mark.index : node.end_mark.index].strip()
 
     def entry(self, text: str, node: yaml.Node) -> _Entry:
-        """Return an entry with a text, and with the comments before and after a node; each comment is used once."""
+        """Return an entry with the text `text` and the comments at a node. Comments of earlier entries are omitted."""
         start, end = node.start_mark.line, _last_line(node)
         before = tuple(each for at, each in self._alone.items() if self._after <= at < start)
         behind = [self._behind.pop(at) for at in range(max(start, self.first + 1), end + 1) if at in self._behind]
@@ -118,7 +118,7 @@ def _parts(node: yaml.Node) -> dict[str, yaml.Node]:
 
 
 def _pair_of(written: _SectionSource, node: yaml.Node, keys: set[str]) -> list[str]:
-    """Return the two names of a pair as written; an empty list if the keys of the node are not exactly `keys`."""
+    """Return the source texts of the two names of a pair; [] if the node has other keys than `keys`."""
     parts = _parts(node)
     if set(parts) != keys or not isinstance(parts["pair"], yaml.SequenceNode) or len(parts["pair"].value) != 2:
         return []

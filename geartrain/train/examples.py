@@ -30,7 +30,7 @@ def example_data() -> Iterator[tuple[str, dict[str, Any]]]:
 
 
 def _plain(data: Any) -> Any:
-    """Return the data of a declaration, with strings that represent numbers or booleans converted."""
+    """Return the data of a declaration; strings that represent numbers or booleans are replaced by these values."""
     if isinstance(data, dict):
         return {key: _plain(value) for key, value in data.items()}
     if isinstance(data, list):
@@ -63,7 +63,7 @@ def example_line(loc: Loc, kind: type) -> str:
 
 
 def _named(key: str) -> Iterator[Any]:
-    """Yield all values of a key that occur in the examples, at any level."""
+    """Yield every value that the key `key` has in any mapping of the examples, however deeply nested."""
     # reversed, so that the stack returns values in the order of the examples
     stack: list[Any] = [data for _, data in example_data()][::-1]
     while stack:

@@ -54,7 +54,7 @@ class Declared(BaseModel):
 
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: Any, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        """Return the JSON schema of the part, and of its short form if it has one."""
+        """Return the JSON schema of the class, which also accepts the short form if the class has one."""
         return handler(schema) if cls.SHORT is None else also(dict(cls.SHORT), handler(schema))
 
     def changed(self, **update: Any) -> Self:
@@ -119,7 +119,7 @@ def side(raw: object) -> object:
 
 
 def short_for(key: str) -> BeforeValidator:
-    """Return a validator that reads a value that is not a mapping as `{key: value}`, and null as `{}`."""
+    """Return a validator that replaces a value that is not a mapping by `{key: value}`, and null by `{}`."""
 
     def expand(raw: object) -> object:
         if raw is None:
@@ -183,7 +183,7 @@ def read_friction(raw: object) -> Any:
 
 
 def _has_law_keys(keys: Mapping[Any, Any]) -> bool:
-    """Return True if a key is `law`, possibly misspelt, or if most keys are those of friction laws."""
+    """Return True if a mapping has a key like `law`, or more keys of friction laws than of Coulomb friction."""
     if any(key == "law" or nearest_names(str(key), ("law",)) for key in keys):
         return True
     if all(key in CoulombFriction.model_fields for key in keys):
@@ -212,7 +212,7 @@ def _read_coupling(raw: Any) -> Any:
 
 
 def _read_model(keys: Any, key: str, names: Callable[[Any], Iterable[str]]) -> Any:
-    """Read a model whose class is selected by the value of `key`; `names` returns all values allowed for this key."""
+    """Read a tooth form or coupling whose class the value of `key` selects. `names` returns the valid values."""
     name = keys.get(key) if isinstance(keys, dict) else getattr(keys, key, None)
     known = tuple(names(name))
     read = _union_reader(key, *([name] if isinstance(name, str) and name in known else known)).validate_python(keys)

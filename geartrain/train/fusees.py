@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 
 class FuseeRun(NamedTuple):
-    """Torque that a spring exerts at its fusee over the whole run, and the chain and winding that the run requires."""
+    """Torque of a spring at its fusee from fully wound to the end of the chain, and the chain and winding required."""
 
     first: float
     """Torque at the beginning, with the spring fully wound [N m]; `last` is the torque at the end of the run."""
@@ -58,7 +58,7 @@ class ConicalSection(NamedTuple):
         return self.wound - (self.radius + self.slope * x / 2) * x / self.barrel, self.radius + self.slope * x
 
     def extremes(self) -> Iterator[float]:
-        """Yield the angles [rad] where the torque can be extreme: both ends, and the roots of r' w = r^2/R."""
+        """Yield the angles of the fusee [rad] at which its torque can be extreme: both ends, and stationary points."""
         yield from (self.start, self.start + self.width)
         # with r = radius + r' x this is a quadratic in x
         a, b = 1.5 * self.slope**2, 3 * self.radius * self.slope
@@ -91,7 +91,7 @@ class FuseeSpring(NamedTuple):
 
     @property
     def angle(self) -> float:
-        """Angle by which the fusee turns over the run [rad]."""
+        """Angle of the fusee from fully wound to the end of the chain [rad]."""
         return tau * self.turns
 
     def _sections(self) -> list[ConicalSection]:
@@ -141,7 +141,7 @@ class FuseeSpring(NamedTuple):
 
     @property
     def end(self) -> float:
-        """Number of turns of the fusee until the spring has run down; infinite if it outlasts the run."""
+        """Number of turns of the fusee until the spring has run down; infinite if the chain ends before."""
         if self.constant is None:
             return min((section.end for section in self._sections()), default=inf) / tau
         end = self.stiffness * self.wound**2 / (2 * self.constant)

@@ -118,7 +118,7 @@ def _expanded(node: YamlNode, kind: str) -> YamlNode:
 
 
 def _identity(key: str, node: YamlNode) -> object:
-    """Return the value by which an entry of the list `key` of a child is matched with an entry of the parent."""
+    """Return the value that an entry of the list `key` has in common with the parent's entry that it changes."""
     if key in JOINTS:
         return frozenset(_ends(key, node))
     given = node.mapping.get("id")
@@ -126,7 +126,7 @@ def _identity(key: str, node: YamlNode) -> object:
 
 
 def _ends(key: str, node: YamlNode) -> list[str]:
-    """Return the links or wheels that an entry of the list `key` connects; of a coupling, first the driving one."""
+    """Return the links or wheels that an entry of the list `key` connects. The driver of a coupling is the first."""
     keys = COUPLING_ENDS if key == "couplings" else ("pair",)
     given = (node.mapping[each] for each in keys if each in node.mapping)
     return [name for each in given for name in (each.mapping or texts(each))]
@@ -190,7 +190,7 @@ def _drop(node: YamlNode, names: Iterable[object]) -> YamlNode:
 
 
 def _check_known(root: YamlNode, remove: YamlNode, gone: Mapping[str, list[object]]) -> None:
-    """Raise `DeclarationError` if `remove` names parts that do not exist in the parent."""
+    """Raise `DeclarationError` if the removed parts `gone` (by kind) are not all declared by the parent `root`."""
     known: dict[str, set[Any]] = {key: set(_child(root, key)) for key in _REMOVED_BY_NAME}
     known["wheels"] = {wheel for link in _child(root, "links").values() for wheel in _child(link, "wheels")}
     for key in (*JOINTS, "gears", "couplings"):

@@ -82,8 +82,8 @@ _Radius = Annotated[MeasuredLength, above_zero("give a length such as 1.5 mm")]
 
 
 class BearingFriction(Declared):
-    """Friction of a bearing, which is the sum of a torque that does not depend on the load and a part proportional to
-    the load. In a declaration, a single torque instead of a mapping sets `sliding`.
+    """Friction of a bearing: a torque that does not depend on the bearing load, plus a torque proportional to it. In a
+    declaration, a single torque instead of a mapping sets `sliding`.
     """
 
     SHORT: ClassVar = {"type": ["string", "number"], "format": "torque"}
@@ -147,8 +147,8 @@ class BearingFriction(Declared):
             raise bad("bearing", what, "give both with a unit, or both without")
         if static.base < sliding.base:
             what = f"the static friction torque {static} is below the sliding friction torque {sliding}"
-            fix = "give `static` as `sliding` or more: static friction is never less than sliding friction"
-            raise bad("bearing", what, fix)
+            fix, why = f"give `static: {sliding}` or more", "static friction is never less than sliding friction"
+            raise bad("bearing", what, fix, why)
         return self
 
     @property
@@ -408,12 +408,12 @@ class Wheel(Declared):
     @model_validator(mode="after")
     def _check_kind(self) -> Wheel:
         if self.helix_angle is not None and self.kind in ("bevel", "contrate"):
-            fix = "remove `helix_angle`: only spur wheels, rings and worms have one"
-            raise bad("helix_angle", f"a {self.kind} wheel cannot have a helix angle", fix)
+            why = "only spur wheels, rings and worms can have helical teeth"
+            raise bad("helix_angle", f"a {self.kind} wheel cannot have a helix angle", "remove `helix_angle`", why)
         if self.flexible and (self.internal or self.kind != "spur"):
             kind = "ring" if self.internal else f"{self.kind} wheel"
-            fix = "write `flexible: true` for the spur wheel (flexspline) that meshes with the ring"
-            raise bad("flexible", f"a {kind} cannot be flexible", fix)
+            why = "the flexible wheel of a strain-wave gear (flexspline) is a spur wheel in a ring"
+            raise bad("flexible", f"a {kind} cannot be flexible", "write `flexible: true` for the spur wheel", why)
         return self
 
     @property
@@ -482,7 +482,10 @@ class Link(Declared):
 
     @property
     def friction_radius(self) -> float:
-        """Radius of the friction circle [m]: r f/sqrt(1 + f^2) for pivot radius r and friction f; 0 if undeclared."""
+        """Radius of the friction circle of the bearing [m]; 0 without a friction coefficient.
+
+        It is r mu/sqrt(1 + mu^2) for a pivot of radius r and the friction coefficient mu.
+        """
         if self.bearing is None or not self.bearing.coefficient or not self.bearing.coefficient.value:
             return 0.0
         mu, radius = float(self.bearing.coefficient.value), self.bearing.radius
@@ -491,8 +494,10 @@ class Link(Declared):
 
     @property
     def shoulder_friction(self) -> float:
-        """Friction torque of the shoulder divided by its thrust [m], for a uniform pressure: 2/3 mu (r_o^3 -
-        r_i^3)/(r_o^2 - r_i^2); 0 without a shoulder.
+        """Friction torque of the bearing's shoulder divided by the axial force [m]; 0 without a shoulder.
+
+        For a uniform pressure, it is 2/3 mu (r_o^3 - r_i^3)/(r_o^2 - r_i^2), with the friction coefficient mu and the
+        outer and inner radius r_o and r_i.
         """
         if self.bearing is None or self.bearing.shoulder is None or self.bearing.coefficient is None:
             return 0.0
@@ -504,7 +509,8 @@ class Link(Declared):
         rubs = self.bearing is not None and self.bearing.coefficient is not None
         if rubs and self.bearing is not None and self.bearing.radius is None and self.arbor is None:
             fix = "give `radius`, such as `bearing: {coefficient: 0.15, radius: 1.5 mm}`, or the `arbor`"
-            raise bad("bearing", "the coefficient of friction of the bearing has no radius", fix)
+            why = "the friction torque is proportional to the radius of the pivot"
+            raise bad("bearing", "the coefficient of friction of the bearing has no radius", fix, why)
         return self
 
 

@@ -76,7 +76,7 @@ class PrintedPeriod(Figure):
         return cls(seconds, last / 10**decimals / 2, text, years, units, decimals)
 
     def in_seconds(self, year: Fraction | None) -> Figure:
-        """Return the time, with half a unit of its last digit as uncertainty [s]; `year` is the year's length [s]."""
+        """Return the time [s], with half a unit of its last digit as accuracy. A year has `year` seconds."""
         length = year or Fraction(0)
         half = length / 10**self.decimals / 2 if self.units == (_YEAR,) else self.half
         return Figure(self.value + self.years * length, half, self.text)
@@ -191,7 +191,7 @@ class Graduation(Declared):
     @model_validator(mode="before")
     @classmethod
     def _expand_scale(cls, raw: Any) -> Any:
-        """Expand a named scale, and derive `divisions` from the names if it is not given."""
+        """Replace the name of a predefined scale by its labels; if `divisions` is not given, add up their lengths."""
         if not isinstance(raw, dict) or not raw.get("names"):
             return raw
         names, own = raw["names"], dict(raw)
@@ -249,7 +249,7 @@ class Graduation(Declared):
 
     @property
     def parts(self) -> tuple[tuple[str, Fraction, Fraction], ...]:
-        """Label, start and length of every name; start and length are exact and counted in divisions."""
+        """Label, start and length of each labelled part of the scale. Start and length are exact, in divisions."""
         found, first = [], Fraction(0)
         for each in self.names:
             span = Fraction(self.divisions, len(self.names)) if each.span is None else Fraction(each.span)
@@ -331,14 +331,14 @@ class Dial(Graduation):
 
     @property
     def clear(self) -> float:
-        """Radius of the area inside the engraving, divided by the radius of the dial."""
+        """Radius of the circle inside which the dial has no engraving, divided by the radius of the dial."""
         outer = 1.0 if self.around is None else 1.0 - RING
         if self.turns > 1:
             return outer * (INNER - (1 - INNER) / self.turns)
         return outer - DEPTH
 
     def reach(self, right: float, up: float) -> float:
-        """Return how far the engraving extends in a direction (right, up) of any length, in radii of the dial."""
+        """Return the radius of the engraving in the direction (right, up), divided by the radius of the dial."""
         if self.turns == 1 or self.around is not None:
             return 1.0
         turn = atan2(right if self.counted == "clockwise" else -right, up) / (2 * pi) % 1
@@ -349,7 +349,7 @@ _BEHIND = ("back", "rear", "behind")  # words for the far side; other dials face
 
 
 def looks_away(face: str | None, seen_from: str | None) -> bool:
-    """Return True if the given face of the train is not visible from the given side; False if no face is given."""
+    """Return True if a face of the train cannot be seen from the side `seen_from`; False if no face is declared."""
     return face is not None and (face in _BEHIND) != (seen_from in _BEHIND)
 
 
@@ -366,7 +366,7 @@ _CALENDAR_PERIOD = re.compile(r"\s*([\d./]+)\s*(year|yr|y|month)s?\s*", re.ASCII
 
 
 def _check_calendar_unit(raw: object) -> object:
-    """Return a period unchanged; raise an error that suggests a target if the period is in years or months."""
+    """Return a period unchanged; raise `PydanticCustomError` with the fix to use a target for years and months."""
     if found := _CALENDAR_PERIOD.fullmatch(str(raw)[:100]):
         name = "month_synodic_J2000" if found[2] == "month" else "year_tropical_J2000"
         fix = f"write `{{name: {name}, turns: 1/{found[1]}}}` or another name of `geartrain periods`, or a time in days"
@@ -414,7 +414,7 @@ class Target(Declared):
         tolerance = self.tolerance
         if self.sense is not None and self.speed is not None:
             fix = "omit `sense`, and write a retrograde speed with a minus sign"
-            raise bad("target", f"the speed {self.speed} and `sense` are both given", fix)
+            raise bad("target", f"the speed {self.speed} and `sense` are both given", fix, "a speed has a sign")
         if tolerance and tolerance.unit is not None and self.speed is not None and not self.speed.value:
             fix = "give the maximum difference as a number in the train's unit"
             raise bad("target", f"a relative tolerance of {tolerance} is 0 for a speed of 0", fix)
@@ -442,7 +442,7 @@ class Expect(Declared):
 
 
 def _read_printed(raw: object, info: ValidationInfo) -> object:
-    """Read a published value or its tolerance: a time if the published value is a period, otherwise a number."""
+    """Read a published value or its tolerance, as a time if the validated field `as` in `info` is a period."""
     # `as_` is missing if it is not valid, which is reported
     if info.data.get("as_", "period" if is_printed_period(raw) else None) == "period":
         return PrintedPeriod.parse(raw)
@@ -495,11 +495,12 @@ class Published(Declared):
         exact = self.value.half is None and (self.tolerance is None or not self.tolerance.value)
         if self.as_ == "input/output" and not self.value.value and exact:
             what = "an input/output ratio of 0 would mean that the input is at rest"
-            raise bad("published", what, "write `{value: 0, as: output/input}` for an output at rest")
+            why = "a ratio describes an input that turns"
+            raise bad("published", what, "write `{value: 0, as: output/input}` for an output at rest", why)
         period = self.as_ == "period"
         if period and not (isinstance(self.value, PrintedPeriod) and self.value.above_zero):
-            fix = "write `{value: 0, as: speed}` for a link at rest"
-            raise bad("published", f"a period of {self.value} is not above 0", fix)
+            fix, why = "write `{value: 0, as: speed}` for a link at rest", "a period is the time of one turn"
+            raise bad("published", f"a period of {self.value} is not above 0", fix, why)
         if self.magnitude and (period or self.value.value < 0):
             what = "a period is a magnitude" if period else f"{self.value} with `magnitude: true` is negative"
             fix = "remove `magnitude`; `sense` gives a period a sign" if period else "remove the minus sign"

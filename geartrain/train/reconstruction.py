@@ -73,7 +73,7 @@ class MeasuredGeometry(Declared):
 
     A misfit multiplies the weight of a candidate by exp(-(misfit/spread)^2 / 2). The default spread of modules is the
     root mean square of the twelve pairs of the Antikythera mechanism of 2006 in which both wheels are measured. The
-    default spread of distances corresponds to the same errors if only one wheel is measured.
+    default spread of distances follows from the same errors for pairs in which only one wheel is measured.
     """
 
     module: Spread = Field(

@@ -119,7 +119,7 @@ def published_units(train: Train, published: Published, loc: Loc) -> Iterator[Pr
 
 
 def set_outputs(train: Train) -> Iterator[Problem]:
-    """Yield a problem if a link is set at the epoch twice, or after an output whose angle is relative to it."""
+    """Yield a problem if two outputs set one link at the epoch, or if a link is set after an output relative to it."""
     used: dict[str, str] = {}  # links that are set or referred to, with the output
     for name, output in train.outputs.items():
         of, base = output.links(name, train.frame)
@@ -268,7 +268,7 @@ def _links(train: Train) -> Iterator[Problem]:
 
 
 def _materials(train: Train) -> Iterator[Problem]:
-    """Yield a problem for each material that is neither in the table nor in the declaration."""
+    """Yield a problem for each named material that is neither declared nor in the shipped table of materials."""
     named: list[tuple[str, Loc]] = [(train.material, ("material",))] if train.material is not None else []
     for link, part in train.links.items():
         if part.arbor is not None:
@@ -423,7 +423,7 @@ def _references(train: Train) -> Iterator[tuple[str, str | None, Loc]]:
 
 
 def _output_references(train: Train, name: str, output: Output, loc: Loc) -> Iterator[tuple[str, str | None, Loc]]:
-    """Yield the references of an output. The link may be missing in a state, which inherits it, and in evidence."""
+    """Yield the references of an output. In a state or in evidence for a reconstruction, the link may be missing."""
     inherited = loc[0] == "states" and name in train.outputs and output.of is None
     to_be_found = train.reconstruct is not None and output.of in (None, NEW_ARBOR)
     if not inherited and not to_be_found:
@@ -476,7 +476,7 @@ def _prescriptions(train: Train) -> Iterator[Problem]:
 
 
 def _one_way(train: Train) -> Iterator[Problem]:
-    """Yield a problem for each clutch under `free` that is not one-way, or that is engaged in the same state."""
+    """Yield a problem for each clutch in the key `free` of a state that is not one-way, or that the state engages."""
     for name, state in train.states.items():
         for at, clutch in enumerate(state.free):
             place = train.place("states", name, "free", at)
@@ -521,7 +521,7 @@ _IN_TURNS = ("turn", "rpm")
 
 
 def sliding_problems(train: Train) -> Iterator[Problem]:
-    """Yield a problem for each speed, load or property that does not suit its link, which turns or slides."""
+    """Yield a problem for each speed, load or property in turns or torques of a link that slides, and vice versa."""
     for loc, part in train.cases_declared:
         yield from _sliding_inputs(train, loc, part.inputs or {})
         yield from _sliding_loads(train, loc, part.loads or {})
@@ -617,7 +617,7 @@ def _sliding_links(train: Train) -> Iterator[Problem]:
 
 
 def _sliding_drive(train: Train, loc: Loc, drive: Drive) -> Iterator[Problem]:
-    """Yield a problem if the drive does not suit the motion of its link: the input for a rate, else the crank."""
+    """Yield a problem if a link that slides has a drive for links that turn, or vice versa."""
     inputs = next((part for part in (train.inputs, *(state.inputs for state in train.states.values())) if part), {})
     source = next((link for link, speed in inputs.items() if speed.value), None)
     link = source if drive.rate is not None else train.crank or source

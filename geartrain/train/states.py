@@ -108,10 +108,12 @@ class SpringDrive(Declared):
     def _check_fusee(self) -> SpringDrive:
         if (self.barrel is None) != (self.fusee is None):
             fix = "give `barrel: 15 mm` and `fusee: {turns: 6, torque: 0.27 N m}`, or neither"
-            raise bad("drive", "`barrel` and `fusee` must be given together", fix)
+            why = "a fusee is pulled by a chain that is wound on the barrel"
+            raise bad("drive", "`barrel` and `fusee` must be given together", fix, why)
         if (chained := self.chained) is not None and (end := chained.end) < inf:
             what = f"the spring has run down after {end:.6g} of the {chained.turns:g} turns of the fusee"
-            raise bad("drive", what, "give more `turns` of winding, fewer turns of the fusee, or smaller radii")
+            fix = "give more `turns` of winding, fewer turns of the fusee, or smaller radii"
+            raise bad("drive", what, fix, "the spring must pull the chain until the fusee has no more chain")
         return self
 
     @property
@@ -165,7 +167,8 @@ class HandDrive(Declared):
         exactly_one(self, "a hand", ("torque", "rate"))
         if self.torque is not None and self.stiffness is not None:
             fix = "omit `stiffness`, or give `rate` instead of `torque`"
-            raise bad("drive", "`stiffness` applies only to a hand with a `rate`", fix)
+            why = "a stiffness connects the crank to a hand of given speed"
+            raise bad("drive", "`stiffness` applies only to a hand with a `rate`", fix, why)
         check_range("drive", self.torque, self.range)
         return self
 
@@ -220,7 +223,8 @@ class Drive(Declared):
         if given:
             needed = "drum" if self.weight is not None else "weight"
             fix = "give `weight`, a mass, and `drum`, its lever arm, such as `weight: 4 kg, drum: 20 mm`"
-            raise bad("drive", f"`{given[0]}` is given without `{needed}`", fix)
+            why = "the weight hangs from a cord that is wound on the drum"
+            raise bad("drive", f"`{given[0]}` is given without `{needed}`", fix, why)
         return self
 
     @property
@@ -231,7 +235,7 @@ class Drive(Declared):
 
     @property
     def arm(self) -> float | None:
-        """Descent of the weight per radian of its drum [m]; None for other drives, and for a weight that is a link."""
+        """Descent of the weight per radian of its drum [m]; None for other drives, and for a weight without a drum."""
         return None if self.drum is None else self.drum.si / self.falls
 
     @property
@@ -320,8 +324,9 @@ class Escapement(Declared):
             # simple pendulum whose half period is one beat
             length = GRAVITY * (self.beat.si / pi) ** 2
             if abs(self.pendulum.length.si / length - 1) > _NEAR:
-                fix = f"give {1000 * length:.4g} mm, which follows from pi sqrt(l/g), or another `beat`"
-                raise bad("escapement", "the length of the pendulum does not match the beat", fix)
+                fix = f"give {1000 * length:.4g} mm as its length, or another `beat`"
+                why = "the beat of a pendulum of length l is pi sqrt(l/g)"
+                raise bad("escapement", "the length of the pendulum does not match the beat", fix, why)
         return self
 
     @property
@@ -345,7 +350,7 @@ class Clutch(Declared):
     """Brake (`fixes`) or clutch (`locks`); exactly one of the two keys is required.
 
     A clutch with `one_way` is an overrunning clutch, freewheel or ratchet, which is active in every state: depending on
-    speeds and torques, it holds, or it overruns in the given sense.
+    speeds and torques, it holds, or it overruns in the sense `one_way`.
     """
 
     fixes: Id | None = Field(None, description="Link that the brake fixes to the frame")
@@ -360,8 +365,8 @@ class Clutch(Declared):
     @model_validator(mode="after")
     def _has_one_key(self) -> Clutch:
         if self.teeth is not None and self.one_way is None:
-            fix = "add `one_way: forward`, or omit `teeth`"
-            raise bad("teeth", "`teeth` applies only to a one-way clutch", fix)
+            fix, why = "add `one_way: forward`, or omit `teeth`", "they are the teeth of a ratchet"
+            raise bad("teeth", "`teeth` applies only to a one-way clutch", fix, why)
         return exactly_one(self, "a clutch", ("fixes", "locks"))
 
     @property
@@ -371,7 +376,7 @@ class Clutch(Declared):
 
     @property
     def senses(self) -> frozenset[int]:
-        """Signs of the torques that the clutch can exert on the last link in `links`: 1, -1 or both."""
+        """Signs of the torques that the clutch can exert on the last link in `links`: {1}, {-1} or {1, -1}."""
         return frozenset((1, -1)) if self.one_way is None else frozenset((1 if self.one_way == "forward" else -1,))
 
 
@@ -440,7 +445,7 @@ class Remove(Declared):
 
 @dataclass(frozen=True)
 class OneWayAction(Result):
-    """Behaviour of a one-way clutch in one state: it holds or overruns."""
+    """Behaviour of a one-way clutch in one state (holding or overrunning), with its torque and its slip."""
 
     name: str
     """Name of the clutch."""
@@ -483,7 +488,7 @@ class OneWayAction(Result):
 
 
 class SteppedLink(NamedTuple):
-    """Link that clutches drive in steps, when a swinging link would overtake it; friction holds it otherwise."""
+    """Link that one-way clutches drive in steps: oscillating links push it, and friction holds it between the steps."""
 
     link: str
     """Name of the link."""
@@ -550,7 +555,7 @@ class StateCase(Shown):
 
     @property
     def closed(self) -> tuple[str, ...]:
-        """Names in `engaged`, without the one-way clutches that hold but transmit no torque."""
+        """Names of the engaged clutches and brakes, without the one-way clutches that hold but transmit no torque."""
         idle = {each.name for each in self.one_way if each.torque == 0}
         return tuple(name for name in self.engaged if name not in idle)
 
@@ -576,7 +581,7 @@ class StateCase(Shown):
         return abridged_text(speed) if self.exact else decimal(speed)
 
     def says(self, *links: str) -> str:
-        """Describe a brake on one link or a lock of two links; for an indirect brake or lock, with its declared cause.
+        """Describe a brake on one link or a lock of two links, and the declared brake or lock that causes it, if any.
 
         Parameters
         ----------

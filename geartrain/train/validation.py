@@ -112,7 +112,7 @@ def _problems_of(error: ValidationError, place: Marks) -> Iterator[Problem]:
 
 
 def _union_tags(kind: Any) -> tuple[Any, ...]:
-    """Return the tags by which a union selects a tooth form, friction law or coupling; empty for other models."""
+    """Return the values of `form`, `law` or `kind` that select the class of a model; empty for other models."""
     field = next((kind.model_fields[key] for key in ("form", "law", "kind") if key in kind.model_fields), None)
     return get_args(field.annotation) if field else ()
 
@@ -187,14 +187,14 @@ def _is_wheel_pair(loc: Loc) -> bool:
 
 
 def _wheel_pair(raw: Any) -> str:
-    """Return a line `pair: [first, second]` as a fix for text such as `first ~ second`, or an id of that form."""
+    """Return a line such as `pair: [first, second]` as a fix, given text or an id such as `first ~ second`."""
     text = raw.get("id") if isinstance(raw, dict) else raw
     wheels = _wheels(text) if isinstance(text, str) else []
     return f"pair: [{', '.join(wheels if len(wheels) == 2 and all(wheels) else ('sun', 'planet'))}]"
 
 
 def _without_space(loc: Loc, value: Any) -> str:
-    """Return the first key of a path that probably lacks a space after its colon; "" if there is none."""
+    """Return the first key in a path that probably lacks a space after its colon (`a:b`); "" if there is none."""
     for at, step in enumerate(loc):
         start, colon, _ = str(step).partition(":")
         if colon and (value is None or isinstance(value, dict) or start in _keys_at(loc[:at])):
@@ -233,7 +233,7 @@ def _keys_at(loc: Loc) -> Iterator[str]:
 
 
 def _step(kind: Any, step: str | int) -> Iterator[Any]:
-    """Yield the models reached from `kind` by one step of a path; the tag of a union does not count as a step."""
+    """Yield the models that a step of a path reaches from the model `kind`; a tag of a union reaches `kind` itself."""
     if isinstance(step, str) and step in kind.model_fields:
         yield from _models_in(kind.model_fields[step].annotation)
     else:
@@ -274,7 +274,7 @@ def has_short_forms(data: Mapping[str, Any]) -> bool:
 
 
 def written_out(root: YamlNode) -> YamlNode:
-    """Return the declaration with expanded short forms, which keep their places; raise an error for invalid ones."""
+    """Return the root of a declaration with expanded short forms; raise `DeclarationError` for invalid ones."""
     joints = {key: root.mapping[key] for key in JOINTS if key in root.mapping}
     gears = root.mapping.get("gears")
     short_joints = {key: each for key, each in joints.items() if isinstance(each.value, dict)}
@@ -289,7 +289,7 @@ def written_out(root: YamlNode) -> YamlNode:
 
 
 def _with_belts(root: YamlNode) -> YamlNode:
-    """Return the declaration with `belts` added to its couplings; raise an error if an entry is not `a ~ b`."""
+    """Return the declaration with its `belts` as couplings; raise `DeclarationError` for a belt that is not `a ~ b`."""
     belts = root.mapping.get("belts")
     if belts is None or not belts.items:
         return root

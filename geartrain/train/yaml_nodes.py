@@ -62,7 +62,7 @@ class YamlNode:
         return self.value
 
     def place_of(self, loc: Loc) -> str:
-        """Return the place of the value at path `loc`. Steps of the path that are not in the file are skipped."""
+        """Return the place of the value at path `loc`. Keys and indices in the path that the file lacks are skipped."""
         node, place = self, self.place
         for step in loc:
             if isinstance(node.value, dict) and str(step) in node.value:
@@ -123,7 +123,7 @@ def _syntax(error: yaml.MarkedYAMLError, name: str, text: str) -> Problem:
 
 
 class _Reader:
-    """Converter of the parser's events to nodes, which collects problems with keys; recursive to the limited depth."""
+    """Recursive converter of the parser's events to nodes, which collects problems with keys."""
 
     def __init__(self, name: str, events: Iterator[Any]) -> None:
         self.name, self.events = name, events
@@ -146,7 +146,7 @@ class _Reader:
         return node
 
     def _node(self, event: Any, depth: int) -> YamlNode:
-        """Convert the value that begins with an event, inside `depth` collections, or return the node of an alias."""
+        """Return the value that begins with an event as a node; `depth` is the number of enclosing collections."""
         place = f"{self.name}:{event.start_mark.line + 1}"
         self.values += 1
         if self.values > MOST_VALUES:
@@ -204,7 +204,7 @@ class _Reader:
         return target
 
     def _add(self, mapping: YamlNode, key: YamlNode, value: YamlNode) -> None:
-        """Add an entry to a mapping; report a key that is null, repeated, or not a scalar."""
+        """Add an entry to a mapping, or a problem to `problems` if the key is null, repeated, or not a scalar."""
         if not isinstance(key.value, str):
             text = "null" if key.value is None else "a list or mapping"
             self.problems.append(

@@ -33,7 +33,7 @@ _DEATHS = 2  # deaths counted for a task that dask gave up: it is run without ot
 
 
 class DaskPool(WorkerPool):
-    """Executor on the workers of the dask scheduler at `address`. Raises `GearTrainError` if it cannot be used."""
+    """Executor on the workers of the dask scheduler at `address`. Raises `GearTrainError` if no worker can be used."""
 
     def __init__(self, address: str, answer: float = _TIMEOUT) -> None:
         self._address, self._seen = address, monotonic()

@@ -99,7 +99,7 @@ class Journal:
             raise _trouble(self.path, error) from None
 
     def _resumable_length(self, question: Any, resume: bool) -> int:
-        """Return the number of bytes of the file that can be resumed (0 if none), and index the tasks in them."""
+        """Return the length of the valid part of the file [bytes], or 0 if it is not resumed; index its results."""
         first = self._reader.readline(_MOST_HEADER_BYTES)
         # an incomplete first line: the run was killed while it wrote the header
         torn = not first.endswith(b"\n")
@@ -298,7 +298,7 @@ def first_difference(theirs: Any, ours: Any, place: str = "") -> str:
 
 
 def _valid_line(line: bytes) -> re.Match[bytes] | None:
-    """Return the match of a line that is complete and has a correct checksum; None for any other line."""
+    """Return the match of `_LINE` with a complete line whose checksum is correct; None for any other line."""
     found = _LINE.fullmatch(line)
     return found if found is not None and int(found[1], 16) == crc32(found[2]) else None
 

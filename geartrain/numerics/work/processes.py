@@ -95,7 +95,7 @@ class ProcessPool(WorkerPool):
 
 
 def _ignore_late_failure(future: Future[Any]) -> None:
-    """Make a future that has already ended ignore a later exception."""
+    """Make a future ignore an exception that the pool sets after the future was cancelled or has failed."""
     # when workers die, the pool's thread sets an exception on all of its futures; if one of them was cancelled or
     # failed just before, this would end the thread with a traceback, and the other futures would never complete
     fail = future.set_exception

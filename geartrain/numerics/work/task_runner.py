@@ -135,7 +135,7 @@ def _run_here(work: TaskFunction, tasks: Iterable[Any], journal: Journal | None,
 
 
 class _Progress:
-    """Counter of finished tasks that limits the rate of progress reports."""
+    """Counter of finished tasks. It reports them at most once per `_REPORT_INTERVAL`."""
 
     def __init__(self, tell: ProgressReport | None, total: int) -> None:
         self.tell, self.total, self.done = tell, total, 0
@@ -168,7 +168,7 @@ class _Submission:
 
 
 class _Run:
-    """Execution of tasks by an executor. Completed futures are put in a queue that only the calling thread reads."""
+    """Execution of tasks by an executor: tasks to be submitted, pending futures, and results to be yielded in order."""
 
     def __init__(
         self, work: TaskFunction, tasks: Iterable[Any], executor: Executor, journal: Journal | None, pace: _Progress
@@ -225,7 +225,7 @@ class _Run:
         return self.executor.width if isinstance(self.executor, WorkerPool) else cores()
 
     def _fill(self) -> None:
-        """Submit as many tasks as the limits allow; a task during which a worker died runs without other tasks."""
+        """Submit tasks until enough are pending; if a worker died during a task, run this task without other tasks."""
         if any(each.deaths for each in self.pending.values()):
             return
         if self.again:
@@ -240,7 +240,7 @@ class _Run:
             self._submit(submission)
 
     def _next_task(self) -> _Submission | None:
-        """Return the next task that is not in the journal; None if no task may be submitted now, or if none is left."""
+        """Return the next task that is not in the journal; None if too many results are stored, or no task is left."""
         for index, task in self.tasks:
             self.issued = index + 1
             mark = mark_of(task) if self.journal is not None else ""
@@ -367,7 +367,7 @@ def as_text(result: Any) -> str:
 
 
 def carry(work: Callable[[Any], Any], task: Any) -> str | RemoteFailure:
-    """Perform one task in a worker; return its result as JSON, or the exception that it raised."""
+    """Return the result of the function `work` for one task as JSON text, or the exception that it raised."""
     try:
         return as_text(work(task))
     except Exception as error:

@@ -91,7 +91,7 @@ class DisplacedWheel:
 
     @property
     def cuttable(self) -> Bools:
-        """Mask of shape (..., z): True if the next tooth follows each tooth in the nominal order."""
+        """Mask of shape (..., z): True for a tooth if pitch deviations do not exchange it with the next tooth."""
         found: Bools = np.roll(self.place, -1, -1) - self.place > -2 * pi / self.z
         return found
 
@@ -113,7 +113,10 @@ class DisplacedWheel:
         return DisplacedWheel(-place, tip, trailing, leading, trailing_low, leading_low, self.e, towards)
 
     def filed(self, leading: Floats, trailing: Floats) -> DisplacedWheel:
-        """Return this wheel with the depths `leading` and `trailing` removed from its flanks, (trials, z) [module]."""
+        """Return this wheel with material removed from its flanks.
+
+        leading, trailing   depths to be removed from leading and from trailing flanks (module), shape (trials, z)
+        """
         return replace(self, leading_low=self.leading_low + leading, trailing_low=self.trailing_low + trailing)
 
 
@@ -137,7 +140,7 @@ class SideTerms:
 class DisplacedPair:
     """Pair of wheels with displaced flanks. The first wheel drives.
 
-    `shift` is the increase of the centre distance [module], one value, or one value for each trial.
+    `shift` is the increase of the centre distance [module]: a scalar, or an array with a value for each trial.
     """
 
     contact: DisplacedContact
@@ -179,7 +182,9 @@ class DisplacedPair:
 
     @cached_property
     def _end_margins(self) -> tuple[float, float]:
-        """Maximum angles by which errors advance the end and the start of contact [rad of the driver]."""
+        """Maximum angles by which errors extend contact, first beyond its end, then before its start [rad of the
+        driver].
+        """
         late = float(np.abs(self.first.place).max(initial=0.0))
         tips = (float(np.abs(each.tips).max(initial=0.0)) for each in (self.first, self.second))
         leaving, entering = (late + longer * tip for longer, tip in zip(self.contact.longer, tips, strict=True))
@@ -299,7 +304,10 @@ class DisplacedPair:
         return TightPlace(best + self.contact.backlash, where[0], where[1], where[2], gain)
 
     def _most_protruding(self, front: SideTerms, back: SideTerms, rows: Ints, n1: Ints, n2: Ints) -> Ints:
-        """Return wheel, tooth and side of the most protruding of four flanks in contact, shape (3, number of rows).
+        """Return wheel, tooth and side of the flank that reduces the backlash most, of four flanks in contact.
+
+        The result has shape (3, number of rows).
+
 
         rows     indices of the trials
         n1, n2   indices of the terms of driver and driven wheel with the minimum backlash in these trials
@@ -317,7 +325,8 @@ class DisplacedPair:
     def filed(self, low: tuple[Floats, Floats]) -> DisplacedPair:
         """Return this pair with filed flanks.
 
-        low   depths to be removed from the flanks of each wheel, shape (trials, 2, z): leading, trailing flanks
+        low   depths to be removed from the flanks of each wheel (module), shape (trials, 2, z); the second index is 0
+              for leading and 1 for trailing flanks
         """
         wheels = zip((self.first, self.second), low, strict=True)
         first, second = (wheel.filed(each[:, 0], each[:, 1]) for wheel, each in wheels)
@@ -339,7 +348,8 @@ class DisplacedPair:
     def tip_contacts(self, entering: bool) -> Bools:
         """Return a mask of the trials in which tips meet at an entry (`entering`: clash) or at an exit (dwell).
 
-        Tips meet if the neighbouring pair, which should be in contact, has a larger lag than the pair itself.
+        At the first (last) contact of a tooth pair, the preceding (next) pair should drive. Tips meet if that pair lets
+        the driven wheel lag more.
         """
         at = self.contact
         x, j = (at.start - at.entering.most, 1) if entering else (at.end + at.leaving.most, -1)

@@ -275,7 +275,10 @@ def _fitted_to_sheet(part: Sheet, size: tuple[float, float], gap: float) -> Shee
 
 
 def _rows(pieces: list[Sheet], size: tuple[float, float], gap: float) -> Iterator[list[Sheet]]:
-    """Yield a list of pieces for each sheet, with the pieces shifted to their positions."""
+    """Yield a list of pieces for each sheet, with the pieces shifted to their positions in rows.
+
+    size   width and height of a sheet (mm); `gap` is the minimum distance between pieces (mm)
+    """
     boxes = [_box(piece.drawing) for piece in pieces]
     order = sorted(range(len(pieces)), key=lambda at: -float(np.ptp(boxes[at], axis=0)[1]))
     sheet: list[Sheet] = []

@@ -157,7 +157,7 @@ def _revolved(part: TurnedPart) -> Any:
 
 
 def _wire(contour: Contour, height: float) -> Any:
-    """Return a contour as a counter-clockwise wire whose edges share their vertices."""
+    """Return a contour at the height z = `height` as a counter-clockwise wire whose edges share their vertices."""
     from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge, BRepBuilderAPI_MakeVertex, BRepBuilderAPI_MakeWire
     from OCP.GC import GC_MakeArcOfCircle
     from OCP.gp import gp_Pnt
@@ -180,7 +180,7 @@ def _wire(contour: Contour, height: float) -> Any:
 
 
 def _curve(line: Floats, height: float) -> Any:
-    """Return a B-spline curve with few poles that passes through the points of a flank."""
+    """Return a B-spline curve with few poles that passes through the points of a flank at the height z = `height`."""
     from OCP.GeomAbs import GeomAbs_C1
     from OCP.GeomAPI import GeomAPI_PointsToBSpline
     from OCP.gp import gp_Pnt

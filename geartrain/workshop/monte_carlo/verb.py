@@ -145,7 +145,11 @@ def _trials(
     given: Execution,
     table: AbstractContextManager[Callable[[TrialRecord], None] | None],
 ) -> TrialResults:
-    """Return the results of the trials. They are run with a journal, and each trial is written to the table."""
+    """Return the results of the trials.
+
+    given   execution with the journal of the run
+    table   context of a function that writes trials to a table, or of None
+    """
     from geartrain.workshop.monte_carlo.trial_run import run_trials
 
     with suppress(_StoppedError), table as take:

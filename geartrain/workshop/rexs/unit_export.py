@@ -242,7 +242,10 @@ class _Unit:
             self.pin(label or "", stage, body, plate, [link for link in planets if self.tree.axis(link) == label])
 
     def pin(self, label: str, stage: int, body: int, plate: int, planets: Sequence[str]) -> None:
-        """Add the pin of one axis on a carrier, with the planets that turn on it."""
+        """Add the pin of the axis `label` on a carrier, with the links `planets` that turn on it.
+
+        stage, body, plate   ids of the planetary stage, of the shaft of the carrier and of its side plate
+        """
         pin = self.add("shaft", f"pin {label}", self.unit, body, **_pose(self.work.layout.axes[label]))
         self.relate("planet_pin", planetary_stage=stage, shaft=pin)
         self.join("coupling", f"pin {label} in side plate", pin, plate)

@@ -383,7 +383,10 @@ class _GearUnit:
         return {**(self.parts[part].attributes if part in self.parts else {}), **case.get(part, {})}
 
     def _connections(self, gears: int) -> Iterator[tuple[int, list[str], list[bool]]]:
-        """Yield the id of each coupling, the names of its links except the frame, and its engagement in each gear."""
+        """Yield id, names of links (without the frame) and engagement of each coupling.
+
+        The engagement has a flag for each of the `gears` selectable gears of the unit.
+        """
         seen = set()
         for coupling, *sides in self.relations["side"]:
             ends, part = [self.link_of(side) for side in sides], self.parts[coupling]

@@ -174,7 +174,7 @@ class _Solids:
         self.made: dict[int, Any] = {}
 
     def near(self, pose: ScenePose) -> Iterator[tuple[int, int]]:
-        """Yield the indices of each two parts of different bodies whose bounding boxes overlap; no meshing wheels."""
+        """Yield the indices of each two parts of different bodies whose bounding boxes overlap, except mates."""
         points = [pose.point(part.body, place) for part, place in zip(self.parts, self.placed, strict=True)]
         low = np.array([each.min(axis=0) for each in points])
         high = np.array([each.max(axis=0) for each in points])
@@ -241,7 +241,11 @@ def prove_waves(work: SolidModel, cut: CutTrain) -> Iterator[BuildFinding]:
 
 
 def overlaps(work: SolidModel, wave: Eccentric, thin: Any, ring: tuple[str, Any]) -> Iterator[float]:
-    """Yield the overlap of a bent flexible wheel and its internal wheel [mm2] at each position of the wave."""
+    """Yield the overlap of a bent flexible wheel and its internal wheel [mm2] at each position of the wave.
+
+    wave         wave generator
+    thin, ring   shape of the flexible wheel as cut; name and shape of the internal wheel
+    """
     assert wave.wave is not None
     shapely = plane_geometry()
     name, material = ring

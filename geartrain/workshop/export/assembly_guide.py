@@ -249,7 +249,7 @@ class _Steps:
         yield AssemblyStep("Before oiling, turn the driving link until the slowest wheel has turned once", ())
 
     def _cross_parts(self) -> Iterator[AssemblyStep]:
-        """Yield the steps that mount arms of pins, cages of carriers, and brackets of arbors across the plates."""
+        """Yield the steps that mount arms with pins, cages of carriers, and brackets of cross arbors."""
         arms = sorted(name for name in self.known if name.endswith(" pin arm"))
         cages = [part.name for cage in self.work.cages for part in cage.parts]
         brackets = [bracket.part.name for bracket in self.work.brackets]
@@ -321,7 +321,7 @@ class _Steps:
                 yield self._step(text, [*each.wheels, *washers])
 
     def _carried(self) -> Iterator[AssemblyStep]:
-        """Yield the steps that mount the studs of carriers with the parts that turn on them."""
+        """Yield the steps that press the studs of planets, with their wheels and pipes, into carriers."""
         for seat in self.plan.choice.seats:
             own = {
                 label: column

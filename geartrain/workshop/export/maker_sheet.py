@@ -38,7 +38,7 @@ _WHEELS = (
 
 
 def maker_sheets(work: SolidModel) -> Iterator[tuple[str, str, Callable[[], bytes]]]:
-    """Yield path, title and content function for each sheet, and for each of its tables as CSV."""
+    """Yield path, title and a function that returns the content, for each drawing and table of plates and wheels."""
     plates = [] if work.frame is None else [plate for plate in work.frame.plates() if plate.holes]
     for name, plate in zip(file_names(plate.name for plate in plates), plates, strict=True):
         title = f"{plate.name}: holes from a datum, to read"

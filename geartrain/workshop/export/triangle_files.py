@@ -303,7 +303,7 @@ class Keyframes:
         return cls(work, turns, seconds, speeds, ripples)
 
     def keys(self, body: int) -> int:
-        """Return the number of intervals between key frames of a body; 0 if it is fixed relative to its parent."""
+        """Return the number of key frames of a body minus 1; 0 if the body is fixed relative to its parent."""
         speed = self.speeds[body]
         if self.work.scene.bodies[body].travels and not self.ripples:
             return 1 if speed else 0
@@ -327,7 +327,10 @@ class Keyframes:
         return found
 
     def _errors(self, count: int) -> Floats:
-        """Return the transmission errors of the bodies due to teeth and pins [rad], shape (bodies, count + 1)."""
+        """Return the deviations of the bodies from their mean motions due to teeth and pins [rad].
+
+        They are at `count` + 1 equally spaced times, shape (bodies, count + 1).
+        """
         bodies = self.work.scene.bodies
         if not self.ripples:
             return np.zeros((len(bodies), count + 1))

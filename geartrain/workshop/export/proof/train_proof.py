@@ -109,7 +109,7 @@ def proof_is_installed() -> bool:
 
 
 def are_installed(*libraries: str) -> bool:
-    """Return True if all of the given libraries are installed, False otherwise."""
+    """Return True if all modules with the given names can be imported, False otherwise."""
     try:
         return all(find_spec(name) is not None for name in libraries)
     except (ImportError, ValueError):
@@ -174,7 +174,10 @@ class _Solids:
         self.made: dict[int, Any] = {}
 
     def near(self, pose: ScenePose) -> Iterator[tuple[int, int]]:
-        """Yield the indices of each two parts of different bodies whose bounding boxes overlap, except mates."""
+        """Yield the indices of each two parts of different bodies whose bounding boxes overlap in a pose.
+
+        Pairs of meshing wheels and of flexible wheels are omitted.
+        """
         points = [pose.point(part.body, place) for part, place in zip(self.parts, self.placed, strict=True)]
         low = np.array([each.min(axis=0) for each in points])
         high = np.array([each.max(axis=0) for each in points])

@@ -201,8 +201,8 @@ def even_tooth_pair(sizes: TriangularSizes) -> CutToothPairs:
 def backlash_candidates(sizes: TriangularSizes, most: int) -> tuple[BacklashCandidate, ...]:
     """Return the backlash minima of perfect wheels, for coast-flank pairs up to `most` pairs before a drive-flank pair.
 
-    For each distance n in pairs, the result contains those combinations of phases whose minimum is within `SLACK` of
-    the smallest minimum.
+    For each distance n in pairs, the result contains those combinations of phases whose minimum is within 0.05 pitches
+    of the smallest minimum.
     """
     tooth_pair = even_tooth_pair(sizes)
     candidates = []

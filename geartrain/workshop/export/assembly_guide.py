@@ -476,10 +476,7 @@ class AssemblyPictures:
             yield _closed(x, corner[1] + high[1] - np.array([y0, y0, y1, y1]))
 
     def _names(self, step: AssemblyStep, labels: LabelBoxes, corner: Floats) -> Iterator[str]:
-        """Yield the SVG labels of the new parts, unless there are more than `_MOST_NAMED`.
-
-        A line connects a distant label to its part. `corner` is the upper left corner of the view on the page [mm].
-        """
+        """Yield the SVG labels of new parts, if these are few. `corner` is the upper left corner of the view [mm]."""
         low, high = self.extent
         for name in step.parts if len(step.parts) <= _MOST_NAMED else ():
             x, y, _ = self.boxes[name].mean(axis=0)

@@ -71,9 +71,9 @@ def _ordered(plate: FlatPlate) -> list[Hole]:
 
 
 def wheel_rows(work: SolidModel) -> list[tuple[str, ...]]:
-    """Return one row of cells of the table of wheels for each shape of wheel; the columns are named in `_WHEELS`.
+    """Return the cells of the table of wheels, one row for each shape of wheel.
 
-    The inside diameter of an internal wheel is its tip diameter; that of other wheels is omitted.
+    The inside diameter is the tip diameter of an internal wheel, and is omitted for other wheels.
     """
     rows = []
     for sheet in wheel_sheets(work.blanks.wheels):

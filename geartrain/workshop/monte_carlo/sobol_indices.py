@@ -184,7 +184,10 @@ def _saltelli(values: Floats) -> Floats:
 
 
 def error_groups(plan: TrialPlan, output: int, by: By) -> list[tuple[str, Streams]]:
-    """Return name and random streams of each input variable that can affect the output with the index `output`."""
+    """Return the input variables that can affect the output with the index `output`.
+
+    Each has a name, and the numbers of the items and kinds of error whose random streams belong to it.
+    """
     pairs = plan.reach[output]
     wheels = sorted({wheel for at in pairs for wheel in (plan.pairs[at].first, plan.pairs[at].second)})
     off = [at for at in wheels if not plan.wheels[at].true]
@@ -203,9 +206,9 @@ def error_groups(plan: TrialPlan, output: int, by: By) -> list[tuple[str, Stream
 
 
 def work_samples(plan: TrialPlan, seed: int, output: int, by: By, task: Sequence[int]) -> list[list[float]]:
-    """Return the errors of an output [rad] in the base samples of one task; each row is as in `saltelli_indices`.
+    """Return the errors of an output [rad] in some rows of the array `values` of `saltelli_indices`.
 
-    task   number of the first sample, and number of samples
+    task   number of the first row, and number of rows
     """
     first, trials = task
     samples: list[Streams] = [((), ()), *(streams for _, streams in error_groups(plan, output, by)), (EVERY, EVERY)]

@@ -93,7 +93,10 @@ class RexsDocument:
 
 
 def written(attributes: Attributes) -> list[Model]:
-    """Return attributes with types and units in the structure of a JSON file; None values are omitted."""
+    """Return the attributes of a component as the list of a REXS JSON file, in which each has its type and unit.
+
+    Attributes with the value None are omitted.
+    """
     found = []
     for name, value in attributes.items():
         kind, unit = _ATTRIBUTES[name]
@@ -232,7 +235,10 @@ def _document(model: Model, place: str) -> RexsDocument:
 
 
 def _values(part: Model, units: dict[str, str]) -> Iterator[tuple[str, Any]]:
-    """Yield name and value of each supported attribute of a component, and add its unit to `units`."""
+    """Yield name and value of each attribute of a component that an import uses.
+
+    units   unit of each attribute, keyed by name, to which the units of this component are added
+    """
     for given in part.get("attributes", ()):
         name, unit = str(given["id"]), str(given.get("unit") or "none").replace("none", "")
         value = next((value for key, value in given.items() if key not in ("id", "unit")), None)

@@ -106,7 +106,11 @@ class _Unit:
         }
 
     def add(self, kind: str, name: str = "", *wholes: int, **attributes: Any) -> int:
-        """Add a component, relate it to the components `wholes` of which it is a part, and return its id."""
+        """Add a component of the type `kind`, and return its id.
+
+        wholes       ids of the components of which it is a part
+        attributes   values of its REXS attributes, keyed by name
+        """
         number = len(self.components) + 1
         named = {"name": name} if name else {}
         self.components.append({"id": number, "type": kind, **named, "attributes": written(attributes)})
@@ -180,7 +184,8 @@ class _Unit:
     def teeth(self, name: str) -> tuple[float | None, float | None]:
         """Return pressure angle [deg] and profile shift of a wheel, from its first pair with involute teeth.
 
-        Without a tooth form, they are 20 deg and None; without an involute form, both are None.
+        If its pairs declare no tooth form, the pressure angle is 20 deg, and the profile shift is None. If they declare
+        only other tooth forms, both are None.
         """
         pairs = [gear for gear in self.declared.gears if name in gear.pair]
         forms = [(gear.pair.index(name), self.declared.form_of(gear)) for gear in pairs]

@@ -148,7 +148,10 @@ class _GearUnit:
     # -------------------------------------------------------------------------------------------------- links and axes
 
     def _carrier(self, stage: int) -> list[int]:
-        """Return the ids of shafts, pins and side plates of the carrier of a stage; empty if it has no shaft."""
+        """Return the ids of shafts, pins and side plates of the carrier of a planetary stage.
+
+        The list is empty if the carrier has neither a shaft nor a pin.
+        """
         shafts, pins = (
             [shaft for whole, shaft in self.relations[relation] if whole == stage]
             for relation in ("planet_carrier_shaft", "planet_pin")
@@ -242,7 +245,10 @@ class _GearUnit:
         return -1 if link in self.poses and dot(self.poses[link].u, self.direction) < 0 else 1
 
     def _place(self, link: int) -> dict[str, Any]:
-        """Return direction and position of a link's axis as data of a declaration; empty if the file has none."""
+        """Return direction and position of a link's axis as data of a declaration.
+
+        The mapping is empty if the file does not give the position of the link.
+        """
         pose = self.poses.get(link)
         if pose is None:
             return {}
@@ -385,7 +391,7 @@ class _GearUnit:
     def _connections(self, gears: int) -> Iterator[tuple[int, list[str], list[bool]]]:
         """Yield id, names of links (without the frame) and engagement of each coupling.
 
-        The engagement has a flag for each of the `gears` selectable gears of the unit.
+        The engagement is a list with a flag for each of the `gears` speeds of the unit; True if it is engaged.
         """
         seen = set()
         for coupling, *sides in self.relations["side"]:

@@ -364,7 +364,7 @@ def polish(sampled: SampledFunction, start: Point, rounds: int = _ROUNDS) -> Non
 
 
 def _separate_basins(sampled: SampledFunction) -> list[Point]:
-    """Return the samples with the lowest values such that no two of these samples are close to each other."""
+    """Return up to three samples with low values, which differ by more than a tenth of a range in a coordinate."""
     found: list[Point] = []
     for at in sorted(sampled.seen, key=lambda at: sampled.seen[at]):
         if all(distance(at, other, sampled.bounds) > _CLOSE for other in found):
@@ -375,7 +375,10 @@ def _separate_basins(sampled: SampledFunction) -> list[Point]:
 
 
 def _brackets(sampled: SampledFunction) -> list[tuple[float, float]]:
-    """Return the sampled neighbours on both sides of each of the lowest local minima of a function of one variable."""
+    """Return intervals that contain the lowest local minima of a function of one variable.
+
+    The ends of an interval are the samples before and after a sampled local minimum.
+    """
     places = sorted(at[0] for at in sampled.seen)
     values = [sampled.seen[at,] for at in places]
     around = [inf, *values, inf]

@@ -482,9 +482,10 @@ def best_shared_angle(
 ) -> dict[str, ToothSizes]:
     """Return the designs of several pairs at the common half angle that minimises their total objective.
 
-    start    designs of the pairs with their present half angles; the result is never worse
-    sized    function that returns the best sizes of a pair at a half angle [rad]; raises `QuestionError` if no sizes
-             turn
+    start    designs of the pairs with their present half angles, which are returned if no other angle is better
+    sized    function that returns the best sizes of a pair (name) at a half angle (rad); it raises `QuestionError` if
+             the pair turns with no sizes
+    bounds   bounds of the half angle (rad)
     """
 
     def figure(designs: Mapping[str, ToothSizes]) -> float:

@@ -132,7 +132,10 @@ class SizeQuestion:
     errors: tuple[str, ...]
 
     def check(self, others: Mapping[str, object]) -> None:
-        """Raise an error if options require `--objective` but it is missing, or if it excludes options `others`."""
+        """Raise an error if options contradict each other.
+
+        With `--objective`, none of the options `others` may be given. Without it, none of its own options may be given.
+        """
         what, fix = "the option cannot be combined with --objective", "omit one of the two options"
         refused = others
         if self.best is None:
@@ -187,7 +190,9 @@ def _is_probability(text: str) -> bool:
 
 
 def _start(pair: PairRequest) -> ToothSizes:
-    """Return the design described by options. By default, its clearance factor is midway between its limits."""
+    """Return the design that the options describe. If they give no window, its clearance factor is midway between the
+    limits.
+    """
     from geartrain.workshop.sizes.size_design import ToothSizes
 
     friction = read_pair_friction(pair.friction).number("--objective")

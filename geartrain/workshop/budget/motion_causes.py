@@ -75,10 +75,7 @@ class ToothMotion:
 
 
 def find_tooth_motion(motion: Motion, turns: float, samples: int) -> ToothMotion:
-    """Return the transmission error (ripple) and the lag after a reversal (lost motion) of every output.
-
-    They are evaluated at `samples` equally spaced positions over `turns` turns of the input.
-    """
+    """Return transmission errors and lags after a reversal at `samples` positions over `turns` turns of the input."""
     ripple = MotionRun(motion.without_anomaly(), turns, samples)
     ripple.run()
     # difference of two motions at the same position: backwards and forwards
@@ -104,10 +101,7 @@ def find_tooth_motion(motion: Motion, turns: float, samples: int) -> ToothMotion
 
 
 def pair_ripples(motion: Motion) -> dict[str, dict[str, float]]:
-    """Return the peak-to-peak error of each output due to each gear pair [deg], keyed by output and then by pair.
-
-    The pairs of an output are in descending order of this error. Pairs without an effect are omitted.
-    """
+    """Return the peak-to-peak error due to each pair [deg], keyed by output and then by pair, in descending order."""
     # the transmission error of a pair times the sensitivity of the output to it
     found = Superposition(motion._forward)
     pins = {joint.coupling.name for joint in motion._problem.couplings}

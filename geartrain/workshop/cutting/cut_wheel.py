@@ -211,11 +211,7 @@ class CutToothPairs(ToothPair):
 
     @classmethod
     def of(cls, sizes: TriangularSizes, tips: tuple[Any, Any], flanks: tuple[Any, Any], shift: Any) -> CutToothPairs:
-        """Return tooth pairs of given nominal sizes, changed by errors.
-
-        tips, flanks   errors of the tip heights, and of the half angles (rad), of the driver and of the driven wheel
-        shift          increase of the centre distance
-        """
+        """Return tooth pairs with errors of both tips, both half angles [rad] and the centre distance (`shift`)."""
         R1, R2 = sizes.signed_radii
         return cls(
             R1 + tips[0],
@@ -240,10 +236,7 @@ class CutToothPairs(ToothPair):
         return self.angle(APPROACH, x, np) < self.angle(RECESS, x, np)
 
     def tau(self, x: Any, approaches: Any) -> Any:
-        """Return the speed ratio of each tooth pair at the driver angle x [rad]; it may be infinite.
-
-        approaches   mask of the tooth pairs that are in approach; the others are in recess
-        """
+        """Return the speed ratio at the driver angle x [rad] of tooth pairs in approach (mask), or else in recess."""
         return np.where(approaches, self.speed(APPROACH, x, np), self.speed(RECESS, x, np))
 
     def picked(self, pick: Callable[[Any], Any]) -> CutToothPairs:
@@ -261,10 +254,7 @@ class CutToothPairs(ToothPair):
 
 
 def _half_sine(R1: Any, R2: Any, D: Any, delta: Any) -> Any:
-    """Return the sine of half the maximum contact angle of wheel 1, equation (4) of Sorge; 0 if tips do not meet.
-
-    The arguments are those of `CutToothPairs`.
-    """
+    """Return the sine of half the maximum contact angle of wheel 1, by equation (4) of Sorge; 0 if no tips meet."""
     # clipped, because delta is negative if the tips do not reach each other
     return np.sqrt(np.clip(delta * (2 * R2 - delta) / (4 * D * R1), 0.0, 1.0))
 

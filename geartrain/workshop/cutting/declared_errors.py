@@ -260,10 +260,7 @@ def pair_errors(
 
 
 def _scales(even: WheelErrors, wheel: Wheel) -> dict[str, float | None]:
-    """Return the angle [rad] or length [m] by which each kind of error is divided, keyed by kind.
-
-    A length is None if the wheel has no module.
-    """
+    """Return the angle [rad] or length [m] by which each kind of error is divided; None for an unknown length."""
     deep = None
     module = wheel.transverse_module
     if module is not None:

@@ -113,10 +113,7 @@ class DisplacedWheel:
         return DisplacedWheel(-place, tip, trailing, leading, trailing_low, leading_low, self.e, towards)
 
     def filed(self, leading: Floats, trailing: Floats) -> DisplacedWheel:
-        """Return this wheel with material removed from its flanks.
-
-        leading, trailing   depths to be removed from leading and from trailing flanks (module), shape (trials, z)
-        """
+        """Return this wheel with the depths `leading` and `trailing` removed from its flanks [module], (trials, z)."""
         return replace(self, leading_low=self.leading_low + leading, trailing_low=self.trailing_low + trailing)
 
 
@@ -182,9 +179,7 @@ class DisplacedPair:
 
     @cached_property
     def _end_margins(self) -> tuple[float, float]:
-        """Maximum angles by which errors extend contact, first beyond its end, then before its start [rad of the
-        driver].
-        """
+        """Maximum angles by which errors extend contact beyond its end, and before its start [rad of the driver]."""
         late = float(np.abs(self.first.place).max(initial=0.0))
         tips = (float(np.abs(each.tips).max(initial=0.0)) for each in (self.first, self.second))
         leaving, entering = (late + longer * tip for longer, tip in zip(self.contact.longer, tips, strict=True))
@@ -368,10 +363,7 @@ class DisplacedPair:
     # ----------------------------------------------------------------------------------------------- angle by angle
 
     def lag(self, rows: Ints, S: Floats, k: Ints, back: bool = False) -> Floats:
-        """Return the lag of the driven wheel due to tooth pairs k at driver angles S, in the trials `rows` [rad].
-
-        back   True for the lead of the driven wheel due to the coast flanks
-        """
+        """Return the lag of the driven wheel due to tooth pairs k at driver angles S [rad]; with `back`, its lead."""
         at, sign = self.contact, -1.0 if back else 1.0
         one, two, ratio = self.first, self.second, float(self.contact.ratio)
         i, j = k % one.z, (k + back) % two.z
@@ -427,10 +419,7 @@ def mean_lag(contact: DisplacedContact) -> float:
 
 
 def minimum_sum_places(driver: Any, driven: Any, count: int) -> tuple[Floats, Ints, Ints]:
-    """Return the minimum of `extreme_sum`, and the indices of its driver and driven terms, each of shape (trials,).
-
-    count   number of trials
-    """
+    """Return the minimum of `extreme_sum` in each trial, and the indices of its driver term and its driven term."""
     one, two = by_residue(np.atleast_2d(driver), np.atleast_2d(driven))
     rests = one.shape[-1]
     total = one.min(axis=1) + two.min(axis=1)

@@ -222,10 +222,7 @@ def backlash_candidates(sizes: TriangularSizes, most: int) -> tuple[BacklashCand
 
 
 def farthest(pair: CutGearPair) -> int:
-    """Return the maximum number of pitches between two tooth pairs that are in contact at the same time.
-
-    The result is -1 if no teeth can touch.
-    """
+    """Return the maximum number of pitches between two tooth pairs in contact at the same time; -1 without contact."""
     if pair.widest <= 0:
         return -1
     return floor((2 * pair.widest + 2 * float(np.abs(pair.first.place).max())) / pair.sizes.p1)
@@ -402,10 +399,7 @@ class MeshingCycle:
         return found
 
     def backlash_at_entries(self) -> Floats:
-        """Return the minimum backlash of each trial at the positions where coast flanks enter contact [rad].
-
-        It is needed only in trials with dwells, in which the driven wheel may rest at such a position.
-        """
+        """Return the minimum backlash of each trial over the positions where coast flanks enter contact [rad]."""
         y = np.full((self.trials, self.pair.count), inf)
         for n in range(self._pairs_in_reach() + 2):
             y = np.minimum(y, self._before(n, self.back.reach))
@@ -504,10 +498,7 @@ def by_residue(driver: Any, driven: Any) -> list[Any]:
 
 
 def extreme_sum(driver: Any, driven: Any, extreme: Any) -> Any:
-    """Return the minimum or maximum sum of a driver term and a driven term over all teeth that meet in the cycle.
-
-    extreme   `np.minimum` or `np.maximum`
-    """
+    """Return the minimum or maximum (`extreme`) sum of two terms over all teeth that meet in the meshing cycle."""
     one, two = by_residue(driver, driven)
     return extreme.reduce(extreme.reduce(one, axis=-2) + extreme.reduce(two, axis=-2), axis=-1)
 

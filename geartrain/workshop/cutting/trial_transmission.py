@@ -106,10 +106,7 @@ class TrialTransmissionFunction(TransmissionFunction):
 
 
 class CutTrialTransmission(TrialTransmissionFunction):
-    """Transmission function of cut wheels with triangular teeth.
-
-    Arrays of the wheels have shape (trials, z), or (z,) if they are the same in all trials.
-    """
+    """Transmission function of cut triangular wheels, with arrays (trials, z), or (z,) if equal in all trials."""
 
     def __init__(self, pair: CutGearPair, even: float, rows: Ints) -> None:
         super().__init__((pair.sizes.z1, pair.sizes.z2), even, rows)

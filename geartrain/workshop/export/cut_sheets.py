@@ -36,10 +36,7 @@ class Sheet:
 
 
 def cut_sheets(work: SolidModel) -> Iterator[tuple[str, FlatDrawing]]:
-    """Yield path and kerf-compensated drawing of each shape of wheel, of each plate, and of each sheet of stock.
-
-    The paths are relative to the exported folder and have no suffix.
-    """
+    """Yield path in the folder (without suffix) and drawing, with half the kerf added, of each sheet of flat parts."""
     kerf, base = work.process.kerf, work.train.declaration.frame
     plates = [] if work.frame is None else [_sheet(plate) for plate in work.frame.plates()]
     plates += [Plate(base, each.name.replace(" ", "-"), each.drawing(), each.high - each.low) for each in work.dials]
@@ -146,11 +143,7 @@ def _holes(blank: Blank) -> list[tuple[complex, float]]:
 def _label_off_holes(
     holes: list[tuple[complex, float]], mark: EngravedText, inner: float, outer: float
 ) -> EngravedText:
-    """Return engraved text moved off the holes of a wheel, in the largest size that fits, or else unchanged.
-
-    holes          centre and radius of each hole (mm)
-    inner, outer   radii between which the text must be (mm)
-    """
+    """Return engraved text moved off the holes, between two radii, in the largest size that fits, or unchanged."""
 
     def free(at: complex, along: complex, height: float) -> bool:
         half, tall = _LETTER_WIDTH * height * len(mark.text) / 2, height / 2
@@ -279,10 +272,7 @@ def _fitted_to_sheet(part: Sheet, size: tuple[float, float], gap: float) -> Shee
 
 
 def _rows(pieces: list[Sheet], size: tuple[float, float], gap: float) -> Iterator[list[Sheet]]:
-    """Lay out pieces in rows, and yield for each sheet the list of its pieces, shifted to their positions.
-
-    size   width and height of a sheet (mm); `gap` is the minimum distance between pieces (mm)
-    """
+    """Lay out pieces in rows on sheets of a size [mm] with gaps [mm]; yield the shifted pieces of each sheet."""
     boxes = [_box(piece.drawing) for piece in pieces]
     order = sorted(range(len(pieces)), key=lambda at: -float(np.ptp(boxes[at], axis=0)[1]))
     sheet: list[Sheet] = []

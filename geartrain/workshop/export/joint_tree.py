@@ -106,10 +106,7 @@ def _bodies(work: SolidModel) -> Sequence[SceneBody]:
 
 
 def _rates(work: SolidModel) -> dict[str, Fraction]:
-    """Return the speed of each link relative to the link that carries it, in the unit of the train, keyed by link.
-
-    The mapping is empty if the speeds are not determined.
-    """
+    """Return the speed of each link relative to the link that carries it, keyed by link; empty if undetermined."""
     answer, bodies = work.train.solve(work.scene.state, method="exact"), work.scene.bodies
     if not answer.verdict:
         return {}

@@ -170,10 +170,7 @@ class FeasibilityPlan:
         return found
 
     def hands(self, seed: int, trials: int) -> Floats | None:
-        """Return the maximum torque of the hand or drive at the crank in each trial [N m], shape (trials,).
-
-        None is returned if no such torque is declared.
-        """
+        """Return the maximum torque of the hand or drive at the crank in each trial [N m], or None if undeclared."""
         drive = self.declared.case(self.state).drive
         if drive is None or drive.steady_torque is None:
             return None

@@ -264,11 +264,7 @@ class FeasibilityResult(Pictured, Result):
 
 
 def _estimate(event: Bools, of: Bools) -> ProbabilityEstimate:
-    """Return the estimated probability of an event. Both arguments are masks of trials.
-
-    event   trials in which the event occurs
-    of      trials to be counted
-    """
+    """Return the estimated probability of an event (mask of trials) among the trials selected by the mask `of`."""
     return ProbabilityEstimate(int(np.count_nonzero(event & of)), int(np.count_nonzero(of)))
 
 
@@ -349,10 +345,7 @@ def run_feasibility(
 
 
 def _columns(plan: FeasibilityPlan, loads: Sequence[Any]) -> tuple[Floats | None, dict[str, Floats], dict[str, Floats]]:
-    """Return the crank torque, and by pair the torque and the efficiency, in arrays with one value for each trial.
-
-    loads   `PairLoads` of each trial, or None if it has no loads
-    """
+    """Return arrays over the trials: crank torque, and by pair torque and efficiency, from `PairLoads` (or None)."""
     if plan.nominal is None:
         return None, {}, {}
     crank = np.array([inf if row is None or row[0] is None else row[0] for row in loads])

@@ -369,10 +369,7 @@ def try_frictions(plan: FrictionPlan, trials: int, seed: int = 1, means: Executi
 
 
 def work_frictions(plan: FrictionPlan, seed: int, task: Sequence[int]) -> list[list[float | None]]:
-    """Return mean, maximum and starting torque and efficiency of each trial in a task; undefined values are None.
-
-    task   index of the first trial, and index after the last trial
-    """
+    """Return mean, maximum and starting torque, and efficiency, of trials in range(*task); None if undefined."""
     rows = []
     for trial in range(*task):
         drawn = GearTrain(draw_friction(plan.declared, seed, trial))

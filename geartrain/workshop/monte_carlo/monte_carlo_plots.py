@@ -155,10 +155,7 @@ def course_figure(courses: Sequence[PointerErrorCourse], driving_link: str = "th
 
 
 def _bands(name: str, errors: Floats) -> Floats:
-    """Return minimum, 2.5, 25, 50, 75 and 97.5 % quantile and maximum of a pointer's errors over the trials.
-
-    errors   errors in the trials, shape (trials, positions); the result has shape (7, positions)
-    """
+    """Return minimum, five percentiles and maximum, (7, positions), of the errors of a pointer, (trials, positions)."""
     _require(errors, f"'{name}' cannot turn in any trial", _TURNING)
     found: Floats = np.percentile(errors, (0, *PERCENTS, 100), axis=0)
     return found

@@ -184,10 +184,7 @@ class TrialWheels:
         return {at: pair.filed(pair.cut(self.wheels, self._shift(pair, at, -1))) for at, pair in pairs if pair.stroke}
 
     def strokes(self) -> Floats:
-        """Return the numbers of file strokes and of filed teeth, shape (trials, 2 * pairs).
-
-        Column 2 k contains the strokes of pair k, and column 2 k + 1 its filed teeth.
-        """
+        """Return numbers of file strokes (even columns) and of filed teeth (odd columns), (trials, 2 * pairs)."""
         found = np.zeros((self.trials, 2 * len(self.plan.pairs)))
         for at, work in self.filing.items():
             found[:, 2 * at], found[:, 2 * at + 1] = work.strokes, work.teeth
@@ -262,7 +259,7 @@ class TrialPointers:
         return self.cut.at(turns).error - self.even.at(turns).error
 
     def superposed(self, turns: Floats) -> Floats:
-        """Return `errors` to first order: the sum of the transmission errors of all pairs times constant factors [rad]."""
+        """Return `errors` to first order [rad]: the sum of the transmission errors of all pairs times constants."""
         # the anomaly of the pins cancels in the difference
         return Superposition(self.cut).at(turns) - Superposition(self.even).at(turns)
 

@@ -203,10 +203,7 @@ def _pack(array: NDArray[Any]) -> str:
 
 
 def unpack(first: int, packed: Mapping[str, str]) -> TrialRecord:
-    """Return the results of one task, which begins with trial `first`.
-
-    packed   arrays as base64 text of .npy files, from a worker or a journal
-    """
+    """Return the results of one task, which begins with trial `first`, from arrays in base64 text."""
     return TrialRecord(first, **{name: np.load(BytesIO(b64decode(each))) for name, each in packed.items()})
 
 

@@ -106,11 +106,7 @@ class _Unit:
         }
 
     def add(self, kind: str, name: str = "", *wholes: int, **attributes: Any) -> int:
-        """Add a component of the type `kind`, and return its id.
-
-        wholes       ids of the components of which it is a part
-        attributes   values of its REXS attributes, keyed by name
-        """
+        """Add a component that is a part of the components `wholes` and has REXS attributes; return its id."""
         number = len(self.components) + 1
         named = {"name": name} if name else {}
         self.components.append({"id": number, "type": kind, **named, "attributes": written(attributes)})

@@ -148,10 +148,7 @@ class _GearUnit:
     # -------------------------------------------------------------------------------------------------- links and axes
 
     def _carrier(self, stage: int) -> list[int]:
-        """Return the ids of shafts, pins and side plates of the carrier of a planetary stage.
-
-        The list is empty if the carrier has neither a shaft nor a pin.
-        """
+        """Return the ids of shafts, pins and side plates of the carrier of a stage; empty without shaft and pin."""
         shafts, pins = (
             [shaft for whole, shaft in self.relations[relation] if whole == stage]
             for relation in ("planet_carrier_shaft", "planet_pin")
@@ -245,10 +242,7 @@ class _GearUnit:
         return -1 if link in self.poses and dot(self.poses[link].u, self.direction) < 0 else 1
 
     def _place(self, link: int) -> dict[str, Any]:
-        """Return direction and position of a link's axis as data of a declaration.
-
-        The mapping is empty if the file does not give the position of the link.
-        """
+        """Return direction and position of a link's axis as data of a declaration; empty if its position is unknown."""
         pose = self.poses.get(link)
         if pose is None:
             return {}
@@ -389,10 +383,7 @@ class _GearUnit:
         return {**(self.parts[part].attributes if part in self.parts else {}), **case.get(part, {})}
 
     def _connections(self, gears: int) -> Iterator[tuple[int, list[str], list[bool]]]:
-        """Yield id, names of links (without the frame) and engagement of each coupling.
-
-        The engagement is a list with a flag for each of the `gears` speeds of the unit; True if it is engaged.
-        """
+        """Yield id, links (without the frame) and flags of each coupling: True for speeds in which it is engaged."""
         seen = set()
         for coupling, *sides in self.relations["side"]:
             ends, part = [self.link_of(side) for side in sides], self.parts[coupling]

@@ -337,10 +337,7 @@ def minimise(value: Function, bounds: Sequence[tuple[float, float]], starts: Seq
 
 
 def polish(sampled: SampledFunction, start: Point, rounds: int = _ROUNDS) -> None:
-    """Minimise the function locally from the point `start`, with at most `rounds` simplexes of decreasing size.
-
-    All evaluated points are added to the samples.
-    """
+    """Minimise the function locally from a point, with at most `rounds` simplexes; all evaluations become samples."""
     if len(start) == 1:
         ((low, high),) = sampled.bounds
         _search_between(sampled, start[0] - _STEP * (high - low), start[0] + _STEP * (high - low))
@@ -375,10 +372,7 @@ def _separate_basins(sampled: SampledFunction) -> list[Point]:
 
 
 def _brackets(sampled: SampledFunction) -> list[tuple[float, float]]:
-    """Return intervals that contain the lowest local minima of a function of one variable.
-
-    The ends of an interval are the samples before and after a sampled local minimum.
-    """
+    """Return intervals around the lowest local minima of a function of one variable, each between two samples."""
     places = sorted(at[0] for at in sampled.seen)
     values = [sampled.seen[at,] for at in places]
     around = [inf, *values, inf]

@@ -117,10 +117,7 @@ def _key(figure: Figure, axes: Axes) -> None:
 
 
 def _panel(axes: Axes, found: BestToothSizes, across: str, up: str) -> None:
-    """Draw the designs as points, with markers for the best design and the rule-based designs.
-
-    across, up   names of the quantities on the horizontal and on the vertical axis
-    """
+    """Draw designs as points over two named quantities, and markers for the best and the rule-based designs."""
     plain(axes)
     order = sorted(found.tried, key=lambda each: _shown(each, across))
     x, y = ([_shown(each, name) for each in order] for name in (across, up))

@@ -287,10 +287,7 @@ class TrainSizeSearch:
         return self._done[key]
 
     def _descend(self, best: float, sizes: dict[str, ToothSizes]) -> tuple[float, dict[str, ToothSizes]]:
-        """Return the minimum objective of the train and its sizes, found by coordinate descent from `sizes`.
-
-        best   objective of the train with these sizes
-        """
+        """Return the minimum objective of the train and its designs, by coordinate descent from given values."""
         alike = [group for group in self._common_angle_groups if len(group) > 1]
         steps: list[tuple[tuple[str, ...], str]] = [
             ((name,), size) for name in self._requested for size in self._free_of(name)

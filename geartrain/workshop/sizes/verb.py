@@ -132,10 +132,7 @@ class SizeQuestion:
     errors: tuple[str, ...]
 
     def check(self, others: Mapping[str, object]) -> None:
-        """Raise an error if options contradict each other.
-
-        With `--objective`, none of the options `others` may be given. Without it, none of its own options may be given.
-        """
+        """Raise an error if `others` are given with --objective, or options of the search without it."""
         what, fix = "the option cannot be combined with --objective", "omit one of the two options"
         refused = others
         if self.best is None:
@@ -190,9 +187,7 @@ def _is_probability(text: str) -> bool:
 
 
 def _start(pair: PairRequest) -> ToothSizes:
-    """Return the design that the options describe. If they give no window, its clearance factor is midway between the
-    limits.
-    """
+    """Return the design that the options describe, by default with a clearance factor midway between the limits."""
     from geartrain.workshop.sizes.size_design import ToothSizes
 
     friction = read_pair_friction(pair.friction).number("--objective")

@@ -128,10 +128,7 @@ class _Motion:
         return weights / max(float(np.abs(weights).max()), 1.0)
 
     def _axis_senses(self, circuit: Circuit) -> tuple[int, int, int] | None:
-        """Return the senses (1 or -1) of both wheels and their carrier about the axis of the first wheel.
-
-        None is returned if the axes are not parallel.
-        """
+        """Return the senses (1, -1) of both wheels and carrier about the first axis; None for axes not parallel."""
         one, other = (self.wheels[name] for name in self.names[circuit.id])
         n = np.array(one.direction)
         bodies = (one.body, other.body, self.bodies[circuit.carrier])
@@ -249,11 +246,7 @@ class _Motion:
     def _contradictions(
         self, links: Sequence[LinkFreedom], rows: Sequence[_Constraint], turns: bool
     ) -> Iterator[BuildFinding]:
-        """Yield findings on links for which the teeth contradict the solved speeds.
-
-        rows    constraints of the meshes
-        turns   True if any link of the train turns according to the solved speeds
-        """
+        """Yield findings on links for which the teeth (constraints `rows`) contradict the solved speeds."""
         speeds = {body.id: body.speed for body in self.scene.bodies}
         for link in links:
             if link.backlash is None and speeds[link.link] is not None:

@@ -184,11 +184,7 @@ def clearance(turned: TurnedPair) -> float:
 
 
 def tip_width(material: Any, reach: tuple[float, float], teeth: int) -> float:
-    """Return the mean tip width of a wheel slightly below its tip circle [mm], or the pin diameter of a lantern.
-
-    material   shape of the wheel; `reach` are its tip and root radii (mm)
-    teeth      number of teeth
-    """
+    """Return the mean tip width of a wheel slightly below its tip circle [mm], or the diameter of lantern pins."""
     shapely = plane_geometry()
     tip, root = reach
     if material.geom_type != "Polygon":

@@ -174,10 +174,7 @@ class _Solids:
         self.made: dict[int, Any] = {}
 
     def near(self, pose: ScenePose) -> Iterator[tuple[int, int]]:
-        """Yield the indices of each two parts of different bodies whose bounding boxes overlap in a pose.
-
-        Pairs of meshing wheels and of flexible wheels are omitted.
-        """
+        """Yield the indices of two parts of different bodies whose bounding boxes overlap, if they do not mesh."""
         points = [pose.point(part.body, place) for part, place in zip(self.parts, self.placed, strict=True)]
         low = np.array([each.min(axis=0) for each in points])
         high = np.array([each.max(axis=0) for each in points])

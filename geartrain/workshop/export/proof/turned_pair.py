@@ -255,11 +255,7 @@ class TurnedPair:
     # --------------------------------------------------------------------------------------------------- descriptions
 
     def words(self, place: tuple[float, float], names: tuple[str, str]) -> str:
-        """Return a phrase with the part (tip, flank or root) and the radius [mm] of an overlap on both wheels.
-
-        place   coordinates of the overlap relative to the axis of wheel 1 (mm)
-        names   names of wheels 1 and 2
-        """
+        """Return a phrase with the part (tip, flank or root) and the radius of both wheels at the point `place`."""
         away = -self.distance if self.ring else self.distance
         radii = hypot(*place), hypot(place[0] - away, place[1])
         parts = [_part(radius, *reach) for radius, reach in zip(radii, self.reaches, strict=True)]

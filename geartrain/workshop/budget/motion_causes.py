@@ -75,7 +75,7 @@ class ToothMotion:
 
 
 def find_tooth_motion(motion: Motion, turns: float, samples: int) -> ToothMotion:
-    """Return transmission errors and lags after a reversal at `samples` positions over `turns` turns of the input."""
+    """Return ripple and lag after a reversal of all outputs, at `samples` positions over `turns` turns of the input."""
     ripple = MotionRun(motion.without_anomaly(), turns, samples)
     ripple.run()
     # difference of two motions at the same position: backwards and forwards

@@ -170,7 +170,7 @@ def of_teeth(each: Floats, rows: Ints, teeth: Ints) -> Any:
 
 
 def displaced(radius: Floats, angle: Floats, e: Floats, towards: Floats) -> tuple[Floats, Floats]:
-    """Return the changes of the polar coordinates of points when they are shifted: radius, and angle [rad].
+    """Return the changes of radius and of angle [rad] of points that are shifted, in polar coordinates.
 
     radius, angle   polar coordinates of the points before the shift (angle in rad)
     e, towards      length and direction (rad) of the shift
@@ -211,7 +211,7 @@ class CutToothPairs(ToothPair):
 
     @classmethod
     def of(cls, sizes: TriangularSizes, tips: tuple[Any, Any], flanks: tuple[Any, Any], shift: Any) -> CutToothPairs:
-        """Return tooth pairs with errors of both tips, both half angles [rad] and the centre distance (`shift`)."""
+        """Return tooth pairs of nominal `sizes` plus errors of both tips, both half angles [rad] and the distance."""
         R1, R2 = sizes.signed_radii
         return cls(
             R1 + tips[0],
@@ -236,7 +236,7 @@ class CutToothPairs(ToothPair):
         return self.angle(APPROACH, x, np) < self.angle(RECESS, x, np)
 
     def tau(self, x: Any, approaches: Any) -> Any:
-        """Return the speed ratio at the driver angle x [rad] of tooth pairs in approach (mask), or else in recess."""
+        """Return the speed ratio of tooth pairs at the driver angle x [rad]; the mask `approaches` gives their phases."""
         return np.where(approaches, self.speed(APPROACH, x, np), self.speed(RECESS, x, np))
 
     def picked(self, pick: Callable[[Any], Any]) -> CutToothPairs:

@@ -119,10 +119,10 @@ class DisplacedWheel:
 
 @dataclass(frozen=True)
 class SideTerms:
-    """Lags of the driven wheel [rad] due to all tooth pairs on the drive or coast flanks, for one driver angle.
+    """Lags of the driven wheel [rad] due to the tooth pairs on one side of the teeth, at a driver angle plus n pitches.
 
-    The driver angle is within a pitch, to which n whole pitches are added. The lag is the sum of an entry n of
-    `driver` and an entry n of `driven`, both of shape (trials, z).
+    The lag is driver[n mod z1] + driven[n mod z2], where z1 and z2 are the tooth numbers. Both arrays have the shape
+    (trials, z).
     """
 
     driver: Any
@@ -217,7 +217,7 @@ class DisplacedPair:
         return np.interp(x, at.start + (at.end - at.start) / last * np.arange(last + 1), column)
 
     def _columns(self, x: Any) -> list[Any]:
-        """Return the nine lag factors of `DisplacedContact`, from `across` to `apart`, at the driver angle x [rad]."""
+        """Return `across`, `along`, `tilt` (2 each), `normal`, `even`, `apart` of the contact at driver angle x."""
         at = self.contact
         return [self._along(each, x) for each in (*at.across, *at.along, *at.tilt, at.normal, at.even, at.apart)]
 
@@ -299,14 +299,7 @@ class DisplacedPair:
         return TightPlace(best + self.contact.backlash, where[0], where[1], where[2], gain)
 
     def _most_protruding(self, front: SideTerms, back: SideTerms, rows: Ints, n1: Ints, n2: Ints) -> Ints:
-        """Return wheel, tooth and side of the flank that reduces the backlash most, of four flanks in contact.
-
-        The result has shape (3, number of rows).
-
-
-        rows     indices of the trials
-        n1, n2   indices of the terms of driver and driven wheel with the minimum backlash in these trials
-        """
+        """Return wheel, tooth and side of the one of four flanks in contact that reduces backlash most, (3, rows)."""
         z1, z2 = self.teeth
         # contribution of each of the four to the backlash: the smallest belongs to the most protruding flank
         terms = (front.driver, n1), (back.driver, n1), (back.driven, n2), (front.driven, n2)
@@ -363,7 +356,7 @@ class DisplacedPair:
     # ----------------------------------------------------------------------------------------------- angle by angle
 
     def lag(self, rows: Ints, S: Floats, k: Ints, back: bool = False) -> Floats:
-        """Return the lag of the driven wheel due to tooth pairs k at driver angles S [rad]; with `back`, its lead."""
+        """Return the lag of the driven wheel due to tooth pairs k at driver angles S [rad], or its lead if `back`."""
         at, sign = self.contact, -1.0 if back else 1.0
         one, two, ratio = self.first, self.second, float(self.contact.ratio)
         i, j = k % one.z, (k + back) % two.z

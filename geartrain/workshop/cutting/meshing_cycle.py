@@ -147,8 +147,8 @@ def minimum_backlash_sum(
 ) -> tuple[Any, Any]:
     """Return the minimum backlash of a front and a back tooth pair, each in one phase, and its driver angle [rad].
 
-    The backlash is the sum of their contact functions; it is inf if the pairs never touch at the same time. `delta` is
-    the angle from the front to the back driving tooth [rad].
+    The backlash is the sum of the angles of both driven teeth; it is inf if the pairs never touch at the same time.
+    `delta` is the angle from the front to the back driving tooth [rad].
     """
     # Newton's method safeguarded by bisection; the last step improves only the value, by parabolic interpolation
     low, high = common(front, back, delta)
@@ -520,7 +520,8 @@ def _table(sizes: TriangularSizes, n: int, spread: float) -> Floats:
 
 
 def _read(table: Floats, spread: float, apart: Floats) -> Floats:
-    """Return linearly interpolated values of a `_table` at the deviations `apart`; np.interp would be slower."""
+    """Return linearly interpolated values of a `_table` at the deviations `apart`."""
+    # np.interp would search for the interval of each value
     at = (apart + spread) * ((_NODES - 1) / (2 * spread))
     low = np.clip(at.astype(np.int64), 0, _NODES - 2)
     found: Floats = table[low] + (table[low + 1] - table[low]) * (at - low)
@@ -572,7 +573,7 @@ class _EntriesAndExits:
 
     @property
     def doubtful(self) -> Bools:
-        """Mask of the trials in which a tooth pair may touch too late, so that all tooth pairs must be compared."""
+        """Mask of the trials in which a clash or a dwell is possible, so that all tooth pairs must be compared."""
         if self.reach < 0:  # the tip circles do not intersect
             return np.zeros(self.pair.trials, bool)
         # far above rounding errors; closer cases are computed pair by pair

@@ -274,7 +274,7 @@ def _estimate(numbers: Ints, off: Floats, z: int, error: float, law: DeviationLa
 
 
 def _successive_ratio(step: Floats, ratio: float, n: int) -> tuple[float, float]:
-    """Return von Neumann's ratio, scaled to all n - 1 differences, and its 5 % quantile for independent deviations.
+    """Return von Neumann's ratio, as if all n - 1 differences were known, and its 5 % quantile without stepping.
 
     The ratio is nearly normal, with the moments of a quotient of quadratic forms of normal variables.
 

@@ -36,7 +36,10 @@ class Sheet:
 
 
 def cut_sheets(work: SolidModel) -> Iterator[tuple[str, FlatDrawing]]:
-    """Yield path in the folder (without suffix) and drawing, with half the kerf added, of each sheet of flat parts."""
+    """Yield path and kerf-compensated drawing of each shape of wheel, of each plate, and of each sheet of stock.
+
+    The paths are relative to the exported folder and have no suffix.
+    """
     kerf, base = work.process.kerf, work.train.declaration.frame
     plates = [] if work.frame is None else [_sheet(plate) for plate in work.frame.plates()]
     plates += [Plate(base, each.name.replace(" ", "-"), each.drawing(), each.high - each.low) for each in work.dials]
@@ -272,7 +275,7 @@ def _fitted_to_sheet(part: Sheet, size: tuple[float, float], gap: float) -> Shee
 
 
 def _rows(pieces: list[Sheet], size: tuple[float, float], gap: float) -> Iterator[list[Sheet]]:
-    """Lay out pieces in rows on sheets of a size [mm] with gaps [mm]; yield the shifted pieces of each sheet."""
+    """Yield the pieces of each sheet, shifted to their positions in rows; `size` and `gap` of the sheets are in mm."""
     boxes = [_box(piece.drawing) for piece in pieces]
     order = sorted(range(len(pieces)), key=lambda at: -float(np.ptp(boxes[at], axis=0)[1]))
     sheet: list[Sheet] = []

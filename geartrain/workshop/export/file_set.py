@@ -343,7 +343,7 @@ def kind_of(name: str) -> str:
 
 
 def _both(value: Fraction | None) -> tuple[str, str]:
-    """Return a number as a fraction and as a decimal number in text; two empty strings for None."""
+    """Return a number as two texts, a fraction and a decimal number, which are empty for None."""
     return ("", "") if value is None else (fraction_text(value), decimal(value, _DIGITS))
 
 

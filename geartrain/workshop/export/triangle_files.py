@@ -321,7 +321,7 @@ class Keyframes:
         return found
 
     def _errors(self, count: int) -> Floats:
-        """Return the deviations of the bodies from mean motion [rad], shape (bodies, count + 1), at equal intervals."""
+        """Return the deviations of all bodies from mean motion [rad] at `count` + 1 times, (bodies, count + 1)."""
         bodies = self.work.scene.bodies
         if not self.ripples:
             return np.zeros((len(bodies), count + 1))

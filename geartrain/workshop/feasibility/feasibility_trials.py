@@ -345,7 +345,7 @@ def run_feasibility(
 
 
 def _columns(plan: FeasibilityPlan, loads: Sequence[Any]) -> tuple[Floats | None, dict[str, Floats], dict[str, Floats]]:
-    """Return arrays over the trials: crank torque, and by pair torque and efficiency, from `PairLoads` (or None)."""
+    """Return arrays of the `loads` of all trials: crank torque, and torque and efficiency keyed by pair."""
     if plan.nominal is None:
         return None, {}, {}
     crank = np.array([inf if row is None or row[0] is None else row[0] for row in loads])

@@ -196,7 +196,7 @@ class DisplacedTrialPair(TrialPair):
 
     @property
     def question(self) -> tuple[float, ...]:
-        """Some data of the contact and the backlash, on which the results of the pair depend."""
+        """Numbers of the contact, such as its ends and its backlash, on which the results of the pair depend."""
         at = self.contact
         return at.start, at.end, float(at.normal[0]), float(at.normal[-1]), at.backlash, float(at.even[0])
 

@@ -361,7 +361,7 @@ def polish(sampled: SampledFunction, start: Point, rounds: int = _ROUNDS) -> Non
 
 
 def _separate_basins(sampled: SampledFunction) -> list[Point]:
-    """Return up to three samples with low values, which differ by more than a tenth of a range in a coordinate."""
+    """Return up to three low samples, which differ from each other by more than a tenth of the range of a variable."""
     found: list[Point] = []
     for at in sorted(sampled.seen, key=lambda at: sampled.seen[at]):
         if all(distance(at, other, sampled.bounds) > _CLOSE for other in found):

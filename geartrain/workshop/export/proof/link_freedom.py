@@ -64,7 +64,7 @@ def prove_freedom(
 
 @dataclass(frozen=True, slots=True)
 class _Constraint:
-    """Constraint of a mesh on the small changes of the link angles: low <= weights @ changes <= high [rad]."""
+    """Constraint low <= weights @ changes <= high [rad] that a mesh imposes on small changes of all link angles."""
 
     pair: str
     weights: Floats
@@ -147,7 +147,8 @@ class _Motion:
     ) -> tuple[_Constraint, float]:
         """Return the constraint of a mesh for the link angles `angles`, and the angle by which its teeth overlap [rad].
 
-        The overlap is an angle of the second wheel; it is inf if that wheel is nowhere free.
+        The overlap is an angle of the second wheel; it is inf if that wheel is nowhere free. `senses` are those of
+        `_axis_senses`.
         """
         one, other = (self.wheels[name] for name in self.names[circuit.id])
         first, second, held = (one.body, other.body, self.bodies[circuit.carrier])
@@ -170,7 +171,7 @@ class _Motion:
         return _Constraint(circuit.id, weights, low, high), max(low, -high, 0.0) if low == low else inf
 
     def _tooth_angle(self, wheel: SceneWheel, one: SceneWheel, other: SceneWheel, turned: TurnedPair) -> float:
-        """Return the angle from the line of centres to the first tooth of `wheel` in the zero pose [rad].
+        """Return the angle from the line of centres to the first tooth of `wheel` at the start of the motion [rad].
 
         one, other   first and second wheel of the mesh; the angle is positive about the axis of the first wheel
         """

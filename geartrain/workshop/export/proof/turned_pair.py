@@ -227,11 +227,7 @@ class TurnedPair:
         return acos(min(max(one, -1.0), 1.0)), acos(min(max(two, -1.0), 1.0))
 
     def _contact_region(self, which: int, tooth: int) -> Any:
-        """Return the region of a wheel that can touch its mate while a tooth (wheel 2: a space) is near the line of
-        centres.
-
-        which   0 for wheel 1, 1 for wheel 2
-        """
+        """Return the region of a wheel (0 or 1) that can touch its mate while a tooth is near the line of centres."""
         kind = which, self._alike[which][tooth]
         if kind in self._cropped:
             return self._cropped[kind]

@@ -236,7 +236,7 @@ class CutToothPairs(ToothPair):
         return self.angle(APPROACH, x, np) < self.angle(RECESS, x, np)
 
     def tau(self, x: Any, approaches: Any) -> Any:
-        """Return the speed ratio of tooth pairs at the driver angle x [rad]; the mask `approaches` gives their phases."""
+        """Return the speed ratio of tooth pairs at the driver angle x [rad]; `approaches` is a mask of their phases."""
         return np.where(approaches, self.speed(APPROACH, x, np), self.speed(RECESS, x, np))
 
     def picked(self, pick: Callable[[Any], Any]) -> CutToothPairs:

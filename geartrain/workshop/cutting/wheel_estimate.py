@@ -137,7 +137,7 @@ class WheelEstimate(Result):
 
     @property
     def fitted(self) -> tuple[float, float]:
-        """Eccentricity of the least-squares fit as a fraction of the radius, and its direction [rad].
+        """Fitted eccentricity as a fraction of the radius, and its direction [rad].
 
         On average, pitch deviations increase the fitted value. The estimate `eccentricity` is corrected for this bias.
         """

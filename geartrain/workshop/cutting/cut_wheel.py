@@ -289,13 +289,13 @@ class CutGearPair:
         shift = self.shift if np.ndim(self.shift) == 0 else self.shift[part]
         return CutGearPair(self.sizes, self.first.taken(part), self.second.taken(part), shift)
 
-    def filed(self, low: tuple[Floats, Floats]) -> CutGearPair:
+    def filed(self, depths: tuple[Floats, Floats]) -> CutGearPair:
         """Return this pair with filed flanks.
 
-        low   depths to be removed from the flanks of each wheel, in the unit of the radii, shape (trials, 2, z); the
-              second index is 0 for leading and 1 for trailing flanks
+        depths   depth removed from each flank of each wheel, in the unit of the radii, shape (trials, 2, z); the
+                 second index is 0 for leading and 1 for trailing flanks
         """
-        wheels = zip((self.first, self.second), low, strict=True)
+        wheels = zip((self.first, self.second), depths, strict=True)
         first, second = (wheel.filed(each[:, 0], each[:, 1]) for wheel, each in wheels)
         return CutGearPair(self.sizes, first, second, self.shift)
 

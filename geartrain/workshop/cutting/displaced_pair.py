@@ -199,10 +199,10 @@ class DisplacedPair:
         for steps in range(int(np.ceil(ends[0])), int(np.floor(ends[1])) + 1):
             x = sign * u + steps * pitch
             # infinite beyond the reach of nominal tips, which errors of tips hardly extend
-            if np.isfinite(self._kinks(np.array(x))):
+            if np.isfinite(self._tip_lag(np.array(x))):
                 yield self._side(u, x, int(sign) * steps, back)
 
-    def _kinks(self, x: Floats, tip1: Any = 0.0, tip2: Any = 0.0) -> Floats:
+    def _tip_lag(self, x: Floats, tip1: Any = 0.0, tip2: Any = 0.0) -> Floats:
         """Return the lag [rad] due to tips in contact beyond the path of contact, at driver angles x [rad].
 
         tip1, tip2   errors of the tip heights [module]
@@ -242,9 +242,9 @@ class DisplacedPair:
         own = own + (self._along(at.even, here) if self._lag_varies else even) + apart * shift
         other = -sign * two.place + flank2 * l2 + low2 * w
         if late is not None:
-            own = own + self._kinks(here)
+            own = own + self._tip_lag(here)
         elif not at.start + self._end_margins[1] < x < at.end - self._end_margins[0]:
-            own = own + self._kinks(here, one.tips)
+            own = own + self._tip_lag(here, one.tips)
             # pitch deviations of the driver and tip heights of the driven wheel both move the entry; taken separately
             other = other + at.entering(at.start - at.longer[1] * two.tips - x) - at.entering(np.array(at.start - x))
         # a back pair joins the driver's tooth to the next driven tooth
@@ -310,13 +310,13 @@ class DisplacedPair:
         flank = left.argmin(axis=0)
         return np.stack([flank // 2, np.take_along_axis(teeth, flank[None], axis=0)[0], flank % 2])
 
-    def filed(self, low: tuple[Floats, Floats]) -> DisplacedPair:
+    def filed(self, depths: tuple[Floats, Floats]) -> DisplacedPair:
         """Return this pair with filed flanks.
 
-        low   depths to be removed from the flanks of each wheel (module), shape (trials, 2, z); the second index is 0
-              for leading and 1 for trailing flanks
+        depths   depth removed from each flank of each wheel (module), shape (trials, 2, z); the second index is 0
+                 for leading and 1 for trailing flanks
         """
-        wheels = zip((self.first, self.second), low, strict=True)
+        wheels = zip((self.first, self.second), depths, strict=True)
         first, second = (wheel.filed(each[:, 0], each[:, 1]) for wheel, each in wheels)
         return DisplacedPair(self.contact, first, second, self.shift)
 
@@ -356,7 +356,10 @@ class DisplacedPair:
     # ----------------------------------------------------------------------------------------------- angle by angle
 
     def lag(self, rows: Ints, S: Floats, k: Ints, back: bool = False) -> Floats:
-        """Return the lag of the driven wheel due to tooth pairs k at driver angles S [rad], or its lead if `back`."""
+        """Return the lag of the driven wheel due to tooth pairs k at driver angles S, in the trials `rows` [rad].
+
+        back   True for the lead of the driven wheel due to the coast flanks
+        """
         at, sign = self.contact, -1.0 if back else 1.0
         one, two, ratio = self.first, self.second, float(self.contact.ratio)
         i, j = k % one.z, (k + back) % two.z
@@ -375,7 +378,7 @@ class DisplacedPair:
             if np.any(wheel.e):
                 e, towards = (each[rows] if np.ndim(each) else each for each in (wheel.e, wheel.towards))
                 lag = lag + e * (sign * across * np.sin(angle - towards) + along * np.cos(angle - towards))
-        found: Floats = lag + self._kinks(x, of_teeth(one.tips, rows, i), of_teeth(two.tips, rows, j))
+        found: Floats = lag + self._tip_lag(x, of_teeth(one.tips, rows, i), of_teeth(two.tips, rows, j))
         return found
 
     def minimum_lag(self, rows: Ints, S: Floats, back: bool = False) -> tuple[Floats, Ints]:

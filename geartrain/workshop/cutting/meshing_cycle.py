@@ -529,7 +529,7 @@ def _read(table: Floats, spread: float, apart: Floats) -> Floats:
 
 
 class _EntriesAndExits:
-    """Entries and exits of teeth that have only pitch deviations, so that all have the same contact function."""
+    """Entries and exits of teeth that have only pitch deviations, so that all tooth pairs have the same contact."""
 
     def __init__(self, pair: CutGearPair) -> None:
         self.pair, self.sizes = pair, pair.sizes

@@ -88,7 +88,7 @@ class TrialTransmissionFunction(TransmissionFunction):
         return self.error_and_speed(S)[1]
 
     def error_moments(self) -> tuple[float, float]:
-        """Return the mean of the transmission error and its rms deviation for one trial [rad]; else `even` and 0."""
+        """Return mean transmission error and its rms deviation [rad]: of one trial, or `even` and 0 for many trials."""
         return (float(self._samples.mean()), float(self._samples.std())) if self.measured else (self.even, 0.0)
 
     def error_range(self) -> tuple[float, float]:

@@ -450,7 +450,7 @@ class AssemblyPictures:
         return "\n".join([*lines, "</g></svg>", ""]).encode("utf-8")
 
     def _plan(self, part: SolidPart, corner: Floats, fine: bool) -> Iterator[str]:
-        """Yield SVG paths of a part in the top view at `corner`; wheels have teeth if `fine`, otherwise are circles."""
+        """Yield SVG paths of a part in the top view at `corner`; wheels are circles unless `fine` is True."""
         low, high = self.extent
         # round parts, and wheels of earlier steps, are drawn as circles
         radius = part.turned.diameter / 2 if part.turned is not None else 0.0

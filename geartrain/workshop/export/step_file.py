@@ -31,7 +31,7 @@ _DATE = re.compile(rb"'\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d'")  # replaced, so that th
 
 
 def to_step(work: SolidModel) -> bytes:
-    """Return the assembly in the zero pose as a STEP file in mm, without the parts listed by `omitted`.
+    """Return the assembly at the start of its motion as a STEP file in mm, without the parts listed by `omitted`.
 
     Raises `MissingExtraError` if the library that writes STEP is not installed.
     """

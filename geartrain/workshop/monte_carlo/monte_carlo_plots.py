@@ -155,7 +155,7 @@ def course_figure(courses: Sequence[PointerErrorCourse], driving_link: str = "th
 
 
 def _bands(name: str, errors: Floats) -> Floats:
-    """Return minimum, five percentiles and maximum, (7, positions), of the errors of a pointer, (trials, positions)."""
+    """Return minimum, five percentiles and maximum of a pointer's errors over the trials, shape (7, positions)."""
     _require(errors, f"'{name}' cannot turn in any trial", _TURNING)
     found: Floats = np.percentile(errors, (0, *PERCENTS, 100), axis=0)
     return found
@@ -223,7 +223,7 @@ def jam_map_figure(clearances: ArrayLike, scales: ArrayLike, probabilities: Arra
 def share_figure(shares: Mapping[str, Sequence[IntervalEstimate]], title: str = "") -> Figure:
     """Draw the shares of causes in the variance of an output's error, with confidence intervals as lines.
 
-    Only the `MOST_ROWS` largest shares are drawn. Raises `QuestionError` if there is no cause.
+    Only the largest shares are drawn. Raises `QuestionError` if there is no cause.
 
     shares   for each cause, the share of its own effect and, if known, its share including all interactions
     """

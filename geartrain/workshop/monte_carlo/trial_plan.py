@@ -212,7 +212,7 @@ class DisplacedTrialPair(TrialPair):
         return found
 
     def transmission(self, pair: Any, rows: Ints) -> TrialTransmissionFunction:
-        """Return the transmission functions of a cut pair, which follow from the foremost tooth pair at each angle."""
+        """Return the transmission functions of a cut pair, in which the tooth pair with the smallest lag drives."""
         return DisplacedTrialTransmission(pair, self.even, rows)
 
     def filed(self, pair: Any) -> FilingWork[Any]:

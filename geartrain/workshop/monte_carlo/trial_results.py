@@ -244,7 +244,7 @@ class TrialResults(Tabular):
 
 
 def turning_trials(marks: Marks, pairs: Sequence[int]) -> Bools:
-    """Return a mask of the trials in which no given pair jams, disengages or has a wheel that cannot be cut."""
+    """Return a mask of trials in which none of the given pairs jams, disengages or has a wheel that cannot be cut."""
     runs: Bools = np.all((marks[:, list(pairs)] & LOST) == 0, axis=1)
     return runs
 

@@ -299,7 +299,7 @@ def _names(plan: TrialPlan) -> list[str]:
 
 
 def _columns(plan: TrialPlan, rows: TrialRecord) -> list[Floats]:
-    """Return the table columns of one record in the order of the column names (`_names`)."""
+    """Return the columns of the table for one record, in the order of the column names."""
     values = [rows.first + np.arange(len(rows.turns)), rows.turns, *np.degrees(rows.errors.T)]
     for at in range(len(plan.pairs)):
         values += [rows.backlash[:, at], rows.marks[:, at]]

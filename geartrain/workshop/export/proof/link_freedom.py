@@ -128,7 +128,7 @@ class _Motion:
         return weights / max(float(np.abs(weights).max()), 1.0)
 
     def _axis_senses(self, circuit: Circuit) -> tuple[int, int, int] | None:
-        """Return the senses (1, -1) of both wheels and carrier about the first axis; None for axes not parallel."""
+        """Return the senses (1, -1) of both wheels and carrier about the first axis; None unless axes are parallel."""
         one, other = (self.wheels[name] for name in self.names[circuit.id])
         n = np.array(one.direction)
         bodies = (one.body, other.body, self.bodies[circuit.carrier])

@@ -45,7 +45,7 @@ _LAND = 0.05  # tooth heights below the tip circle at which the tip width is mea
 
 @dataclass(frozen=True, slots=True)
 class MeshProof(Result):
-    """Measured values of a mesh as cut, for a rotation by a pitch; for unequal teeth, of each combination of teeth."""
+    """Measured values of a mesh as cut, over a pitch and, for unequal teeth, over all combinations of teeth."""
 
     KEYS = ("pair", "declared", "minimum", "most", "overlap", "contact_ratio", "clearance", "tip_width", "module")
 

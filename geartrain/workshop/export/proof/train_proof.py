@@ -187,7 +187,7 @@ class _Solids:
                 yield one, other
 
     def common(self, one: int, other: int, pose: ScenePose) -> float:
-        """Return the volume that two parts have in common in a pose [mm3]; 0 if it is below `SLIVER`."""
+        """Return the volume that two parts have in common in a pose [mm3]; 0 if it is negligible."""
         bodies = [(at, self.parts[at].body) for at in (one, other)]
         moves = (np.column_stack([pose.turned[body], pose.moved[body]]) for _, body in bodies)
         solids = [self._made(at).transform(move) for (at, _), move in zip(bodies, moves, strict=True)]
@@ -196,7 +196,7 @@ class _Solids:
         return volume if volume > minimum else 0.0
 
     def _made(self, at: int) -> Any:
-        """Return the part with index `at` in the zero pose, as a manifold."""
+        """Return the part with index `at` in its position at the start of the motion, as a manifold."""
         if at not in self.made:
             faces = np.ascontiguousarray(self.parts[at].solid.faces, dtype=np.uint64)
             mesh = self.library.Mesh64(np.ascontiguousarray(self.placed[at], dtype=float), faces)

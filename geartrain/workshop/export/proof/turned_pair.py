@@ -100,7 +100,7 @@ class TurnedPair:
 
     @cached_property
     def tooth_pairs(self) -> list[tuple[int, int]]:
-        """Pairs of a tooth of wheel 1 and a space of wheel 2 that meet (indices), one for each different pair."""
+        """Indices of a tooth of wheel 1 and a space of wheel 2 that meet, for each different combination of shapes."""
         z1, z2 = self.counts
         way = 1 if self.ring else -1
         found: dict[tuple[int, int], tuple[int, int]] = {}

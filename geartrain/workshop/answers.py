@@ -6,7 +6,7 @@ from typing import Any
 
 
 def answers() -> dict[str, Any]:
-    """Return a mapping from the name of each workshop command that prints JSON to its result type."""
+    """Return the class of the result that each command of this package prints with --json, keyed by command name."""
     from geartrain.workshop.budget.pointer_budget import TrainBudget
     from geartrain.workshop.cutting.wheel_estimate import WheelEstimate
     from geartrain.workshop.feasibility.feasibility_trials import FeasibilityResult

@@ -47,7 +47,7 @@ _NEAR = 0.02  # maximum relative difference of a target from the period of the b
 
 
 class DeclaredPairs(NamedTuple):
-    """Gear pairs and couplings that move an output."""
+    """Gear pairs and couplings on the path from the input to one output, counted by their declared data."""
 
     real: int
     """Number of gear pairs with declared tooth forms."""
@@ -61,7 +61,7 @@ class DeclaredPairs(NamedTuple):
 
 @dataclass(frozen=True)
 class ToothMotion:
-    """Effect of the teeth of a train on the motion of its outputs during a run."""
+    """Ripple and lost motion of the outputs of a train due to its teeth, computed over several turns of the input."""
 
     ripple: Mapping[str, RunningStatistics]
     """Statistics of the transmission error of each output due to the teeth [rad], keyed by output."""
@@ -75,7 +75,7 @@ class ToothMotion:
 
 
 def find_tooth_motion(motion: Motion, turns: float, samples: int) -> ToothMotion:
-    """Return the ripple and the lost motion of every output, from `samples` positions over `turns` input turns."""
+    """Return ripple and lag after a reversal of all outputs, at `samples` positions over `turns` turns of the input."""
     ripple = MotionRun(motion.without_anomaly(), turns, samples)
     ripple.run()
     # difference of two motions at the same position: backwards and forwards
@@ -101,7 +101,7 @@ def find_tooth_motion(motion: Motion, turns: float, samples: int) -> ToothMotion
 
 
 def pair_ripples(motion: Motion) -> dict[str, dict[str, float]]:
-    """Return the peak-to-peak error due to each gear pair [deg] by output, in descending order; 0 is omitted."""
+    """Return the peak-to-peak error due to each pair [deg], keyed by output and then by pair, in descending order."""
     # the transmission error of a pair times the sensitivity of the output to it
     found = Superposition(motion._forward)
     pins = {joint.coupling.name for joint in motion._problem.couplings}
@@ -133,7 +133,7 @@ def moving_pairs(motion: Motion, output: str) -> tuple[str, ...]:
 
 
 def declared_pairs(motion: Motion, output: str) -> DeclaredPairs:
-    """Return the gear pairs and couplings that move an output."""
+    """Count the gear pairs on the path from the input to an output, and name the couplings on this path."""
     circuits = {circuit.id: circuit for circuit in motion._problem.circuits}
     real = set(motion._problem.meshes)
     sized = {joint.coupling.name for joint in motion._problem.couplings}
@@ -149,7 +149,7 @@ def declared_pairs(motion: Motion, output: str) -> DeclaredPairs:
 
 
 def tooth_causes(found: ToothMotion, name: str) -> tuple[BudgetCause, BudgetCause]:
-    """Return two causes of the error of one output: ripple of the teeth, and lost motion."""
+    """Return the contributions of the causes "teeth" (ripple) and "lost motion" to the error of the output `name`."""
     known = found.declared[name]
     tally, (most, rms) = found.ripple[name], found.lost[name]
     bare = f"no dimensions are declared for {', '.join(known.bare)}"
@@ -179,7 +179,7 @@ def tooth_causes(found: ToothMotion, name: str) -> tuple[BudgetCause, BudgetCaus
 
 @dataclass(frozen=True, slots=True)
 class TrueMotion:
-    """Orbit of a celestial body, with whose true motion the anomaly of a pointer is compared."""
+    """Orbit of a celestial body. Its true motion is compared with the deviation of a pointer from uniform motion."""
 
     eccentricity: float
     """Present eccentricity of the orbit."""
@@ -220,7 +220,7 @@ def equation_of_centre(M: Floats, e: float) -> Floats:
 
 @dataclass(frozen=True, slots=True)
 class TheoryError:
-    """Difference between the anomaly of one link and the true motion of a celestial body."""
+    """Difference between the deviations of one link and of a celestial body from their uniform motions."""
 
     words: str
     """Description of the compared motions, or the reason why their difference is unknown."""
@@ -233,10 +233,12 @@ class TheoryError:
 def find_bodies(
     outputs: Iterable[OutputResult], frame: str, unit_days: float | None, named: Mapping[str, Body | None]
 ) -> dict[str, Body]:
-    """Return a mapping from link to the celestial body that the link represents, for outputs relative to the frame.
+    """Return the celestial body that each link represents, keyed by link, for outputs relative to the link `frame`.
 
-    The body is given by `named` (None: no body), keyed by output. Otherwise it is inferred from a word in the name of
-    the output or link, and a target within 2 % of the period of the body.
+    The body is given by `named` (None: no body), keyed by output. Otherwise the name of the output or link must contain
+    the name of the body, and one of the declared target periods must be within 2 % of the period of the body.
+
+    unit_days   duration of the train's unit of time (d); None if its unit is not a time
     """
     found: dict[str, Body] = {}
     for output in outputs:
@@ -257,9 +259,9 @@ def find_bodies(
 
 
 def link_theory(problem: MotionProblem, link: str, body: Body) -> TheoryError:
-    """Return the difference between the anomaly of one link with ideal teeth and the true motion of a body.
+    """Return the difference between the deviations of a link, with ideal teeth, and of a body from uniform motion.
 
-    It is unknown if a pin that moves the link has no dimensions, or if several pins move it.
+    The result contains no values if a pin that moves the link has no dimensions, or if several pins move it.
     """
     from geartrain.dynamics import Motion
 
@@ -283,9 +285,12 @@ def link_theory(problem: MotionProblem, link: str, body: Body) -> TheoryError:
 
 
 def minimum_difference(error: Floats, e: float) -> Floats:
-    """Return an error over one cycle minus the equation of centre [rad], at the phase of minimum mean square.
+    """Return the difference between an error and the equation of centre [rad] over one cycle.
 
-    error   error at phases 2 pi k/n, shape (n,) [rad]; its mean is removed
+    The phase of the equation of centre is that at which the mean square of the difference is a minimum.
+
+    error   error at the phases 2 pi k/n, shape (n,) [rad]; its mean is removed
+    e       eccentricity of the orbit
     """
     from scipy.optimize import minimize_scalar
 
@@ -309,7 +314,11 @@ def minimum_difference(error: Floats, e: float) -> Floats:
 
 
 def theory_cause(parts: list[TheoryError]) -> BudgetCause:
-    """Return the cause "theory" of a pointer from the errors of its link and of its reference link."""
+    """Return the contribution of the cause "theory" to the error of a pointer.
+
+    parts   differences from the true motion, of the pointer's link and of its reference link: peak-to-peak values are
+            added, and rms values are combined as a root sum of squares
+    """
     if not parts:
         return BudgetCause.unknown("theory", "the true motion it shows is not known to geartrain")
     if unknown := [part.words for part in parts if part.peak_to_peak is None]:

@@ -52,7 +52,7 @@ class BudgetCause(Result):
 
     @classmethod
     def unknown(cls, name: CauseName, note: str) -> BudgetCause:
-        """Return a cause of unknown size; `note` is the reason why it is unknown."""
+        """Return a contribution of unknown size; `note` is the reason why the size is unknown."""
         return cls(name, "not declared", note=note)
 
     @property
@@ -146,8 +146,8 @@ class PointerBudget(Result):
 
     @property
     def overtaken_after_years(self) -> float | None:
-        """Time after which the drift equals the largest other contribution [Julian years]; None if one of them is
-        unknown.
+        """Time after which the drift equals the largest other contribution [Julian years]; None if the drift is unknown
+        or 0, or if no other contribution is known.
         """
         others = [cause.degrees or 0.0 for cause in self.ranked if cause.name != "ratio"]
         # the first target counts, as for the ratio itself
@@ -219,8 +219,8 @@ class TrainBudget(Tabular, Pictured, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Columns of a table that has a row for each cause of each pointer: pointer, cause, size and rms [deg], and
-        size in days; unknown values are None.
+        """Columns of a table that has a row for each cause of each pointer: names of pointer and cause, size and rms
+        value of the error [deg], and size as a time [d]; unknown values are None.
         """
         rows = [(pointer.name, cause) for pointer in self.pointers for cause in pointer.causes]
         return {
@@ -236,5 +236,5 @@ class TrainBudget(Tabular, Pictured, Result):
 
     @property
     def not_declared(self) -> Mapping[str, int]:
-        """Mapping from cause to the number of pointers for which its size is unknown."""
+        """Number of pointers for which the size of a cause is unknown, keyed by cause."""
         return {cause: sum(each[cause].degrees is None for each in self.pointers) for cause in CAUSES}

@@ -54,7 +54,7 @@ SAROS = float(period_table()["saros_223_synodic_modern"].value)  # d
 
 @dataclass(frozen=True)
 class BudgetQuestion:
-    """Options of an error budget: outputs, time span, positions of the input, and trials with cutting errors.
+    """Options of an error budget: outputs, time span, positions of the input, and Monte Carlo trials of cut wheels.
 
     Examples
     --------
@@ -233,9 +233,10 @@ YEAR, CENTURY = 365.25, 36525.0  # Julian, in days
 
 
 def find_drifts(output: OutputResult, unit_days: float | None, span_days: float) -> tuple[RatioDrift, ...]:
-    """Return the drift of an output relative to each of its targets. Targets that are observed periods come first.
+    """Return the drift of an output relative to each of its targets: first the observed periods, then all others.
 
-    unit_days   duration of the train's unit [d]; None if it is not a unit of time
+    unit_days   duration of the train's unit of time (d); None if its unit is not a time
+    span_days   time span over which the drift is evaluated (d)
     """
     observed: list[RatioDrift] = []
     intended: list[RatioDrift] = []
@@ -254,7 +255,7 @@ def find_drifts(output: OutputResult, unit_days: float | None, span_days: float)
 
 
 def ratio_cause(drifts: tuple[RatioDrift, ...]) -> BudgetCause:
-    """Return the cause "ratio": the magnitude of the drift over the time span relative to the first target."""
+    """Return the contribution of the cause "ratio": the magnitude of the first drift over the time span [deg]."""
     if not drifts:
         return BudgetCause.unknown("ratio", "no target is declared for this pointer")
     first = drifts[0]
@@ -270,10 +271,11 @@ def ratio_cause(drifts: tuple[RatioDrift, ...]) -> BudgetCause:
 
 
 def cutting_cause(trials: TrialResults, even: Floats, name: str, known: DeclaredPairs) -> BudgetCause:
-    """Return the cause "cutting" of one output: the central 95 % range of its errors in the trials.
+    """Return the contribution of the cause "cutting" to one output: the central 95 % range of its errors [deg].
 
-    even    errors with perfect teeth at the input positions of the trials [rad], shape (outputs, trials)
-    known   pairs and couplings that move the output
+    trials   results of trials with cutting errors
+    even     errors with perfect teeth at the input positions of the trials (rad), shape (outputs, trials)
+    name     name of the output; `known` are the pairs and couplings that move it
     """
     at = trials.plan.outputs.index(name)
     errors, reach = trials.errors[:, at], trials.plan.reach[at]
@@ -304,9 +306,10 @@ def cutting_cause(trials: TrialResults, even: Floats, name: str, known: Declared
 def _cutting_trials(
     train: GearTrain, requested: BudgetQuestion, motion: Motion, state: str | None, means: Execution
 ) -> tuple[TrialResults, Floats] | str:
-    """Return the trials with cutting errors, or a text with the reason why no trials are possible.
+    """Return the results of trials with cutting errors, and the errors of the outputs with perfect teeth.
 
-    The array is the output errors with perfect teeth at the input positions of the trials [rad], (outputs, trials).
+    The errors are at the input positions of the trials [rad], shape (outputs, trials). If no trials are possible, the
+    reason is returned as a text.
     """
     settings = read_error_overrides(requested.cutting)
     try:

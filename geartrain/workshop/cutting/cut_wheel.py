@@ -42,8 +42,9 @@ _CONSTANTS = ("R1", "R2", "D", "delta", "sin1", "cos1", "sin2", "cos2", "entry",
 class CutWheel:
     """Triangular wheel with cutting errors: each tooth has its own pitch deviation, height and flank angles.
 
-    All arrays have shape (..., z) for z teeth, numbered as they pass while the wheel turns forward. Leading axes index
-    the trials.
+    All arrays have shape (..., z) for z teeth, numbered in the order in which they pass the line of centres while the
+    wheel turns forward. The leading axes index the trials. An angle behind a position is positive against the forward
+    direction of rotation.
     """
 
     radius: float
@@ -88,7 +89,7 @@ class CutWheel:
 
     @property
     def theta(self) -> Floats:
-        """Polar angle of each tip behind the nominal position of tooth 0 [rad]."""
+        """Angle of each tip from the nominal position of tooth 0, positive against the direction of rotation [rad]."""
         return np.arange(self.z) * self.pitch + self.place
 
     @property
@@ -98,11 +99,11 @@ class CutWheel:
 
     @property
     def only_pitch_deviations(self) -> bool:
-        """True if all tip heights and flank angles are nominal."""
+        """True if all tip heights and flank angles are nominal, so that no errors other than pitch deviations exist."""
         return not any(np.any(each) for each in (self.tip, self.leading, self.trailing))
 
     def taken(self, part: int | slice | NDArray[np.int64]) -> CutWheel:
-        """Return the wheels of the selected trials, or of one trial."""
+        """Return the wheels of some trials. `part` is a slice or an array of indices, or the index of one trial."""
         some = (each[part] if each.ndim > 1 else each for each in (self.place, self.tip, self.leading, self.trailing))
         return CutWheel(self.radius, self.half_angle, *some)
 
@@ -144,7 +145,7 @@ class CutWheel:
 
     @property
     def cuttable(self) -> NDArray[np.bool_]:
-        """Mask, (..., z): True if a tooth and the next tooth have tips and flanks, and a space between them."""
+        """Mask, (..., z): True for a tooth if a tooth space with two flanks exists between it and the next tooth."""
         gap = self.pitch + np.roll(self.place, -1, -1) - self.place
         near, far = np.broadcast_arrays(self.r, np.roll(self.r, -1, -1))
         # angle at each tip between its radius and the line to the other tip; the flanks must be inside both
@@ -158,16 +159,20 @@ class CutWheel:
 
 
 def of_teeth(each: Floats, rows: Ints, teeth: Ints) -> Any:
-    """Return the entries [rows, teeth] of an array of shape (trials, z), or [teeth] of an array of shape (z,)."""
+    """Return the values of one tooth in each of several trials.
+
+    each          values of all teeth, shape (trials, z), or (z,) if they are the same in all trials
+    rows, teeth   indices of the trials, and index of the tooth in each of these trials
+    """
     if each.ndim == 1:
         return each[teeth] if each.any() else 0.0  # a scalar saves memory
     return each[rows, teeth]
 
 
 def displaced(radius: Floats, angle: Floats, e: Floats, towards: Floats) -> tuple[Floats, Floats]:
-    """Return the exact radial displacements [unit of `radius`] and rotations about the origin [rad] of shifted points.
+    """Return the changes of radius and of angle [rad] of points that are shifted, in polar coordinates.
 
-    radius, angle   polar coordinates of the points (angle in rad)
+    radius, angle   polar coordinates of the points before the shift (angle in rad)
     e, towards      length and direction (rad) of the shift
     """
     along = e * np.cos(towards - angle)
@@ -206,11 +211,7 @@ class CutToothPairs(ToothPair):
 
     @classmethod
     def of(cls, sizes: TriangularSizes, tips: tuple[Any, Any], flanks: tuple[Any, Any], shift: Any) -> CutToothPairs:
-        """Return tooth pairs of given nominal sizes, changed by errors.
-
-        tips, flanks   errors of the tip heights, and of the half angles (rad), of the driver and of the driven wheel
-        shift          increase of the centre distance
-        """
+        """Return tooth pairs of nominal `sizes` plus errors of both tips, both half angles [rad] and the distance."""
         R1, R2 = sizes.signed_radii
         return cls(
             R1 + tips[0],
@@ -235,7 +236,7 @@ class CutToothPairs(ToothPair):
         return self.angle(APPROACH, x, np) < self.angle(RECESS, x, np)
 
     def tau(self, x: Any, approaches: Any) -> Any:
-        """Return the speed ratio at the driver angle x [rad] in approach (`approaches`) or recess; it may be inf."""
+        """Return the speed ratio of tooth pairs at the driver angle x [rad]; `approaches` is a mask of their phases."""
         return np.where(approaches, self.speed(APPROACH, x, np), self.speed(RECESS, x, np))
 
     def picked(self, pick: Callable[[Any], Any]) -> CutToothPairs:
@@ -253,10 +254,7 @@ class CutToothPairs(ToothPair):
 
 
 def _half_sine(R1: Any, R2: Any, D: Any, delta: Any) -> Any:
-    """Return the sine of half the maximum contact angle of wheel 1, equation (4) of Sorge; 0 if tips do not meet.
-
-    The arguments are those of `CutToothPairs`.
-    """
+    """Return the sine of half the maximum contact angle of wheel 1, by equation (4) of Sorge; 0 if no tips meet."""
     # clipped, because delta is negative if the tips do not reach each other
     return np.sqrt(np.clip(delta * (2 * R2 - delta) / (4 * D * R1), 0.0, 1.0))
 
@@ -291,12 +289,13 @@ class CutGearPair:
         shift = self.shift if np.ndim(self.shift) == 0 else self.shift[part]
         return CutGearPair(self.sizes, self.first.taken(part), self.second.taken(part), shift)
 
-    def filed(self, low: tuple[Floats, Floats]) -> CutGearPair:
+    def filed(self, depths: tuple[Floats, Floats]) -> CutGearPair:
         """Return this pair with filed flanks.
 
-        low   depths to be removed from the flanks of each wheel, shape (trials, 2, z): leading, trailing flanks
+        depths   depth removed from each flank of each wheel, in the unit of the radii, shape (trials, 2, z); the
+                 second index is 0 for leading and 1 for trailing flanks
         """
-        wheels = zip((self.first, self.second), low, strict=True)
+        wheels = zip((self.first, self.second), depths, strict=True)
         first, second = (wheel.filed(each[:, 0], each[:, 1]) for wheel, each in wheels)
         return CutGearPair(self.sizes, first, second, self.shift)
 
@@ -310,12 +309,12 @@ class CutGearPair:
         return CutToothPairs.of(self.sizes, tips, (one.leading[..., i], two.trailing[..., j]), shift)
 
     def places(self, k: Any) -> tuple[Floats, Floats]:
-        """Return the pitch deviations [rad] of the driving and the driven teeth in tooth pairs k, positive if late."""
+        """Return the pitch deviations of the driving and the driven teeth in tooth pairs k, as in `CutWheel.place`."""
         return self.first.place[..., k % self.sizes.z1], self.second.place[..., k % self.sizes.z2]
 
     @cached_property
     def mirrored(self) -> CutGearPair:
-        """Mirror image of the pair; its tooth pair -k joins driving tooth k, which is ahead, to driven tooth k + 1.
+        """Mirror image of the pair. Its tooth pair -k consists of driving tooth k and driven tooth k + 1 of this pair.
 
         If the driven wheel of the image lags by U'(t) at the driver angle t, the coast flanks of this pair meet at the
         lag -U'(-t) - p2, where p2 is the angular pitch of the driven wheel.

@@ -35,33 +35,37 @@ MOST = {kind: 1.0 if kind in _ANGLES else 2.0 for kind in ERROR_KINDS}
 
 @dataclass(frozen=True, slots=True)
 class ErrorSpecification:
-    """Error as a fraction of a nominal value: the fixed value, standard deviation or half width `size`."""
+    """Distribution of an error that is a fraction of a nominal value."""
 
     size: float = 0.0
+    """Fixed error ("value"), standard deviation ("normal") or half of the width ("uniform") of the distribution [1]."""
     way: ErrorDistributionKind = "value"
 
 
 @dataclass(frozen=True, slots=True)
 class ErrorOverride:
-    """Error that replaces the declared error of the same kind, for the wheel or pair `of` (empty: for all)."""
+    """Error that replaces the declared errors of the same kind."""
 
     kind: str
     way: ErrorDistributionKind
     amount: Quantity
     of: str = ""
+    """Name of the wheel or pair that has the error; an empty string for all wheels or pairs."""
 
 
 @dataclass(frozen=True, slots=True)
 class WheelErrors:
     """Manufacturing errors of one wheel.
 
-    pitch, half_angle  angular pitch and half angle of the teeth of the perfect wheel (rad)
-    ring               True for an internal wheel
-    errors             by kind: pitch_deviation and stepping in pitches, aperture_deviation in half angles, lengths in
-                       depths
-    towards            direction of the eccentricity from the first tooth (rad); None for a random direction
-    tables             measured values of all teeth by kind, in the same fractions; a single value for an eccentricity
-    displaced          sizes of teeth whose flanks are displaced along their path of contact; None for triangular teeth
+    Pitch deviations and errors of stepping are fractions of the pitch, deviations of the aperture are fractions of the
+    half angle of a tooth, and lengths are fractions of the tooth depth.
+
+    half_angle  half angle of the teeth of the perfect wheel (rad)
+    errors      distributions of the errors, keyed by kind
+    towards     direction of the eccentricity from the first tooth (rad); None for a random direction
+    tables      measured values of all teeth, keyed by kind of error; a single value for an eccentricity
+    displaced   sizes of the wheel if its errors are modelled as displaced flanks; None for triangular teeth
+    ring        True for an internal wheel
     """
 
     name: str
@@ -80,7 +84,10 @@ class WheelErrors:
 
     @property
     def depth(self) -> float:
-        """Tooth depth [tip radius for triangular teeth, module for displaced flanks, rad for bevel gears]."""
+        """Tooth depth, the unit of errors that are lengths.
+
+        It is in tip radii for triangular teeth, and in modules (bevel gears: rad) for all other teeth.
+        """
         return self.displaced.depth if self.displaced else abs(depth(-self.z if self.ring else self.z, self.half_angle))
 
     @property
@@ -90,7 +97,10 @@ class WheelErrors:
 
     @property
     def angle_radius(self) -> float:
-        """Radius at which angles are measured [unit of `depth`]: tip radius of triangular teeth, or pitch radius."""
+        """Radius of the points of the teeth whose angles are measured [unit of `depth`].
+
+        It is the tip radius of triangular teeth and the pitch radius of all other teeth.
+        """
         return self.z / (2 * self.displaced.modules) if self.displaced else 1.0
 
 
@@ -167,7 +177,7 @@ def check_names(settings: Sequence[ErrorOverride], wheels: Sequence[str], pairs:
 
 
 def wheel_errors(train: Train, even: WheelErrors, settings: Sequence[ErrorOverride]) -> WheelErrors:
-    """Return the errors of one wheel, as declared for the wheel or else for the train, with overrides applied.
+    """Return the errors of the wheel `even`, as declared for it or else for the train, with the overrides `settings`.
 
     Raises `RangeError` if an error is larger than a tooth, or is a length that cannot be converted to a fraction.
     """
@@ -232,9 +242,10 @@ def _with_measured_angles(wheel: WheelErrors, measured: MeasuredTeeth) -> WheelE
 def pair_errors(
     train: Train, mesh: GearMesh, lesser: WheelErrors, settings: Sequence[ErrorOverride]
 ) -> tuple[dict[str, ErrorSpecification], float]:
-    """Return the axis errors of a pair and the depth of one stroke of the file (0 if the pair is not filed).
+    """Return the errors of the axes of a pair, keyed by kind, and the depth of one stroke of the file.
 
-    Both are fractions of the tooth depth of `lesser`, the wheel with the smaller tooth depth.
+    Both are fractions of the tooth depth of `lesser`, the wheel of the pair with the smaller tooth depth. The stroke is
+    0 if the pair is not filed to fit.
     """
     fitting = mesh.gear.fitting or train.fitting
     reader = _Reader(mesh.place, mesh.name, _scales(lesser, train.wheels[lesser.name][1]))
@@ -249,10 +260,7 @@ def pair_errors(
 
 
 def _scales(even: WheelErrors, wheel: Wheel) -> dict[str, float | None]:
-    """Return the angle [rad] or length [m] by which each kind of error is divided, keyed by kind.
-
-    A length is None if the wheel has no module.
-    """
+    """Return the angle [rad] or length [m] by which each kind of error is divided; None for an unknown length."""
     deep = None
     module = wheel.transverse_module
     if module is not None:
@@ -270,7 +278,7 @@ def _scales(even: WheelErrors, wheel: Wheel) -> dict[str, float | None]:
 
 @dataclass(frozen=True, slots=True)
 class _Reader:
-    """Converter of the declared errors of one wheel or pair from angles and lengths to fractions.
+    """Converter of declared errors (angles and lengths) of one wheel or pair to fractions of nominal values.
 
     place    place in the declaration, for error messages
     name     name of the wheel or pair

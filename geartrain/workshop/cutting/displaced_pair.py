@@ -91,7 +91,7 @@ class DisplacedWheel:
 
     @property
     def cuttable(self) -> Bools:
-        """Mask of shape (..., z): True if the next tooth follows each tooth in the nominal order."""
+        """Mask of shape (..., z): True for a tooth if pitch deviations do not exchange it with the next tooth."""
         found: Bools = np.roll(self.place, -1, -1) - self.place > -2 * pi / self.z
         return found
 
@@ -113,16 +113,16 @@ class DisplacedWheel:
         return DisplacedWheel(-place, tip, trailing, leading, trailing_low, leading_low, self.e, towards)
 
     def filed(self, leading: Floats, trailing: Floats) -> DisplacedWheel:
-        """Return this wheel with the depths `leading` and `trailing` removed from its flanks, (trials, z) [module]."""
+        """Return this wheel with the depths `leading` and `trailing` removed from its flanks [module], (trials, z)."""
         return replace(self, leading_low=self.leading_low + leading, trailing_low=self.trailing_low + trailing)
 
 
 @dataclass(frozen=True)
 class SideTerms:
-    """Lags of the driven wheel [rad] due to all tooth pairs on the drive or coast flanks, for one driver angle.
+    """Lags of the driven wheel [rad] due to the tooth pairs on one side of the teeth, at a driver angle plus n pitches.
 
-    The driver angle is within a pitch, to which n whole pitches are added. The lag is the sum of an entry n of
-    `driver` and an entry n of `driven`, both of shape (trials, z).
+    The lag is driver[n mod z1] + driven[n mod z2], where z1 and z2 are the tooth numbers. Both arrays have the shape
+    (trials, z).
     """
 
     driver: Any
@@ -137,7 +137,7 @@ class SideTerms:
 class DisplacedPair:
     """Pair of wheels with displaced flanks. The first wheel drives.
 
-    `shift` is the increase of the centre distance [module], one value, or one value for each trial.
+    `shift` is the increase of the centre distance [module]: a scalar, or an array with a value for each trial.
     """
 
     contact: DisplacedContact
@@ -179,7 +179,7 @@ class DisplacedPair:
 
     @cached_property
     def _end_margins(self) -> tuple[float, float]:
-        """Maximum angles by which errors advance the end and the start of contact [rad of the driver]."""
+        """Maximum angles by which errors extend contact beyond its end, and before its start [rad of the driver]."""
         late = float(np.abs(self.first.place).max(initial=0.0))
         tips = (float(np.abs(each.tips).max(initial=0.0)) for each in (self.first, self.second))
         leaving, entering = (late + longer * tip for longer, tip in zip(self.contact.longer, tips, strict=True))
@@ -199,10 +199,10 @@ class DisplacedPair:
         for steps in range(int(np.ceil(ends[0])), int(np.floor(ends[1])) + 1):
             x = sign * u + steps * pitch
             # infinite beyond the reach of nominal tips, which errors of tips hardly extend
-            if np.isfinite(self._kinks(np.array(x))):
+            if np.isfinite(self._tip_lag(np.array(x))):
                 yield self._side(u, x, int(sign) * steps, back)
 
-    def _kinks(self, x: Floats, tip1: Any = 0.0, tip2: Any = 0.0) -> Floats:
+    def _tip_lag(self, x: Floats, tip1: Any = 0.0, tip2: Any = 0.0) -> Floats:
         """Return the lag [rad] due to tips in contact beyond the path of contact, at driver angles x [rad].
 
         tip1, tip2   errors of the tip heights [module]
@@ -217,7 +217,7 @@ class DisplacedPair:
         return np.interp(x, at.start + (at.end - at.start) / last * np.arange(last + 1), column)
 
     def _columns(self, x: Any) -> list[Any]:
-        """Return the nine lag factors of `DisplacedContact`, from `across` to `apart`, at the driver angle x [rad]."""
+        """Return `across`, `along`, `tilt` (2 each), `normal`, `even`, `apart` of the contact at driver angle x."""
         at = self.contact
         return [self._along(each, x) for each in (*at.across, *at.along, *at.tilt, at.normal, at.even, at.apart)]
 
@@ -242,9 +242,9 @@ class DisplacedPair:
         own = own + (self._along(at.even, here) if self._lag_varies else even) + apart * shift
         other = -sign * two.place + flank2 * l2 + low2 * w
         if late is not None:
-            own = own + self._kinks(here)
+            own = own + self._tip_lag(here)
         elif not at.start + self._end_margins[1] < x < at.end - self._end_margins[0]:
-            own = own + self._kinks(here, one.tips)
+            own = own + self._tip_lag(here, one.tips)
             # pitch deviations of the driver and tip heights of the driven wheel both move the entry; taken separately
             other = other + at.entering(at.start - at.longer[1] * two.tips - x) - at.entering(np.array(at.start - x))
         # a back pair joins the driver's tooth to the next driven tooth
@@ -299,11 +299,7 @@ class DisplacedPair:
         return TightPlace(best + self.contact.backlash, where[0], where[1], where[2], gain)
 
     def _most_protruding(self, front: SideTerms, back: SideTerms, rows: Ints, n1: Ints, n2: Ints) -> Ints:
-        """Return wheel, tooth and side of the most protruding of four flanks in contact, shape (3, number of rows).
-
-        rows     indices of the trials
-        n1, n2   indices of the terms of driver and driven wheel with the minimum backlash in these trials
-        """
+        """Return wheel, tooth and side of the one of four flanks in contact that reduces backlash most, (3, rows)."""
         z1, z2 = self.teeth
         # contribution of each of the four to the backlash: the smallest belongs to the most protruding flank
         terms = (front.driver, n1), (back.driver, n1), (back.driven, n2), (front.driven, n2)
@@ -314,12 +310,13 @@ class DisplacedPair:
         flank = left.argmin(axis=0)
         return np.stack([flank // 2, np.take_along_axis(teeth, flank[None], axis=0)[0], flank % 2])
 
-    def filed(self, low: tuple[Floats, Floats]) -> DisplacedPair:
+    def filed(self, depths: tuple[Floats, Floats]) -> DisplacedPair:
         """Return this pair with filed flanks.
 
-        low   depths to be removed from the flanks of each wheel, shape (trials, 2, z): leading, trailing flanks
+        depths   depth removed from each flank of each wheel (module), shape (trials, 2, z); the second index is 0
+                 for leading and 1 for trailing flanks
         """
-        wheels = zip((self.first, self.second), low, strict=True)
+        wheels = zip((self.first, self.second), depths, strict=True)
         first, second = (wheel.filed(each[:, 0], each[:, 1]) for wheel, each in wheels)
         return DisplacedPair(self.contact, first, second, self.shift)
 
@@ -339,7 +336,8 @@ class DisplacedPair:
     def tip_contacts(self, entering: bool) -> Bools:
         """Return a mask of the trials in which tips meet at an entry (`entering`: clash) or at an exit (dwell).
 
-        Tips meet if the neighbouring pair, which should be in contact, has a larger lag than the pair itself.
+        At the first (last) contact of a tooth pair, the preceding (next) pair should drive. Tips meet if that pair lets
+        the driven wheel lag more.
         """
         at = self.contact
         x, j = (at.start - at.entering.most, 1) if entering else (at.end + at.leaving.most, -1)
@@ -380,7 +378,7 @@ class DisplacedPair:
             if np.any(wheel.e):
                 e, towards = (each[rows] if np.ndim(each) else each for each in (wheel.e, wheel.towards))
                 lag = lag + e * (sign * across * np.sin(angle - towards) + along * np.cos(angle - towards))
-        found: Floats = lag + self._kinks(x, of_teeth(one.tips, rows, i), of_teeth(two.tips, rows, j))
+        found: Floats = lag + self._tip_lag(x, of_teeth(one.tips, rows, i), of_teeth(two.tips, rows, j))
         return found
 
     def minimum_lag(self, rows: Ints, S: Floats, back: bool = False) -> tuple[Floats, Ints]:
@@ -417,10 +415,7 @@ def mean_lag(contact: DisplacedContact) -> float:
 
 
 def minimum_sum_places(driver: Any, driven: Any, count: int) -> tuple[Floats, Ints, Ints]:
-    """Return the minimum of `extreme_sum`, and the indices of its driver and driven terms, each of shape (trials,).
-
-    count   number of trials
-    """
+    """Return the minimum of `extreme_sum` in each trial, and the indices of its driver term and its driven term."""
     one, two = by_residue(np.atleast_2d(driver), np.atleast_2d(driven))
     rests = one.shape[-1]
     total = one.min(axis=1) + two.min(axis=1)

@@ -28,9 +28,10 @@ Pair = TypeVar("Pair", "CutGearPair", "DisplacedPair")
 
 @dataclass(frozen=True)
 class FilingWork(Generic[Pair]):
-    """Filed gear pairs, one for each trial."""
+    """Result of filing pairs to fit: filed pairs, and numbers of strokes and of filed teeth."""
 
     pair: Pair
+    """Filed gear pairs of all trials."""
     strokes: Ints
     """Number of strokes of the file in each trial."""
     teeth: Ints
@@ -99,7 +100,12 @@ def tight_place(pair: CutGearPair) -> TightPlace:
 
 
 def _flank_height(wheel: CutWheel, side: int) -> Floats:
-    """Return the height of each flank above its nominal position, along its normal at half the depth, (..., z)."""
+    """Return the distance by which each flank is above the flank of a perfect tooth, shape (..., z).
+
+    The distance is measured along the normal of the flank at half of the tooth depth.
+
+    side   0 for leading flanks, 1 for trailing flanks
+    """
     lean, ahead = (wheel.leading, -wheel.place) if side == 0 else (wheel.trailing, wheel.place)
     half = abs(wheel.radius) * (1 - cos(np.pi / wheel.z)) / 2
     found: Floats = cos(wheel.half_angle) * np.abs(wheel.r) * ahead + np.sin(wheel.half_angle) * wheel.tip + half * lean

@@ -69,7 +69,7 @@ class MeshingVerdicts:
 
     @property
     def stops(self) -> Bools:
-        """Mask of pairs that jam or clash, and cannot turn through their cycle while the driven wheel lags."""
+        """Mask of trials with a jam or a clash. The driver then cannot turn the pair through its meshing cycle."""
         return self.jams | self.clash
 
     @classmethod
@@ -121,9 +121,10 @@ def chunks(pair: CutGearPair, trials: int) -> Iterator[CutGearPair]:
 
 @dataclass(frozen=True, slots=True)
 class BacklashCandidate:
-    """Drive-flank (front) tooth pair and the coast-flank (back) pair n pairs before it, at minimum backlash."""
+    """Position of minimum backlash between a tooth pair on drive flanks (front) and one on coast flanks (back)."""
 
     n: int
+    """Number of tooth pairs from the back pair to the front pair."""
     phases: tuple[str, str]
     """Phases of the front and of the back tooth pair, approach or recess."""
     offset: float
@@ -146,8 +147,8 @@ def minimum_backlash_sum(
 ) -> tuple[Any, Any]:
     """Return the minimum backlash of a front and a back tooth pair, each in one phase, and its driver angle [rad].
 
-    The backlash is the sum of their contact functions; it is inf if the pairs never touch at the same time. `delta` is
-    the angle from the front to the back driving tooth [rad].
+    The backlash is the sum of the angles of both driven teeth; it is inf if the pairs never touch at the same time.
+    `delta` is the angle from the front to the back driving tooth [rad].
     """
     # Newton's method safeguarded by bisection; the last step improves only the value, by parabolic interpolation
     low, high = common(front, back, delta)
@@ -200,7 +201,8 @@ def even_tooth_pair(sizes: TriangularSizes) -> CutToothPairs:
 def backlash_candidates(sizes: TriangularSizes, most: int) -> tuple[BacklashCandidate, ...]:
     """Return the backlash minima of perfect wheels, for coast-flank pairs up to `most` pairs before a drive-flank pair.
 
-    For each distance n, it contains the phases whose minimum is within `SLACK` of the smallest minimum.
+    For each distance n in pairs, the result contains those combinations of phases whose minimum is within 0.05 pitches
+    of the smallest minimum.
     """
     tooth_pair = even_tooth_pair(sizes)
     candidates = []
@@ -220,7 +222,7 @@ def backlash_candidates(sizes: TriangularSizes, most: int) -> tuple[BacklashCand
 
 
 def farthest(pair: CutGearPair) -> int:
-    """Return the maximum number of pitches between two tooth pairs in contact at once; -1 if no pair can touch."""
+    """Return the maximum number of pitches between two tooth pairs in contact at the same time; -1 without contact."""
     if pair.widest <= 0:
         return -1
     return floor((2 * pair.widest + 2 * float(np.abs(pair.first.place).max())) / pair.sizes.p1)
@@ -299,8 +301,8 @@ class MeshingCycle:
     # ------------------------------------------------------------------------------------------------------------ jams
 
     def tightest(self) -> tuple[Floats, Ints, Ints]:
-        """Return the minimum backlash of each trial [rad], the number of its front tooth pair, and the number of tooth
-        pairs from there back to its back tooth pair.
+        """Return three values for each trial: the minimum backlash [rad], the number k of the tooth pair whose drive
+        flanks touch there, and the number n for which the coast flanks of tooth pair k - n touch there.
         """
         # the backlash is estimated for all tooth pairs, and computed exactly for those near the minimum
         rough: dict[int, Any] = {}
@@ -397,7 +399,7 @@ class MeshingCycle:
         return found
 
     def backlash_at_entries(self) -> Floats:
-        """Return the minimum backlash of each trial where coast flanks enter contact [rad], for trials with dwells."""
+        """Return the minimum backlash of each trial over the positions where coast flanks enter contact [rad]."""
         y = np.full((self.trials, self.pair.count), inf)
         for n in range(self._pairs_in_reach() + 2):
             y = np.minimum(y, self._before(n, self.back.reach))
@@ -487,13 +489,16 @@ def backlash_of_pitch_errors(pair: CutGearPair) -> Floats:
 
 
 def by_residue(driver: Any, driven: Any) -> list[Any]:
-    """Return the terms of both wheels grouped by tooth number modulo gcd(z1, z2). Teeth with equal residues meet."""
+    """Return two arrays of values of the teeth, (..., z), grouped by the tooth number modulo gcd(z1, z2).
+
+    Teeth with equal residues meet in the meshing cycle. The last axis of the results is the residue.
+    """
     rests = gcd(driver.shape[-1], driven.shape[-1])
     return [each.reshape(*each.shape[:-1], -1, rests) for each in (driver, driven)]
 
 
 def extreme_sum(driver: Any, driven: Any, extreme: Any) -> Any:
-    """Return the extreme sum of a driver term and a driven term over all teeth that meet in the meshing cycle."""
+    """Return the minimum or maximum (`extreme`) sum of two terms over all teeth that meet in the meshing cycle."""
     one, two = by_residue(driver, driven)
     return extreme.reduce(extreme.reduce(one, axis=-2) + extreme.reduce(two, axis=-2), axis=-1)
 
@@ -515,7 +520,8 @@ def _table(sizes: TriangularSizes, n: int, spread: float) -> Floats:
 
 
 def _read(table: Floats, spread: float, apart: Floats) -> Floats:
-    """Return linearly interpolated values of a `_table` at the deviations `apart`; np.interp would be slower."""
+    """Return linearly interpolated values of a `_table` at the deviations `apart`."""
+    # np.interp would search for the interval of each value
     at = (apart + spread) * ((_NODES - 1) / (2 * spread))
     low = np.clip(at.astype(np.int64), 0, _NODES - 2)
     found: Floats = table[low] + (table[low + 1] - table[low]) * (at - low)
@@ -523,7 +529,7 @@ def _read(table: Floats, spread: float, apart: Floats) -> Floats:
 
 
 class _EntriesAndExits:
-    """Entries and exits of teeth that have only pitch deviations, so that all have the same contact function."""
+    """Entries and exits of teeth that have only pitch deviations, so that all tooth pairs have the same contact."""
 
     def __init__(self, pair: CutGearPair) -> None:
         self.pair, self.sizes = pair, pair.sizes
@@ -538,15 +544,16 @@ class _EntriesAndExits:
         return driver, n * self.sizes.p2 + np.roll(self.driven, -n, -1) - self.driven
 
     def _entering(self, n: int) -> tuple[Any, Any]:
-        """Return two terms, one of each wheel, whose sum is the angle of a driven tooth at its entry [rad].
+        """Return two arrays, (trials, z) for each wheel, whose sum is the angle of a driven tooth [rad].
 
-        The tooth pair n pairs earlier determines the angle, and both terms are indexed by the teeth of that pair.
+        The angle is measured from the line of centres when the driving mate of the tooth is at its entry. The tooth
+        pair n pairs earlier determines the angle, and its teeth index the arrays.
         """
         driver, driven = self._between(n)
         return self._held(self.reach - driver), driven
 
     def _leaving(self, n: int) -> tuple[Any, Any]:
-        """Return two terms, one of each wheel, whose sum is the angle of a driven tooth at its exit [rad].
+        """Return two arrays as `_entering`, for a driven tooth whose driving mate is at its exit.
 
         The tooth pair n pairs later determines the angle.
         """
@@ -566,7 +573,7 @@ class _EntriesAndExits:
 
     @property
     def doubtful(self) -> Bools:
-        """Mask of the trials in which a tooth pair may touch too late, so that all tooth pairs must be compared."""
+        """Mask of the trials in which a clash or a dwell is possible, so that all tooth pairs must be compared."""
         if self.reach < 0:  # the tip circles do not intersect
             return np.zeros(self.pair.trials, bool)
         # far above rounding errors; closer cases are computed pair by pair

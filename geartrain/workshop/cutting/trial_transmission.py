@@ -30,10 +30,11 @@ _TRIAL_BLOCK = 8192  # angles processed at once: their arrays stay in the cache
 class TrialTransmissionFunction(TransmissionFunction):
     """Transmission function of a pair of cut wheels in many trials.
 
-    even     mean transmission error of wheels without errors (rad)
-    rows     number of the trial at each angle, or the number of one trial for all angles
-    count    number of tooth pairs in a full meshing cycle; `pitches` are the angular pitches of both wheels (rad)
-    last     transmission errors from the last evaluation of each trial (rad of the driven wheel)
+    even      mean transmission error of wheels without errors (rad)
+    rows      index of the trial to which each driver angle belongs; a single index if all angles belong to one trial
+    count     number of tooth pairs in a full meshing cycle
+    pitches   angular pitches of both wheels (rad)
+    last      transmission error of each trial when it was last evaluated (rad of the driven wheel)
     """
 
     def __init__(self, teeth: tuple[int, int], even: float, rows: Ints) -> None:
@@ -87,11 +88,11 @@ class TrialTransmissionFunction(TransmissionFunction):
         return self.error_and_speed(S)[1]
 
     def error_moments(self) -> tuple[float, float]:
-        """Return mean and rms deviation of the transmission error of a trial, or for many trials `even` and 0 [rad]."""
+        """Return mean transmission error and its rms deviation [rad]: of one trial, or `even` and 0 for many trials."""
         return (float(self._samples.mean()), float(self._samples.std())) if self.measured else (self.even, 0.0)
 
     def error_range(self) -> tuple[float, float]:
-        """Return the limits of the transmission error of a trial, or infinite limits for many trials [rad]."""
+        """Return the limits of the transmission error of a single trial [rad]; infinite limits for many trials."""
         return (float(self._samples.min()), float(self._samples.max())) if self.measured else (-inf, inf)
 
     @cached_property
@@ -105,10 +106,7 @@ class TrialTransmissionFunction(TransmissionFunction):
 
 
 class CutTrialTransmission(TrialTransmissionFunction):
-    """Transmission function of cut wheels with triangular teeth.
-
-    Arrays of the wheels have shape (trials, z), or (z,) if they are the same in all trials.
-    """
+    """Transmission function of cut triangular wheels, with arrays (trials, z), or (z,) if equal in all trials."""
 
     def __init__(self, pair: CutGearPair, even: float, rows: Ints) -> None:
         super().__init__((pair.sizes.z1, pair.sizes.z2), even, rows)
@@ -133,8 +131,11 @@ class CutTrialTransmission(TrialTransmissionFunction):
         return -lag, self._speed(rows, first, (first - n) * pitch - u)
 
     def _lag(self, rows: Ints, k: Ints, ahead: Floats) -> Floats:
-        """Return the lag of the driven wheel due to tooth pairs k [rad]; inf before contact, constant after it.
+        """Return the lag of the driven wheel due to one tooth pair in each trial [rad].
 
+        It is inf before the teeth touch; after their contact, the driven tooth remains where it was left.
+
+        rows    indices of the trials; `k` are the numbers of the tooth pairs
         ahead   angle from the line of centres to the nominal position of each driving tooth (rad)
         """
         pair, sizes = self.pair, self.pair.sizes
@@ -148,7 +149,7 @@ class CutTrialTransmission(TrialTransmissionFunction):
         return np.where((x <= reach) & (reach > -inf), lag, inf)
 
     def _speed(self, rows: Ints, k: Ints, ahead: Floats) -> Floats:
-        """Return the speed ratio of tooth pairs k; 0 after a pair has left contact. `ahead` is as in `_lag`."""
+        """Return the speed ratio of one tooth pair in each trial, 0 without contact. The arguments are as in `_lag`."""
         i, j = k % self.pair.sizes.z1, k % self.pair.sizes.z2
         x, tooth_pairs = ahead + of_teeth(self.pair.first.place, rows, i), self._tooth_pairs(rows, i, j)
         reach = tooth_pairs.reach
@@ -165,7 +166,7 @@ class CutTrialTransmission(TrialTransmissionFunction):
 
 
 class DisplacedTrialTransmission(TrialTransmissionFunction):
-    """Transmission function of teeth with displaced flanks: the tooth pair with the smallest lag drives."""
+    """Transmission function of teeth with displaced flanks. The tooth pair drives that permits the smallest lag."""
 
     def __init__(self, pair: DisplacedPair, even: float, rows: Ints) -> None:
         super().__init__(pair.teeth, even, rows)

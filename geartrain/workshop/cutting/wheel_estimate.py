@@ -36,10 +36,12 @@ _ROUNDING = 1e-15  # rad: minimum standard deviation, that of the angles of a pe
 
 
 def closed_steps(steps: Any) -> Floats:
-    """Return the deviations, with mean 0, of teeth marked out one after another with the step errors `steps`, (..., z).
+    """Return the deviations of teeth that were marked out one after another with dividers, with mean 0.
 
     The sum of all steps is a full turn, so the mean step error is subtracted (Brownian bridge). The covariance is
     equation (5) of docs/cut-by-hand.md.
+
+    steps   error of each step, shape (..., z), as the result
     """
     walk = np.cumsum(steps - np.mean(steps, axis=-1, keepdims=True), axis=-1)
     closed: Floats = walk - walk.mean(axis=-1, keepdims=True)
@@ -135,7 +137,10 @@ class WheelEstimate(Result):
 
     @property
     def fitted(self) -> tuple[float, float]:
-        """Fitted eccentricity [1], which is biased upwards, and its direction [rad]."""
+        """Fitted eccentricity as a fraction of the radius, and its direction [rad].
+
+        On average, pitch deviations increase the fitted value. The estimate `eccentricity` is corrected for this bias.
+        """
         _, A, B = self.coefficients.tolist()
         return hypot(A, B), atan2(A, -B)
 
@@ -146,7 +151,7 @@ class WheelEstimate(Result):
 
     @property
     def stepped(self) -> bool:
-        """True if q is below its 5 % quantile, so that each tooth was probably marked from the tooth before it."""
+        """True if von Neumann's ratio `q` is below its 5 % quantile: the wheel was probably divided by stepping."""
         return self.q < self.q_limit
 
 
@@ -269,7 +274,7 @@ def _estimate(numbers: Ints, off: Floats, z: int, error: float, law: DeviationLa
 
 
 def _successive_ratio(step: Floats, ratio: float, n: int) -> tuple[float, float]:
-    """Return von Neumann's ratio, scaled to all n - 1 differences, and its 5 % quantile for independent deviations.
+    """Return von Neumann's ratio, as if all n - 1 differences were known, and its 5 % quantile without stepping.
 
     The ratio is nearly normal, with the moments of a quotient of quadratic forms of normal variables.
 

@@ -249,7 +249,7 @@ class _Steps:
         yield AssemblyStep("Before oiling, turn the driving link until the slowest wheel has turned once", ())
 
     def _cross_parts(self) -> Iterator[AssemblyStep]:
-        """Yield the steps that mount arms of pins, cages of carriers, and brackets of arbors across the plates."""
+        """Yield the steps that mount arms with pins, cages of carriers, and brackets of cross arbors."""
         arms = sorted(name for name in self.known if name.endswith(" pin arm"))
         cages = [part.name for cage in self.work.cages for part in cage.parts]
         brackets = [bracket.part.name for bracket in self.work.brackets]
@@ -321,7 +321,7 @@ class _Steps:
                 yield self._step(text, [*each.wheels, *washers])
 
     def _carried(self) -> Iterator[AssemblyStep]:
-        """Yield the steps that mount the studs of carriers with the parts that turn on them."""
+        """Yield the steps that press the studs of planets, with their wheels and pipes, into carriers."""
         for seat in self.plan.choice.seats:
             own = {
                 label: column
@@ -450,11 +450,7 @@ class AssemblyPictures:
         return "\n".join([*lines, "</g></svg>", ""]).encode("utf-8")
 
     def _plan(self, part: SolidPart, corner: Floats, fine: bool) -> Iterator[str]:
-        """Yield SVG paths of the outlines of a part in the top view.
-
-        corner   upper left corner of the view on the page (mm)
-        fine     True to draw the teeth of a wheel, False for a circle
-        """
+        """Yield SVG paths of a part in the top view at `corner`; wheels are circles unless `fine` is True."""
         low, high = self.extent
         # round parts, and wheels of earlier steps, are drawn as circles
         radius = part.turned.diameter / 2 if part.turned is not None else 0.0
@@ -476,10 +472,7 @@ class AssemblyPictures:
             yield _closed(x, corner[1] + high[1] - np.array([y0, y0, y1, y1]))
 
     def _names(self, step: AssemblyStep, labels: LabelBoxes, corner: Floats) -> Iterator[str]:
-        """Yield the SVG labels of the new parts, unless there are more than `_MOST_NAMED`.
-
-        A line connects a distant label to its part. `corner` is the upper left corner of the view on the page [mm].
-        """
+        """Yield the SVG labels of new parts, if these are few. `corner` is the upper left corner of the view [mm]."""
         low, high = self.extent
         for name in step.parts if len(step.parts) <= _MOST_NAMED else ():
             x, y, _ = self.boxes[name].mean(axis=0)

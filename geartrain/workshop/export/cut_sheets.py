@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Sheet:
-    """Drawing of one shape of flat part, or of a sheet of stock that contains several parts."""
+    """Drawing of one or more flat parts of the same shape, or of a sheet of stock that contains several parts."""
 
     file: str
     """Name of the file without suffix, which is also the label of the part on sheets of stock."""
@@ -36,7 +36,10 @@ class Sheet:
 
 
 def cut_sheets(work: SolidModel) -> Iterator[tuple[str, FlatDrawing]]:
-    """Yield path (without suffix) and kerf-compensated drawing of each shape of wheel, plate and sheet of stock."""
+    """Yield path and kerf-compensated drawing of each shape of wheel, of each plate, and of each sheet of stock.
+
+    The paths are relative to the exported folder and have no suffix.
+    """
     kerf, base = work.process.kerf, work.train.declaration.frame
     plates = [] if work.frame is None else [_sheet(plate) for plate in work.frame.plates()]
     plates += [Plate(base, each.name.replace(" ", "-"), each.drawing(), each.high - each.low) for each in work.dials]
@@ -128,7 +131,7 @@ def _drawing(group: list[Blank]) -> FlatDrawing:
 
 
 def _holes(blank: Blank) -> list[tuple[complex, float]]:
-    """Return centres and radii of circles around the holes of a wheel, except bore and windows of spokes [mm]."""
+    """Return centre and radius of a circle around each hole of a wheel [mm], except bore and windows of spokes."""
     own = blank.contours[1:] if blank.kind == "external" else blank.contours[2:]
     found = []
     for hole in own if not blank.arms and blank.kind != "pins" else ():
@@ -143,11 +146,7 @@ def _holes(blank: Blank) -> list[tuple[complex, float]]:
 def _label_off_holes(
     holes: list[tuple[complex, float]], mark: EngravedText, inner: float, outer: float
 ) -> EngravedText:
-    """Return engraved text moved off the holes of a wheel, in the largest size that fits, or else unchanged.
-
-    holes          centre and radius of each hole (mm)
-    inner, outer   radii between which the text must be (mm)
-    """
+    """Return engraved text moved off the holes, between two radii, in the largest size that fits, or unchanged."""
 
     def free(at: complex, along: complex, height: float) -> bool:
         half, tall = _LETTER_WIDTH * height * len(mark.text) / 2, height / 2
@@ -240,12 +239,13 @@ _CHORD = 0.005  # mm: maximum deviation of chords from a curve
 
 
 def stock_sheets(parts: Iterable[Sheet], size: tuple[float, float], gap: float) -> tuple[Sheet, ...]:
-    """Return all parts laid out on sheets of one size [mm], each with parts of one thickness.
+    """Return sheets of stock on which all parts are laid out; the parts of a sheet have the same thickness.
 
     The algorithm is next-fit decreasing height (Coffman et al. 1980, SIAM J. Comput. 9, 808). Raises `QuestionError` if
     a part is larger than the sheet.
 
-    gap   minimum distance between parts, and between a part and the edge of the sheet [mm]
+    size   width and height of a sheet [mm]
+    gap    minimum distance between parts, and between a part and the edge of the sheet [mm]
     """
     alike: dict[float, list[Sheet]] = {}
     for part in parts:
@@ -275,7 +275,7 @@ def _fitted_to_sheet(part: Sheet, size: tuple[float, float], gap: float) -> Shee
 
 
 def _rows(pieces: list[Sheet], size: tuple[float, float], gap: float) -> Iterator[list[Sheet]]:
-    """Yield a list of pieces for each sheet, with the pieces shifted to their positions."""
+    """Yield the pieces of each sheet, shifted to their positions in rows; `size` and `gap` of the sheets are in mm."""
     boxes = [_box(piece.drawing) for piece in pieces]
     order = sorted(range(len(pieces)), key=lambda at: -float(np.ptp(boxes[at], axis=0)[1]))
     sheet: list[Sheet] = []

@@ -319,7 +319,7 @@ def notices(work: SolidModel, kinds: Sequence[str]) -> list[Problem]:
 
 
 def simplifications(work: SolidModel, kind: str) -> list[Problem]:
-    """Return a problem for each part that the given format omits or simplifies."""
+    """Return a message on each part of the train that a file of the given format omits or simplifies."""
     if kind in ("rexs", "rexs-xml"):
         return [*omitted_parts(work)]
     if kind in ("urdf", "mjcf"):
@@ -343,7 +343,7 @@ def kind_of(name: str) -> str:
 
 
 def _both(value: Fraction | None) -> tuple[str, str]:
-    """Return a number as two strings, exact and decimal, which are empty for None."""
+    """Return a number as two texts, a fraction and a decimal number, which are empty for None."""
     return ("", "") if value is None else (fraction_text(value), decimal(value, _DIGITS))
 
 

@@ -106,7 +106,7 @@ def _bodies(work: SolidModel) -> Sequence[SceneBody]:
 
 
 def _rates(work: SolidModel) -> dict[str, Fraction]:
-    """Return the speed of each link relative to its parent, empty if the speeds are not determined."""
+    """Return the speed of each link relative to the link that carries it, keyed by link; empty if undetermined."""
     answer, bodies = work.train.solve(work.scene.state, method="exact"), work.scene.bodies
     if not answer.verdict:
         return {}
@@ -116,7 +116,10 @@ def _rates(work: SolidModel) -> dict[str, Fraction]:
 
 
 def _constraints(work: SolidModel) -> Iterator[tuple[str, Mapping[str, Fraction]]]:
-    """Yield name and joint-rate coefficients of each row of the Willis system, except the rows of frame and inputs."""
+    """Yield name and coefficients of each equation between the speeds of joints that follows from the Willis system.
+
+    The coefficients are keyed by the link that turns in the joint. Equations of the frame and of inputs are omitted.
+    """
     bodies = {body.id: body for body in work.scene.bodies}
     for equation in work.train.equations(work.scene.state).equations:
         if equation.kind in ("frame", "input"):

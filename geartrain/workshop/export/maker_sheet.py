@@ -38,7 +38,7 @@ _WHEELS = (
 
 
 def maker_sheets(work: SolidModel) -> Iterator[tuple[str, str, Callable[[], bytes]]]:
-    """Yield path, title and content function for each sheet, and for each of its tables as CSV."""
+    """Yield path, title and a function that returns the content, for each drawing and table of plates and wheels."""
     plates = [] if work.frame is None else [plate for plate in work.frame.plates() if plate.holes]
     for name, plate in zip(file_names(plate.name for plate in plates), plates, strict=True):
         title = f"{plate.name}: holes from a datum, to read"
@@ -71,10 +71,7 @@ def _ordered(plate: FlatPlate) -> list[Hole]:
 
 
 def wheel_rows(work: SolidModel) -> list[tuple[str, ...]]:
-    """Return one row of cells of the table of wheels for each shape of wheel; the columns are named in `_WHEELS`.
-
-    The inside diameter of an internal wheel is its tip diameter; that of other wheels is omitted.
-    """
+    """Return the table of wheels with a row for each shape; only internal wheels have an inside (tip) diameter."""
     rows = []
     for sheet in wheel_sheets(work.blanks.wheels):
         blank = work.blanks.wheels[sheet.parts[0]]
@@ -132,11 +129,7 @@ def wheel_sheet(work: SolidModel) -> str:
 
 
 def _marks(plate: FlatPlate, origin: tuple[float, float], page: tuple[float, float, float, float]) -> Iterator[str]:
-    """Yield the SVG elements of a cross and a number for each hole, and of the coordinate axes at the first hole.
-
-    origin   position of the origin of the plate's coordinates on the page (mm)
-    page     limits of the page (mm)
-    """
+    """Yield SVG of a numbered cross at each hole and of axes at the first, for a plate at `origin` on the page [mm]."""
     labels, spots = LabelBoxes(page, _SIZE), []
     for hole in _ordered(plate):
         x, y, reach = origin[0] + hole.at[0], origin[1] - hole.at[1], hole.diameter / 2 + 0.5
@@ -183,11 +176,7 @@ def _text(text: str, x: float, y: float, style: str = "") -> str:
 
 
 def _page(work: SolidModel, part: str, what: str, remark: str, size: tuple[float, float], lines: Sequence[str]) -> str:
-    """Return a page as SVG with a title block below its contents. The page is at least as wide as the title block.
-
-    part, what, remark   texts of the title block
-    size                 width and height of the contents (mm); `lines` are their SVG elements
-    """
+    """Return an SVG page: contents `lines` of the size `size` [mm], above a title block with the other texts."""
     declared = work.train.declaration
     title = f"{declared.name}: {declared.title}" if declared.title else declared.name
     block = [title, f"{part}; {what}", f"lengths in mm; process: {work.process.name}", remark]

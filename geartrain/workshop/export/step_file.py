@@ -31,7 +31,7 @@ _DATE = re.compile(rb"'\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d'")  # replaced, so that th
 
 
 def to_step(work: SolidModel) -> bytes:
-    """Return the assembly in the zero pose as a STEP file in mm, without the parts listed by `omitted`.
+    """Return the assembly at the start of its motion as a STEP file in mm, without the parts listed by `omitted`.
 
     Raises `MissingExtraError` if the library that writes STEP is not installed.
     """
@@ -157,7 +157,7 @@ def _revolved(part: TurnedPart) -> Any:
 
 
 def _wire(contour: Contour, height: float) -> Any:
-    """Return a contour as a counter-clockwise wire whose edges share their vertices."""
+    """Return a contour at the height z = `height` as a counter-clockwise wire whose edges share their vertices."""
     from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge, BRepBuilderAPI_MakeVertex, BRepBuilderAPI_MakeWire
     from OCP.GC import GC_MakeArcOfCircle
     from OCP.gp import gp_Pnt
@@ -180,7 +180,7 @@ def _wire(contour: Contour, height: float) -> Any:
 
 
 def _curve(line: Floats, height: float) -> Any:
-    """Return a B-spline curve with few poles that passes through the points of a flank."""
+    """Return a B-spline curve with few poles that passes through the points of a flank at the height z = `height`."""
     from OCP.GeomAbs import GeomAbs_C1
     from OCP.GeomAPI import GeomAPI_PointsToBSpline
     from OCP.gp import gp_Pnt

@@ -91,10 +91,7 @@ class _GlbFile:
         return start
 
     def accessor(self, view: int, start: int, count: int, kind: str, component: int, **more: Any) -> int:
-        """Add an accessor for `count` elements of a buffer view from the offset `start`, and return its index.
-
-        kind, component   glTF type ("VEC3", ...) and component type of the elements; `more` are further properties
-        """
+        """Add an accessor for `count` elements of a view from a byte offset, with glTF types, and return its index."""
         own = {"bufferView": view, "byteOffset": start, "componentType": component, "count": count, "type": kind}
         self.accessors.append(own | more)
         return len(self.accessors) - 1
@@ -171,10 +168,7 @@ def _part(file: _GlbFile, part: SolidPart, origin: Floats) -> int:
 
 
 def _vertices(solid: Solid, steps: np.ndarray[Any, Any]) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
-    """Return the distinct vertices of a solid (position and normal), and the vertex indices of its triangles.
-
-    steps   positions of the vertices of the solid, quantised to integers
-    """
+    """Return the distinct vertices (integer position `steps`, normal) of a solid, and the indices of its triangles."""
     corners, at = solid.vertices[solid.faces], solid.faces.reshape(-1).astype(np.int64)
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     length = np.linalg.norm(normals, axis=1, keepdims=True)
@@ -303,7 +297,7 @@ class Keyframes:
         return cls(work, turns, seconds, speeds, ripples)
 
     def keys(self, body: int) -> int:
-        """Return the number of intervals between key frames of a body; 0 if it is fixed relative to its parent."""
+        """Return the number of key frames of a body minus 1; 0 if the body is fixed relative to its parent."""
         speed = self.speeds[body]
         if self.work.scene.bodies[body].travels and not self.ripples:
             return 1 if speed else 0
@@ -327,7 +321,7 @@ class Keyframes:
         return found
 
     def _errors(self, count: int) -> Floats:
-        """Return the transmission errors of the bodies due to teeth and pins [rad], shape (bodies, count + 1)."""
+        """Return the deviations of all bodies from mean motion [rad] at `count` + 1 times, (bodies, count + 1)."""
         bodies = self.work.scene.bodies
         if not self.ripples:
             return np.zeros((len(bodies), count + 1))

@@ -54,19 +54,18 @@ class PairLoads(NamedTuple):
 
 @dataclass(frozen=True)
 class LoadedPart:
-    """Tooth of a wheel, or arbor with its pivots, which may break under load.
-
-    strength   median of the strength [MPa]; `spread` is the standard deviation of its logarithm
-    stress     stress under the declared loads [MPa]; `loads` are the torques on the driven wheels of the pairs under
-               these loads [N m]
-    """
+    """Tooth of a wheel, or arbor with its pivots, which may break under load."""
 
     name: str
     material: str
     strength: float
+    """Median of the strength [MPa]."""
     spread: float
+    """Standard deviation of the natural logarithm of the strength [1]."""
     stress: float
+    """Stress under the declared loads [MPa]."""
     loads: Mapping[str, float]
+    """Torque on the driven wheel of each pair that loads the part, under the declared loads [N m], keyed by pair."""
 
     def stresses(self, torques: Mapping[str, Floats | float]) -> Floats:
         """Return the stress of the part under given torques of the pairs, keyed by pair [MPa].
@@ -171,7 +170,7 @@ class FeasibilityPlan:
         return found
 
     def hands(self, seed: int, trials: int) -> Floats | None:
-        """Return the torque limit at the crank in each trial [N m], shape (trials,); None if no limit is declared."""
+        """Return the maximum torque of the hand or drive at the crank in each trial [N m], or None if undeclared."""
         drive = self.declared.case(self.state).drive
         if drive is None or drive.steady_torque is None:
             return None
@@ -181,10 +180,10 @@ class FeasibilityPlan:
         return low + (high - low) * _drawn("random", seed, trials, 0, HAND)
 
     def held(self, pair: str) -> Mapping[str, float]:
-        """Return the torque on the driven wheel of each pair for a unit torque at the crank [1], without losses.
+        """Return the torques in a train that is jammed in one pair, whose driven link does not move.
 
-        The driven link of the given pair is held fixed. The mapping, keyed by pair, is empty if the torques are not
-        determined.
+        The mapping contains the torque on the driven wheel of each pair divided by the torque at the crank [1], without
+        losses, keyed by pair. It is empty if the torques are not determined.
         """
         gear = self.torques.pairs.get(pair)
         if gear is None or gear.driver not in self.declared.wheels:
@@ -202,10 +201,10 @@ class FeasibilityPlan:
 
 
 def _drawn(law: str, seed: int, trials: int, item: int, kind: int) -> Floats:
-    """Return the random numbers of one stream for all trials, shape (trials,).
+    """Return one random number for each trial, shape (trials,).
 
-    law          name of the generator method that draws them, such as "random"
-    item, kind   numbers of the stream, as in `RandomStreams.rng`
+    law          name of the method of `numpy.random.Generator` that draws the numbers, such as "random"
+    item, kind   number of the part and of the random quantity, which select an independent generator
     """
     # whole blocks, so that the numbers do not depend on the number of trials
     blocks = (RandomStreams(seed, block).rng(item, kind) for block in range(-(-trials // BLOCK)))

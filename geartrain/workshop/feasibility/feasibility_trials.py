@@ -94,8 +94,8 @@ class FeasibilityResult(Pictured, Result):
 
     @cached_property
     def stiff(self) -> Bools:
-        """Mask of the trials in which friction locks the train or the crank torque exceeds its maximum, shape
-        (trials,).
+        """Mask, (trials,), of the trials in which friction locks the train, or in which the torque required at the
+        crank exceeds the maximum torque of the hand or drive.
         """
         if self.torque is None:
             return np.zeros(self.trials.done, dtype=bool)
@@ -128,12 +128,12 @@ class FeasibilityResult(Pictured, Result):
 
     @property
     def rough(self) -> ProbabilityEstimate:
-        """Probability that tips of teeth clash (rough running), among the trials in which the train turns."""
+        """Probability of rough running, in which a tip strikes the tip of its mate, if the train turns."""
         return self._of_turning(CLASH)
 
     @property
     def loose(self) -> ProbabilityEstimate:
-        """Probability that a pair loses contact, among the trials in which the train turns."""
+        """Probability that a pair loses contact if the train turns."""
         return self._of_turning(DISENGAGED)
 
     def _of_turning(self, mark: int) -> ProbabilityEstimate:
@@ -142,11 +142,12 @@ class FeasibilityResult(Pictured, Result):
 
     @cached_property
     def forced(self) -> Mapping[str, ProbabilityEstimate] | None:
-        """Probability that the maximum torque at the crank breaks a tooth, among the trials in which the train jams;
-        None if no strengths or no maximum torque is declared. The value `torque` is a lower bound that includes only
-        this torque; `wedge` also includes the forces between the jammed flanks.
+        """Probability that the maximum torque at the crank breaks a part if the train jams; None if no strengths or no
+        maximum torque is declared.
 
-        Jams of pairs that the crank does not load, or whose driven wheel is fixed, are not counted.
+        The value with the key "torque" is a lower bound, because only this torque is considered. The value with the key
+        "wedge" also considers the forces between the jammed flanks. Jams of pairs that the crank does not load, or
+        whose driven wheel is fixed, are not counted.
         """
         if self.hand is None or not self.plan.parts:
             return None
@@ -168,9 +169,10 @@ class FeasibilityResult(Pictured, Result):
 
     @cached_property
     def causes(self) -> Mapping[str, Mapping[str, ProbabilityEstimate]]:
-        """Probability of each cause of each outcome, the most frequent cause first. The causes are the pairs that
-        cannot be cut, the pairs that jam (several may jam in one trial), and the part with the highest ratio of stress
-        to strength.
+        """Probability of each cause, keyed by outcome and then by cause, with the most frequent cause first.
+
+        The causes are the pairs that cannot be cut, the pairs that jam (several may jam in one trial), and the part
+        with the highest ratio of stress to strength.
         """
         names = [pair.name for pair in self.plan.cutting.pairs]
         masks = dict(zip(OUTCOMES, (self._marked(UNCUT), self._marked(JAM)), strict=False))
@@ -262,7 +264,7 @@ class FeasibilityResult(Pictured, Result):
 
 
 def _estimate(event: Bools, of: Bools) -> ProbabilityEstimate:
-    """Return the probability of an event among the trials selected by the mask `of`."""
+    """Return the estimated probability of an event (mask of trials) among the trials selected by the mask `of`."""
     return ProbabilityEstimate(int(np.count_nonzero(event & of)), int(np.count_nonzero(of)))
 
 
@@ -343,10 +345,7 @@ def run_feasibility(
 
 
 def _columns(plan: FeasibilityPlan, loads: Sequence[Any]) -> tuple[Floats | None, dict[str, Floats], dict[str, Floats]]:
-    """Return the crank torque, and by pair the torque and the efficiency, in arrays with one value for each trial.
-
-    loads   `PairLoads` of each trial, or None if it has no loads
-    """
+    """Return arrays of the `loads` of all trials: crank torque, and torque and efficiency keyed by pair."""
     if plan.nominal is None:
         return None, {}, {}
     crank = np.array([inf if row is None or row[0] is None else row[0] for row in loads])
@@ -361,9 +360,12 @@ def _columns(plan: FeasibilityPlan, loads: Sequence[Any]) -> tuple[Floats | None
 
 
 def work_feasibility(plan: FeasibilityPlan, seed: int, accuracies: tuple[float, ...], task: Sequence[int]) -> Any:
-    """Return the results of one task as plain data: records and loads of its trials, or flags of stopped trials.
+    """Return the results of one task as plain data.
 
-    task   index of an accuracy (or -1), number of the first trial, number of trials
+    They are the records and the loads of its trials or, for one of the `accuracies`, a flag for each trial that is True
+    if a pair jams or cannot be cut.
+
+    task   index of an accuracy (-1: none), number of the first trial, number of trials
     """
     at, first, trials = task
     if at < 0:

@@ -44,7 +44,7 @@ class ClearanceCase(Result):
 
     @property
     def rates(self) -> EventRates:
-        """Probability that an event occurs in at least one pair, keyed by the name of the event."""
+        """Probabilities that each event occurs in at least one pair, keyed by the name of the event."""
         return cast("EventRates", self.events)
 
 
@@ -140,7 +140,9 @@ def jamming_map(
 
 
 def work_case(plan: TrialPlan, seed: int, task: Sequence[Any]) -> list[Any]:
-    """Return [occurrences, trials] of each event, in one list for each pair and a last list for the train.
+    """Return, for each pair and last for the whole train, a list with two numbers for each event.
+
+    They are the number of trials in which the event occurs, and the number of trials in which all wheels can be cut.
 
     task   clearance factor, scale factor of the errors, number of the first trial, number of trials
     """

@@ -141,7 +141,7 @@ def friction_spreads(declared: Train) -> dict[str, FrictionSpread]:
 
 
 def draw_friction(declared: Train, seed: int, trial: int, per_part: bool = False) -> Train:
-    """Return the train with the random friction coefficients of one trial.
+    """Return the train with the random friction coefficients of the trial with the index `trial` in a run with `seed`.
 
     per_part   True if the coefficient that the train declares is drawn separately for each pair
     """
@@ -164,8 +164,9 @@ def draw_friction(declared: Train, seed: int, trial: int, per_part: bool = False
 def _drawn_bearing(
     bearing: BearingFriction, streams: RandomStreams, item: int, row: int, per_part: bool
 ) -> BearingFriction:
-    """Return a bearing with the random friction coefficient and radius of the trial with index `row` in its block.
+    """Return a bearing with the random friction coefficient and the random radius of one trial.
 
+    row        index of the trial among the 256 trials of its block
     item       number of the random stream of the bearing
     per_part   True if a value that several bearings share is random for each bearing
     """
@@ -189,7 +190,9 @@ def _friction_update(name: str, drawn: Mapping[str, CoulombFriction]) -> dict[st
 
 
 def _random_frictions(declared: Train, per_part: bool = False) -> Iterator[tuple[str, int, CoulombFriction]]:
-    """Yield name, index and friction of the train and of each pair and coupling that declares random friction.
+    """Yield name, number of the random stream, and friction of each part that declares random friction.
+
+    The parts are the train (number 0), its pairs and its couplings, which are numbered in the order of the declaration.
 
     per_part   True if a pair without declared friction is also listed, with the friction of the train
     """
@@ -213,7 +216,7 @@ def _spread(friction: CoulombFriction) -> FrictionSpread:
 
 
 def _with_coefficient(friction: CoulombFriction, rng: np.random.Generator, row: int) -> CoulombFriction:
-    """Return the friction with the random coefficient of the trial with index `row` in its block, at least 0."""
+    """Return the friction with a random coefficient, at least 0; `row` is the index of the trial in its block."""
     spread = _spread(friction)
     # a whole block is drawn, so that a trial does not depend on the trials computed with it
     if spread.range is not None:
@@ -366,7 +369,7 @@ def try_frictions(plan: FrictionPlan, trials: int, seed: int = 1, means: Executi
 
 
 def work_frictions(plan: FrictionPlan, seed: int, task: Sequence[int]) -> list[list[float | None]]:
-    """Return mean, maximum and starting torque and efficiency of each trial in the range `task`; None if undefined."""
+    """Return mean, maximum and starting torque, and efficiency, of trials in range(*task); None if undefined."""
     rows = []
     for trial in range(*task):
         drawn = GearTrain(draw_friction(plan.declared, seed, trial))

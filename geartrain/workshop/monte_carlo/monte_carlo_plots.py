@@ -97,7 +97,11 @@ def _require(drawn: Sized, why: str, fix: str) -> None:
 
 
 def _jam_map(cleared: Sequence[ClearanceCase]) -> Figure:
-    """Draw a map of the jam probability as a function of the clearance factor and the scale factor of the errors."""
+    """Draw a map of the jam probability as a function of clearance factor and scale factor, from the given cases.
+
+    The clearance factor is the centre distance divided by its minimum, at which tips touch roots. The scale factor
+    multiplies all manufacturing errors.
+    """
     clearances = sorted({each.clearance for each in cleared if each.clearance is not None})
     scales = sorted({each.scale for each in cleared})
     several = cleared if len(clearances) > 1 < len(scales) else ()
@@ -151,7 +155,7 @@ def course_figure(courses: Sequence[PointerErrorCourse], driving_link: str = "th
 
 
 def _bands(name: str, errors: Floats) -> Floats:
-    """Return minimum, `PERCENTS` percentiles and maximum of a pointer's errors over the trials, (7, positions)."""
+    """Return minimum, five percentiles and maximum of a pointer's errors over the trials, shape (7, positions)."""
     _require(errors, f"'{name}' cannot turn in any trial", _TURNING)
     found: Floats = np.percentile(errors, (0, *PERCENTS, 100), axis=0)
     return found
@@ -217,11 +221,11 @@ def jam_map_figure(clearances: ArrayLike, scales: ArrayLike, probabilities: Arra
 
 
 def share_figure(shares: Mapping[str, Sequence[IntervalEstimate]], title: str = "") -> Figure:
-    """Draw the variance shares of the `MOST_ROWS` largest causes, with confidence intervals as lines.
+    """Draw the shares of causes in the variance of an output's error, with confidence intervals as lines.
 
-    Raises `QuestionError` if there is no cause.
+    Only the largest shares are drawn. Raises `QuestionError` if there is no cause.
 
-    shares   first-order share of the variance of each cause and, if known, its total share with all interactions
+    shares   for each cause, the share of its own effect and, if known, its share including all interactions
     """
     _require(shares, "a chart of shares needs at least one cause", "give the share of a wheel, pair or kind of error")
     ranked = sorted(shares.items(), key=lambda each: -each[1][-1].value)

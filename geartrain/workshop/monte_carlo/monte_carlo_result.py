@@ -173,7 +173,12 @@ _SCALES = (0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0)  # factors of the declare
 def study_trials(
     trials: TrialResults, means: Execution, clearances: Sequence[float], courses: bool, sobol: bool
 ) -> MonteCarloResult:
-    """Return the trials together with the requested studies of outputs and of other clearance factors."""
+    """Return the trials together with further studies of the same plan.
+
+    clearances   clearance factors at which the trials are repeated; empty for none
+    courses      True to compute the errors of the first outputs along a turn
+    sobol        True to compute the Sobol indices of the first outputs
+    """
     plan, seed, count = trials.plan, trials.seed, trials.wanted
     few = range(min(_FEW, len(plan.outputs)))
     by: tuple[Literal["wheel", "kind"], ...] = ("wheel", "kind")

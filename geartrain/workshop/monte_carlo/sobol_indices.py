@@ -170,10 +170,7 @@ def saltelli_indices(values: Floats, seed: int) -> list[tuple[IntervalEstimate, 
 
 
 def _saltelli(values: Floats) -> Floats:
-    """Return first-order and total Sobol indices of d input variables, shape (2, d); 0 if the values do not vary.
-
-    The values are described in `saltelli_indices`.
-    """
+    """Return first-order and total indices, (2, d), from values as in `saltelli_indices`; 0 for constant values."""
     a, b, mixed = values[:, :1], values[:, -1:], values[:, 1:-1]
     # A and B have the same distribution, so their pooled variance is the better estimate
     variance = np.var(values[:, [0, -1]])
@@ -184,7 +181,10 @@ def _saltelli(values: Floats) -> Floats:
 
 
 def error_groups(plan: TrialPlan, output: int, by: By) -> list[tuple[str, Streams]]:
-    """Return name and random streams of each input variable that can affect the output with the index `output`."""
+    """Return the input variables that can affect the output with the index `output`.
+
+    Each has a name, and the numbers of the items and kinds of error whose random streams belong to it.
+    """
     pairs = plan.reach[output]
     wheels = sorted({wheel for at in pairs for wheel in (plan.pairs[at].first, plan.pairs[at].second)})
     off = [at for at in wheels if not plan.wheels[at].true]
@@ -203,10 +203,7 @@ def error_groups(plan: TrialPlan, output: int, by: By) -> list[tuple[str, Stream
 
 
 def work_samples(plan: TrialPlan, seed: int, output: int, by: By, task: Sequence[int]) -> list[list[float]]:
-    """Return the errors of an output [rad] in the base samples of one task; each row is as in `saltelli_indices`.
-
-    task   number of the first sample, and number of samples
-    """
+    """Return rows of the array of `saltelli_indices` for an output's error [rad]; `task`: first row, number of rows."""
     first, trials = task
     samples: list[Streams] = [((), ()), *(streams for _, streams in error_groups(plan, output, by)), (EVERY, EVERY)]
     columns = []

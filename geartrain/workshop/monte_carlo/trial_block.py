@@ -59,10 +59,11 @@ EVERY = range(1 << 31)
 
 @dataclass(frozen=True, slots=True)
 class RandomStreams:
-    """Generators of random numbers for one block of trials."""
+    """Generators of random numbers for one block, which consists of 256 consecutive trials."""
 
     seed: int
     block: int
+    """Number of the block, from 0."""
     other: Streams = ((), ())
     """Items (wheels or pairs) and kinds of error that are drawn from the second sample for Sobol indices."""
 
@@ -73,10 +74,11 @@ class RandomStreams:
         return np.random.Generator(np.random.PCG64(np.random.SeedSequence(self.seed, spawn_key=key)))
 
     def errors(self, item: int, kind: str, off: ErrorSpecification, shape: tuple[int, ...]) -> Floats:
-        """Return errors drawn from the distribution `off`, as fractions of pitch, half angle or depth.
+        """Return random errors of the kind `kind`, as fractions of pitch, half angle or depth.
 
         item    number of the wheel or pair
-        shape   shape of the result: (trials,), or (trials, teeth)
+        off     distribution of the errors
+        shape   shape of the result: (trials, teeth), or (trials,) for a kind that has one value for each wheel or pair
         """
         if off.way == "value":
             return np.full(shape, off.size)
@@ -182,7 +184,7 @@ class TrialWheels:
         return {at: pair.filed(pair.cut(self.wheels, self._shift(pair, at, -1))) for at, pair in pairs if pair.stroke}
 
     def strokes(self) -> Floats:
-        """Return numbers of file strokes and of filed teeth of each pair, alternating, shape (trials, 2 * pairs)."""
+        """Return numbers of file strokes (even columns) and of filed teeth (odd columns), (trials, 2 * pairs)."""
         found = np.zeros((self.trials, 2 * len(self.plan.pairs)))
         for at, work in self.filing.items():
             found[:, 2 * at], found[:, 2 * at + 1] = work.strokes, work.teeth
@@ -211,7 +213,10 @@ def draw_trial_wheels(plan: TrialPlan, streams: RandomStreams, trials: int = BLO
 
 
 def judge_trial_pairs(drawn: TrialWheels) -> tuple[Marks, Floats]:
-    """Return event flags and minimum backlash [pitch of the driven wheel] of each pair, both (trials, pairs)."""
+    """Return event flags and minimum backlash [pitch of the driven wheel] of each pair, both (trials, pairs).
+
+    The flags are a bit mask: 1 jam, 2 clash, 4 dwell, 8 disengaged, 16 not cuttable.
+    """
     columns, backlashes = [], []
     for at, pair in enumerate(drawn.plan.pairs):
         # jams are found at the smallest distance of the bearings, other events at both limits
@@ -240,18 +245,21 @@ def input_positions(drawn: TrialWheels) -> Floats:
 
 @dataclass(frozen=True)
 class TrialPointers:
-    """Motion of the outputs with the random errors of the wheels (`cut`) and with perfect wheels (`even`)."""
+    """Motion of the outputs of a train in trials with random errors of the wheels."""
 
     cut: ErrorComposition
+    """Motion with the random errors."""
     even: ErrorComposition
+    """Motion with perfect wheels."""
     transmissions: dict[str, TrialTransmissionFunction]
+    """Transmission functions of the pairs with random errors, keyed by pair."""
 
     def errors(self, turns: Floats) -> Floats:
         """Return each output's position minus its mean position with perfect teeth [rad], shape (outputs, n)."""
         return self.cut.at(turns).error - self.even.at(turns).error
 
     def superposed(self, turns: Floats) -> Floats:
-        """Return the first-order superposition of the transmission errors of all pairs at each output [rad]."""
+        """Return `errors` to first order [rad]: the sum of the transmission errors of all pairs times constants."""
         # the anomaly of the pins cancels in the difference
         return Superposition(self.cut).at(turns) - Superposition(self.even).at(turns)
 

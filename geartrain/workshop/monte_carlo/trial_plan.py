@@ -59,7 +59,7 @@ class TrialPair(ABC):
     second: int
     """Index of the driven wheel."""
     mirrored: tuple[bool, bool]
-    """Flags of driver and driven wheel, True for a wheel that turns against the numbering of its teeth."""
+    """Flags of driver and driven wheel, True if the teeth pass the mesh in descending order of their numbers."""
     teeth: tuple[int, int]
     """Numbers of teeth of the driver and of the driven wheel."""
     depth: float
@@ -80,7 +80,7 @@ class TrialPair(ABC):
     @property
     @abstractmethod
     def question(self) -> tuple[float, ...]:
-        """Numbers on which the results of the pair depend, as part of the key of a journal."""
+        """Numbers on which the results of the pair depend. With other data, they identify the run in a journal."""
 
     @abstractmethod
     def cut(self, wheels: Sequence[Any], shift: Any) -> Any:
@@ -88,7 +88,7 @@ class TrialPair(ABC):
 
     @abstractmethod
     def verdicts(self, pair: Any) -> MeshingVerdicts:
-        """Return the events of a cut pair in each trial: jam, clash, dwell, loss of contact, minimum backlash."""
+        """Return the events (jam, clash, dwell, loss of contact) and minimum backlash of a cut pair in each trial."""
 
     @abstractmethod
     def transmission(self, pair: Any, rows: Ints) -> TrialTransmissionFunction:
@@ -96,11 +96,18 @@ class TrialPair(ABC):
 
     @abstractmethod
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """Return a cut pair filed until it turns without a jam, or a flank has lost an eighth of a pitch."""
+        """Return the result of filing a cut pair until it turns without a jam.
+
+        A pair remains jammed if more than an eighth of a pitch would have to be removed from a flank.
+        """
 
     @abstractmethod
     def cleared(self, clearance: float) -> TrialPair:
-        """Return the pair at a clearance factor (1 or more), or at a position between its limits (below 1)."""
+        """Return the pair at another centre distance.
+
+        clearance   clearance factor if it is 1 or more, otherwise the position between the minimum (0) and the maximum
+                    (1) of the clearance factor at which the pair turns
+        """
 
     def jamming_bound(self, sigma: float) -> float:
         """Return an upper bound of the jam probability for normal pitch deviations `sigma` [pitch]; NaN if unknown."""
@@ -130,12 +137,12 @@ class TriangularTrialPair(TrialPair):
 
     @property
     def question(self) -> tuple[float, ...]:
-        """Signed radii, half angles and excess of the centre distance, as part of the key of a journal."""
+        """Signed radii, half angles and excess of the centre distance, on which the results of the pair depend."""
         sizes = self.sizes
         return *sizes.signed_radii, sizes.beta1, sizes.beta2, sizes.excess
 
     def cut(self, wheels: Sequence[Any], shift: Any) -> CutGearPair:
-        """Return the pair with the given wheels of tip radius 1 (-1 if internal), scaled to the sizes of this pair."""
+        """Return the pair with the given wheels, whose tip radius is 1 (-1 if internal), scaled to its own radii."""
         cut = []
         for at, R, beta, mirrored in zip(
             (self.first, self.second), self.sizes.signed_radii, self.sizes.half_angles, self.mirrored, strict=True
@@ -154,7 +161,7 @@ class TriangularTrialPair(TrialPair):
         return CutTrialTransmission(pair, self.even, rows)
 
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """Return a cut pair filed until it turns without a jam, or a flank has lost an eighth of a pitch."""
+        """Return the result of filing a cut pair until it turns without a jam."""
         limit = _MAXIMUM_FILING * self.sizes.R2 * self.pitches[1]
         return file_to_fit(pair, tight_place, self.stroke * self.depth, limit)
 
@@ -163,7 +170,7 @@ class TriangularTrialPair(TrialPair):
         return jamming_bound(self.sizes, sigma)
 
     def cleared(self, clearance: float) -> TriangularTrialPair:
-        """Return the pair at a clearance factor (1 or more), or at a position between its limits (below 1)."""
+        """Return the pair at a clearance factor of 1 or more, or at a position from 0 to 1 between its limits."""
         if clearance >= 1:  # a clearance factor; smaller numbers are fractions of the window
             return replace(self, sizes=self.sizes.at(clearance - 1))
         from geartrain.teeth.triangular.clearance_window import find_window
@@ -189,12 +196,12 @@ class DisplacedTrialPair(TrialPair):
 
     @property
     def question(self) -> tuple[float, ...]:
-        """Limits of contact, flank factors, backlash and lag of the pair, as part of the key of a journal."""
+        """Numbers of the contact, such as its ends and its backlash, on which the results of the pair depend."""
         at = self.contact
         return at.start, at.end, float(at.normal[0]), float(at.normal[-1]), at.backlash, float(at.even[0])
 
     def cut(self, wheels: Sequence[Any], shift: Any) -> DisplacedPair:
-        """Return the pair with the given wheels. Wheels that turn against the numbers of their teeth are mirrored."""
+        """Return the pair with the given wheels, which are mirrored if `mirrored` is True."""
         pair = zip((self.first, self.second), self.mirrored, strict=True)
         first, second = (wheels[at].mirrored() if turned else wheels[at] for at, turned in pair)
         return DisplacedPair(self.contact, first, second, shift)
@@ -205,11 +212,11 @@ class DisplacedTrialPair(TrialPair):
         return found
 
     def transmission(self, pair: Any, rows: Ints) -> TrialTransmissionFunction:
-        """Return the transmission functions of a cut pair, which follow from the foremost tooth pair at each angle."""
+        """Return the transmission functions of a cut pair, in which the tooth pair with the smallest lag drives."""
         return DisplacedTrialTransmission(pair, self.even, rows)
 
     def filed(self, pair: Any) -> FilingWork[Any]:
-        """Return a cut pair filed until it turns without a jam, or a flank has lost an eighth of a pitch."""
+        """Return the result of filing a cut pair until it turns without a jam."""
         limit = _MAXIMUM_FILING * self.contact.wheels[0].pitch
         return file_to_fit(pair, DisplacedPair.tight_place, self.stroke * self.depth, limit)
 
@@ -468,7 +475,9 @@ def _reach(composition: ErrorComposition, output: int, names: Sequence[str]) -> 
 
 
 def _mirrored(motion: Motion, meshes: Sequence[GearMesh]) -> list[tuple[bool, bool]]:
-    """Return flags of driver and driven wheel of each mesh, True for a wheel that turns against its tooth numbers."""
+    """Return two flags for each mesh: True if the teeth of the driver, or of the driven wheel, pass the mesh in
+    descending order of their numbers.
+    """
     circuits = {circuit.id: circuit for circuit in motion._problem.circuits}
     first: dict[str, int] = {}
     found = []

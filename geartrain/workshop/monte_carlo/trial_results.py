@@ -190,7 +190,11 @@ class TrialResults(Tabular):
         return FirstOrderError(*(sqrt(np.mean(each[good] ** 2)) for each in (off, exact)))
 
     def _shares(self, at: int, runs: Bools) -> dict[str, float]:
-        """Return the variance share of each pair in the error of output `at`, over the trials in the mask `runs`."""
+        """Return the share of each pair in the variance of one output's error, keyed by pair; the shares sum to 1.
+
+        at     index of the output
+        runs   mask of the trials to be used
+        """
         superposition = Superposition(self.plan.composition)
         numbers = {pair.name: number for number, pair in enumerate(self.plan.pairs)}
         parts = {
@@ -240,7 +244,7 @@ class TrialResults(Tabular):
 
 
 def turning_trials(marks: Marks, pairs: Sequence[int]) -> Bools:
-    """Return a mask of the trials in which no given pair jams, disengages or has a wheel that cannot be cut."""
+    """Return a mask of trials in which none of the given pairs jams, disengages or has a wheel that cannot be cut."""
     runs: Bools = np.all((marks[:, list(pairs)] & LOST) == 0, axis=1)
     return runs
 
@@ -329,7 +333,7 @@ class ConvergenceStep:
 
 
 class FirstOrderError(NamedTuple):
-    """Error of first-order superposition compared with the exact pointer error."""
+    """Accuracy of a first-order calculation, in which the transmission errors of all pairs are added."""
 
     off: float
     """Root mean square of the error of first-order superposition [rad]."""
@@ -384,14 +388,14 @@ class PointerErrorStatistics(Result):
 
     @property
     def kept(self) -> Floats:
-        """Pointer errors used for the statistics [rad]: `errors`, or `all` if the output can turn in fewer than 30
-        trials.
+        """Pointer errors used for the statistics [rad]: those of the trials in which the output can turn (`errors`) or,
+        if these are fewer than 30, of all trials in which teeth touch (`all`).
         """
         return self.all if self.of_all else self.errors  # few trials give no useful statistics
 
     @property
     def of_all(self) -> bool:
-        """True if the output can turn in fewer than 30 trials, so that the statistics are computed from `all`."""
+        """True if the output can turn in fewer than 30 trials. The statistics then include the other trials, too."""
         return len(self.errors) < FEWEST
 
     @property

@@ -203,10 +203,7 @@ def _pack(array: NDArray[Any]) -> str:
 
 
 def unpack(first: int, packed: Mapping[str, str]) -> TrialRecord:
-    """Return the results of one task, which begins with trial `first`.
-
-    packed   arrays as base64 text of .npy files, from a worker or a journal
-    """
+    """Return the results of one task, which begins with trial `first`, from arrays in base64 text."""
     return TrialRecord(first, **{name: np.load(BytesIO(b64decode(each))) for name, each in packed.items()})
 
 
@@ -302,7 +299,7 @@ def _names(plan: TrialPlan) -> list[str]:
 
 
 def _columns(plan: TrialPlan, rows: TrialRecord) -> list[Floats]:
-    """Return the table columns of one record in the order of the column names (`_names`)."""
+    """Return the columns of the table for one record, in the order of the column names."""
     values = [rows.first + np.arange(len(rows.turns)), rows.turns, *np.degrees(rows.errors.T)]
     for at in range(len(plan.pairs)):
         values += [rows.backlash[:, at], rows.marks[:, at]]

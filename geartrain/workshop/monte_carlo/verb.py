@@ -145,7 +145,7 @@ def _trials(
     given: Execution,
     table: AbstractContextManager[Callable[[TrialRecord], None] | None],
 ) -> TrialResults:
-    """Return the results of the trials. They are run with a journal, and each trial is written to the table."""
+    """Return the results of trials, run with a journal; `table` provides a function that writes each record or None."""
     from geartrain.workshop.monte_carlo.trial_run import run_trials
 
     with suppress(_StoppedError), table as take:

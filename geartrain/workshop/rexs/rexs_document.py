@@ -93,7 +93,7 @@ class RexsDocument:
 
 
 def written(attributes: Attributes) -> list[Model]:
-    """Return attributes with types and units in the structure of a JSON file; None values are omitted."""
+    """Return attributes, without those that are None, as a list in which each has its REXS type and unit."""
     found = []
     for name, value in attributes.items():
         kind, unit = _ATTRIBUTES[name]
@@ -232,7 +232,7 @@ def _document(model: Model, place: str) -> RexsDocument:
 
 
 def _values(part: Model, units: dict[str, str]) -> Iterator[tuple[str, Any]]:
-    """Yield name and value of each supported attribute of a component, and add its unit to `units`."""
+    """Yield name and value of each attribute that an import uses; its unit is added to the mapping `units`."""
     for given in part.get("attributes", ()):
         name, unit = str(given["id"]), str(given.get("unit") or "none").replace("none", "")
         value = next((value for key, value in given.items() if key not in ("id", "unit")), None)

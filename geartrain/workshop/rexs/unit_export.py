@@ -106,7 +106,7 @@ class _Unit:
         }
 
     def add(self, kind: str, name: str = "", *wholes: int, **attributes: Any) -> int:
-        """Add a component, relate it to the components `wholes` of which it is a part, and return its id."""
+        """Add a component that is a part of the components `wholes` and has REXS attributes; return its id."""
         number = len(self.components) + 1
         named = {"name": name} if name else {}
         self.components.append({"id": number, "type": kind, **named, "attributes": written(attributes)})
@@ -180,7 +180,8 @@ class _Unit:
     def teeth(self, name: str) -> tuple[float | None, float | None]:
         """Return pressure angle [deg] and profile shift of a wheel, from its first pair with involute teeth.
 
-        Without a tooth form, they are 20 deg and None; without an involute form, both are None.
+        If its pairs declare no tooth form, the pressure angle is 20 deg, and the profile shift is None. If they declare
+        only other tooth forms, both are None.
         """
         pairs = [gear for gear in self.declared.gears if name in gear.pair]
         forms = [(gear.pair.index(name), self.declared.form_of(gear)) for gear in pairs]
@@ -242,7 +243,10 @@ class _Unit:
             self.pin(label or "", stage, body, plate, [link for link in planets if self.tree.axis(link) == label])
 
     def pin(self, label: str, stage: int, body: int, plate: int, planets: Sequence[str]) -> None:
-        """Add the pin of one axis on a carrier, with the planets that turn on it."""
+        """Add the pin of the axis `label` on a carrier, with the links `planets` that turn on it.
+
+        stage, body, plate   ids of the planetary stage, of the shaft of the carrier and of its side plate
+        """
         pin = self.add("shaft", f"pin {label}", self.unit, body, **_pose(self.work.layout.axes[label]))
         self.relate("planet_pin", planetary_stage=stage, shaft=pin)
         self.join("coupling", f"pin {label} in side plate", pin, plate)

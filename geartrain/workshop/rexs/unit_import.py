@@ -148,7 +148,7 @@ class _GearUnit:
     # -------------------------------------------------------------------------------------------------- links and axes
 
     def _carrier(self, stage: int) -> list[int]:
-        """Return the ids of shafts, pins and side plates of the carrier of a stage; empty if it has no shaft."""
+        """Return the ids of shafts, pins and side plates of the carrier of a stage; empty without shaft and pin."""
         shafts, pins = (
             [shaft for whole, shaft in self.relations[relation] if whole == stage]
             for relation in ("planet_carrier_shaft", "planet_pin")
@@ -242,7 +242,7 @@ class _GearUnit:
         return -1 if link in self.poses and dot(self.poses[link].u, self.direction) < 0 else 1
 
     def _place(self, link: int) -> dict[str, Any]:
-        """Return direction and position of a link's axis as data of a declaration; empty if the file has none."""
+        """Return direction and position of a link's axis as data of a declaration; empty if its position is unknown."""
         pose = self.poses.get(link)
         if pose is None:
             return {}
@@ -383,7 +383,7 @@ class _GearUnit:
         return {**(self.parts[part].attributes if part in self.parts else {}), **case.get(part, {})}
 
     def _connections(self, gears: int) -> Iterator[tuple[int, list[str], list[bool]]]:
-        """Yield the id of each coupling, the names of its links except the frame, and its engagement in each gear."""
+        """Yield id, links (without the frame) and flags of each coupling: True for speeds in which it is engaged."""
         seen = set()
         for coupling, *sides in self.relations["side"]:
             ends, part = [self.link_of(side) for side in sides], self.parts[coupling]

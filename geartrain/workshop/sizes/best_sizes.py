@@ -263,7 +263,11 @@ def _mean_efficiency(transmission: OutlineTransmission) -> float:
 
 
 def _outline(z: int, R: float, beta: float, length: float, ring: bool) -> GearOutline:
-    """Return the outline of a wheel with straight flanks from the tips at radius `R` inwards (internal: outwards)."""
+    """Return the outline of a wheel of z teeth whose straight flanks begin at tips at the radius `R`.
+
+    beta     half angle of the teeth (rad)
+    length   length of the flanks, which extend inwards from the tips, or outwards for a `ring`
+    """
     import numpy as np
 
     from geartrain.teeth.contact import GearOutline, OutlineCurve, ToothFlanks

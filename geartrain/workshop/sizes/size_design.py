@@ -27,7 +27,7 @@ DIGITS = 6
 
 
 def equal_depth_radii(z1: int, z2: int, half_angles: tuple[float, float]) -> float:
-    """Return the tip radius ratio R2/R1, divided by z2/z1, of teeth of equal depth [1], from equation (3) of Sorge."""
+    """Return the ratio of the tip radii R2/R1 for teeth of equal depth, by equation (3) of Sorge, divided by z2/z1."""
     R1, R2 = equal_depth(z1, z2, *half_angles)
     return R2 / R1 * z1 / z2
 
@@ -207,7 +207,7 @@ class ToothSizes(Result):
 
     @property
     def phases(self) -> str:
-        """Name of the sequence of phases along the path of contact."""
+        """Phases of contact of a tooth pair in order of time, such as "approach+recess"."""
         assert self.transmission is not None
         return phases_of(self.transmission)
 

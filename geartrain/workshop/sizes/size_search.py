@@ -124,7 +124,7 @@ class SizeSearch:
 
 
 def _spread(front: Sequence[ToothSizes], aim: str) -> tuple[ToothSizes, ...]:
-    """Return a Pareto front without designs that differ negligibly from their predecessor; both ends are kept."""
+    """Return a Pareto front without designs that differ negligibly from their neighbours in the objective `aim`."""
     worth = _WORTH * (front[0].merit(aim) - front[-1].merit(aim))
     found = [front[0]]
     for each in front[1:-1]:
@@ -250,7 +250,11 @@ def best_within(search: SizeSearch, aim: str, limit: ProbabilityLimit) -> tuple[
 def _bisect_to_limit(
     search: SizeSearch, aim: str, limit: ProbabilityLimit, at: Point, probability: float, refused: Sequence[Point]
 ) -> tuple[ToothSizes, float]:
-    """Return a design near the probability limit, by bisection between an accepted and a rejected design."""
+    """Return a design near the probability limit, and its probability, by bisection between two points.
+
+    at, probability   point of an accepted design, and its probability of a jam or clash
+    refused           points of rejected designs, of which the nearest one is the other end
+    """
     if not refused:
         return search.design(at), probability
     value = search.value(aim)
@@ -333,7 +337,7 @@ def minimise(value: Function, bounds: Sequence[tuple[float, float]], starts: Seq
 
 
 def polish(sampled: SampledFunction, start: Point, rounds: int = _ROUNDS) -> None:
-    """Minimise the function locally, beginning at one point. All evaluated points are added to the samples."""
+    """Minimise the function locally from a point, with at most `rounds` simplexes; all evaluations become samples."""
     if len(start) == 1:
         ((low, high),) = sampled.bounds
         _search_between(sampled, start[0] - _STEP * (high - low), start[0] + _STEP * (high - low))
@@ -357,7 +361,7 @@ def polish(sampled: SampledFunction, start: Point, rounds: int = _ROUNDS) -> Non
 
 
 def _separate_basins(sampled: SampledFunction) -> list[Point]:
-    """Return the samples with the lowest values such that no two of these samples are close to each other."""
+    """Return up to three low samples, which differ from each other by more than a tenth of the range of a variable."""
     found: list[Point] = []
     for at in sorted(sampled.seen, key=lambda at: sampled.seen[at]):
         if all(distance(at, other, sampled.bounds) > _CLOSE for other in found):
@@ -368,7 +372,7 @@ def _separate_basins(sampled: SampledFunction) -> list[Point]:
 
 
 def _brackets(sampled: SampledFunction) -> list[tuple[float, float]]:
-    """Return the sampled neighbours on both sides of each of the lowest local minima of a function of one variable."""
+    """Return intervals around the lowest local minima of a function of one variable, each between two samples."""
     places = sorted(at[0] for at in sampled.seen)
     values = [sampled.seen[at,] for at in places]
     around = [inf, *values, inf]

@@ -111,13 +111,13 @@ def _front_figure(found: BestToothSizes) -> Figure:
 
 
 def _key(figure: Figure, axes: Axes) -> None:
-    """Add a legend of the markers below all panels, because designs cover every panel."""
+    """Add a legend of the markers below all panels, where it hides no designs."""
     handles, _ = axes.get_legend_handles_labels()
     legend_below(figure, len(handles), handles)
 
 
 def _panel(axes: Axes, found: BestToothSizes, across: str, up: str) -> None:
-    """Draw the designs as points, with markers for the best design and the rule-based designs."""
+    """Draw designs as points over two named quantities, and markers for the best and the rule-based designs."""
     plain(axes)
     order = sorted(found.tried, key=lambda each: _shown(each, across))
     x, y = ([_shown(each, name) for each in order] for name in (across, up))
@@ -135,7 +135,7 @@ def _panel(axes: Axes, found: BestToothSizes, across: str, up: str) -> None:
 
 
 def _span(found: BestToothSizes, name: str) -> tuple[float, float]:
-    """Return the axis limits of an objective, which include all designs that are not much worse than the best."""
+    """Return the axis limits of a quantity, which exclude designs with more than four times the best value."""
     values = sorted(_shown(each, name) for each in found.tried)
     marked = [_shown(each, name) for each in (found.equal_depth, found.pitch_true, *found.front) if each is not None]
     # designs far worse than the best would compress all other designs into a line

@@ -287,7 +287,7 @@ class TrainSizeSearch:
         return self._done[key]
 
     def _descend(self, best: float, sizes: dict[str, ToothSizes]) -> tuple[float, dict[str, ToothSizes]]:
-        """Return the minimum objective of the train and its sizes, found by coordinate descent."""
+        """Return the minimum objective of the train and its designs, by coordinate descent from given values."""
         alike = [group for group in self._common_angle_groups if len(group) > 1]
         steps: list[tuple[tuple[str, ...], str]] = [
             ((name,), size) for name in self._requested for size in self._free_of(name)
@@ -307,7 +307,12 @@ class TrainSizeSearch:
     def _step(
         self, best: float, sizes: Mapping[str, ToothSizes], names: Sequence[str], size: str, reach: float
     ) -> tuple[float, dict[str, ToothSizes]]:
-        """Return the objective and the changed designs after one (common) size of some pairs is optimised nearby."""
+        """Return the objective of the train and the changed designs after one size of the pairs `names` is optimised.
+
+        best    objective with the present designs `sizes`
+        size    name of the free parameter, which has a common value in these pairs
+        reach   maximum change of the parameter, as a fraction of its range
+        """
         lowest, highest = self.free[size]
         here, width = sizes[names[0]].parameter(size), reach * (highest - lowest)
         found: tuple[float, dict[str, ToothSizes]] = best, {}
@@ -474,9 +479,10 @@ def best_shared_angle(
 ) -> dict[str, ToothSizes]:
     """Return the designs of several pairs at the common half angle that minimises their total objective.
 
-    start    designs of the pairs with their present half angles; the result is never worse
-    sized    function that returns the best sizes of a pair at a half angle [rad]; raises `QuestionError` if no sizes
-             turn
+    start    designs of the pairs with their present half angles, which are returned if no other angle is better
+    sized    function that returns the best sizes of a pair (name) at a half angle (rad); it raises `QuestionError` if
+             the pair turns with no sizes
+    bounds   bounds of the half angle (rad)
     """
 
     def figure(designs: Mapping[str, ToothSizes]) -> float:

@@ -132,7 +132,7 @@ class SizeQuestion:
     errors: tuple[str, ...]
 
     def check(self, others: Mapping[str, object]) -> None:
-        """Raise an error if options require `--objective` but it is missing, or if it excludes options `others`."""
+        """Raise an error if `others` are given with --objective, or options of the search without it."""
         what, fix = "the option cannot be combined with --objective", "omit one of the two options"
         refused = others
         if self.best is None:
@@ -187,7 +187,7 @@ def _is_probability(text: str) -> bool:
 
 
 def _start(pair: PairRequest) -> ToothSizes:
-    """Return the design described by options. By default, its clearance factor is midway between its limits."""
+    """Return the design that the options describe, by default with a clearance factor midway between the limits."""
     from geartrain.workshop.sizes.size_design import ToothSizes
 
     friction = read_pair_friction(pair.friction).number("--objective")

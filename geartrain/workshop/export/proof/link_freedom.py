@@ -64,7 +64,7 @@ def prove_freedom(
 
 @dataclass(frozen=True, slots=True)
 class _Constraint:
-    """Constraint of a mesh on the small changes of the link angles: low <= weights @ changes <= high [rad]."""
+    """Constraint low <= weights @ changes <= high [rad] that a mesh imposes on small changes of all link angles."""
 
     pair: str
     weights: Floats
@@ -128,10 +128,7 @@ class _Motion:
         return weights / max(float(np.abs(weights).max()), 1.0)
 
     def _axis_senses(self, circuit: Circuit) -> tuple[int, int, int] | None:
-        """Return the senses (1 or -1) of both wheels and their carrier about the axis of the first wheel.
-
-        None is returned if the axes are not parallel.
-        """
+        """Return the senses (1, -1) of both wheels and carrier about the first axis; None unless axes are parallel."""
         one, other = (self.wheels[name] for name in self.names[circuit.id])
         n = np.array(one.direction)
         bodies = (one.body, other.body, self.bodies[circuit.carrier])
@@ -150,7 +147,8 @@ class _Motion:
     ) -> tuple[_Constraint, float]:
         """Return the constraint of a mesh for the link angles `angles`, and the angle by which its teeth overlap [rad].
 
-        The overlap is an angle of the second wheel; it is inf if that wheel is nowhere free.
+        The overlap is an angle of the second wheel; it is inf if that wheel is nowhere free. `senses` are those of
+        `_axis_senses`.
         """
         one, other = (self.wheels[name] for name in self.names[circuit.id])
         first, second, held = (one.body, other.body, self.bodies[circuit.carrier])
@@ -173,7 +171,7 @@ class _Motion:
         return _Constraint(circuit.id, weights, low, high), max(low, -high, 0.0) if low == low else inf
 
     def _tooth_angle(self, wheel: SceneWheel, one: SceneWheel, other: SceneWheel, turned: TurnedPair) -> float:
-        """Return the angle from the line of centres to the first tooth of `wheel` in the zero pose [rad].
+        """Return the angle from the line of centres to the first tooth of `wheel` at the start of the motion [rad].
 
         one, other   first and second wheel of the mesh; the angle is positive about the axis of the first wheel
         """
@@ -249,11 +247,7 @@ class _Motion:
     def _contradictions(
         self, links: Sequence[LinkFreedom], rows: Sequence[_Constraint], turns: bool
     ) -> Iterator[BuildFinding]:
-        """Yield findings on links for which the teeth contradict the solved speeds.
-
-        rows    constraints of the meshes
-        turns   True if any link of the train turns according to the solved speeds
-        """
+        """Yield findings on links for which the teeth (constraints `rows`) contradict the solved speeds."""
         speeds = {body.id: body.speed for body in self.scene.bodies}
         for link in links:
             if link.backlash is None and speeds[link.link] is not None:

@@ -45,7 +45,7 @@ _LAND = 0.05  # tooth heights below the tip circle at which the tip width is mea
 
 @dataclass(frozen=True, slots=True)
 class MeshProof(Result):
-    """Measured values of a mesh as cut, turned through a pitch, or through all combinations of unequal teeth."""
+    """Measured values of a mesh as cut, over a pitch and, for unequal teeth, over all combinations of teeth."""
 
     KEYS = ("pair", "declared", "minimum", "most", "overlap", "contact_ratio", "clearance", "tip_width", "module")
 
@@ -73,10 +73,12 @@ class MeshProof(Result):
 
 @dataclass(frozen=True)
 class CutTrain:
-    """Material of each wheel, read from its written drawing, and findings on drawings that cannot be cut."""
+    """Shapes of the wheels of a train as cut."""
 
     materials: dict[str, Any]
+    """Shape of each wheel, read from its written drawing, keyed by wheel."""
     findings: tuple[BuildFinding, ...]
+    """Messages on drawings that cannot be cut."""
 
 
 def read_wheels(work: SolidModel) -> CutTrain:
@@ -114,7 +116,10 @@ def _with_pins(ring: Any, blank: Blank) -> Any:
 
 
 def paired_wheels(work: SolidModel, cut: CutTrain) -> dict[str, tuple[PairBacklash, tuple[Blank, Blank], TurnedPair]]:
-    """Return backlash, blanks and outlines of each pair of cut wheels, with the internal or driven wheel second."""
+    """Return declared backlash, blanks and outlines of each pair of cut wheels, keyed by pair.
+
+    The internal wheel is the second wheel; in an external pair, it is the driven wheel.
+    """
     # the backlash of teeth that are not conjugate is stated for a driver that is held
     found, drivers = {}, {mesh.name: mesh.driver for mesh in work.sized.meshes}
     for backlash in work.blanks.backlashes:
@@ -179,11 +184,7 @@ def clearance(turned: TurnedPair) -> float:
 
 
 def tip_width(material: Any, reach: tuple[float, float], teeth: int) -> float:
-    """Return the mean tip width of a wheel slightly below its tip circle [mm], or the pin diameter of a lantern.
-
-    material   shape of the wheel; `reach` are its tip and root radii (mm)
-    teeth      number of teeth
-    """
+    """Return the mean tip width of a wheel slightly below its tip circle [mm], or the diameter of lantern pins."""
     shapely = plane_geometry()
     tip, root = reach
     if material.geom_type != "Polygon":

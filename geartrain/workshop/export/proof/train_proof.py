@@ -109,7 +109,7 @@ def proof_is_installed() -> bool:
 
 
 def are_installed(*libraries: str) -> bool:
-    """Return True if all of the given libraries are installed, False otherwise."""
+    """Return True if all modules with the given names can be imported, False otherwise."""
     try:
         return all(find_spec(name) is not None for name in libraries)
     except (ImportError, ValueError):
@@ -174,7 +174,7 @@ class _Solids:
         self.made: dict[int, Any] = {}
 
     def near(self, pose: ScenePose) -> Iterator[tuple[int, int]]:
-        """Yield the indices of each two parts of different bodies whose bounding boxes overlap; no meshing wheels."""
+        """Yield the indices of two parts of different bodies whose bounding boxes overlap, if they do not mesh."""
         points = [pose.point(part.body, place) for part, place in zip(self.parts, self.placed, strict=True)]
         low = np.array([each.min(axis=0) for each in points])
         high = np.array([each.max(axis=0) for each in points])
@@ -187,7 +187,7 @@ class _Solids:
                 yield one, other
 
     def common(self, one: int, other: int, pose: ScenePose) -> float:
-        """Return the volume that two parts have in common in a pose [mm3]; 0 if it is below `SLIVER`."""
+        """Return the volume that two parts have in common in a pose [mm3]; 0 if it is negligible."""
         bodies = [(at, self.parts[at].body) for at in (one, other)]
         moves = (np.column_stack([pose.turned[body], pose.moved[body]]) for _, body in bodies)
         solids = [self._made(at).transform(move) for (at, _), move in zip(bodies, moves, strict=True)]
@@ -196,7 +196,7 @@ class _Solids:
         return volume if volume > minimum else 0.0
 
     def _made(self, at: int) -> Any:
-        """Return the part with index `at` in the zero pose, as a manifold."""
+        """Return the part with index `at` in its position at the start of the motion, as a manifold."""
         if at not in self.made:
             faces = np.ascontiguousarray(self.parts[at].solid.faces, dtype=np.uint64)
             mesh = self.library.Mesh64(np.ascontiguousarray(self.placed[at], dtype=float), faces)
@@ -241,7 +241,11 @@ def prove_waves(work: SolidModel, cut: CutTrain) -> Iterator[BuildFinding]:
 
 
 def overlaps(work: SolidModel, wave: Eccentric, thin: Any, ring: tuple[str, Any]) -> Iterator[float]:
-    """Yield the overlap of a bent flexible wheel and its internal wheel [mm2] at each position of the wave."""
+    """Yield the overlap of a bent flexible wheel and its internal wheel [mm2] at each position of the wave.
+
+    wave         wave generator
+    thin, ring   shape of the flexible wheel as cut; name and shape of the internal wheel
+    """
     assert wave.wave is not None
     shapely = plane_geometry()
     name, material = ring

@@ -49,7 +49,11 @@ _COUNTS = {"M": 2, "L": 2, "A": 7, "Z": 0}
 
 @dataclass(frozen=True, slots=True)
 class FreeTurn:
-    """Range of angles in which wheel 2 is free, in arrays with one item for each position of wheel 1."""
+    """Free range of wheel 2 at each position of wheel 1: the range of its lags at which the wheels do not overlap.
+
+    A lag is the angle of wheel 2 minus its mean angle, which is proportional to the angle of wheel 1. The arrays have
+    one value for each position.
+    """
 
     low: Floats
     """Minimum lag at which wheel 2 is free [rad]; NaN at positions where no lag is free."""
@@ -89,14 +93,14 @@ class TurnedPair:
         return first, _teeth(inner, self.ring)
 
     def turn(self) -> FreeTurn:
-        """Return the free ranges of wheel 2 while wheel 1 turns by a pitch, for all different teeth that meet."""
+        """Return the free ranges of wheel 2 while wheel 1 turns by a pitch, for each pair of `tooth_pairs`."""
         found = [self._measure(tooth_pair) for tooth_pair in self.tooth_pairs]
         worst = max(found, key=lambda each: float(each.overlap.max()))
         return _joined(found, worst.place)
 
     @cached_property
     def tooth_pairs(self) -> list[tuple[int, int]]:
-        """Pairs of a tooth of wheel 1 and a space of wheel 2 that meet (indices), one for each different pair."""
+        """Indices of a tooth of wheel 1 and a space of wheel 2 that meet, for each different combination of shapes."""
         z1, z2 = self.counts
         way = 1 if self.ring else -1
         found: dict[tuple[int, int], tuple[int, int]] = {}
@@ -109,8 +113,9 @@ class TurnedPair:
         return list(found.values())
 
     def free(self, turned: Floats, lags: Floats, tooth_pair: tuple[int, int] = (0, 0)) -> FreeTurn:
-        """Return the free range of wheel 2 near the lags `lags` for each angle `turned` of wheel 1 [rad].
+        """Return the free range of wheel 2 for each angle `turned` of wheel 1 within a pitch [rad].
 
+        lags         lag near which the free range is searched at each angle (rad)
         tooth_pair   indices of the tooth of wheel 1 and of the space of wheel 2 on the line of centres
         """
         t, lag = np.asarray(turned, dtype=float), np.asarray(lags, dtype=float).copy()
@@ -159,7 +164,9 @@ class TurnedPair:
     def _nearest_free_lag(
         self, first: Any, t: float, tooth_pair: tuple[int, int], here: tuple[float, float]
     ) -> tuple[float, float]:
-        """Return the free lag nearest to the present lag [rad], or the lag of minimum overlap, and its overlap [mm2].
+        """Return a lag of wheel 2 [rad], and the overlap of the wheels at this lag [mm2].
+
+        The lag is the free lag nearest to the present lag; if no lag is free, the lag of minimum overlap.
 
         first   region of contact of wheel 1, rotated by its angle t (rad)
         here    present lag (rad) and its overlap (mm2)
@@ -176,9 +183,12 @@ class TurnedPair:
         return float(tries[at]), float(areas[at])
 
     def _last_free_lag(self, first: Any, t: Floats, lag: Floats, way: int, tooth_pair: tuple[int, int]) -> Floats:
-        """Return the last free lags in one direction (`way`, 1 or -1) from the free lags `lag`, by bisection [rad].
+        """Return the last lags up to which wheel 2 is free in one direction, by bisection [rad].
 
         A lag is infinite if nothing stops wheel 2 within a pitch.
+
+        first   regions of contact of wheel 1, rotated by its angles t (rad)
+        lag     free lags from which wheel 2 is turned (rad); `way` is the direction, 1 or -1
         """
         free, met = lag.copy(), lag + way * self.pitches[1] / 2
         loose = self._areas(first, t, met, tooth_pair) <= NOTHING
@@ -217,11 +227,7 @@ class TurnedPair:
         return acos(min(max(one, -1.0), 1.0)), acos(min(max(two, -1.0), 1.0))
 
     def _contact_region(self, which: int, tooth: int) -> Any:
-        """Return the region of a wheel that can touch its mate while a tooth (wheel 2: a space) is near the line of
-        centres.
-
-        which   0 for wheel 1, 1 for wheel 2
-        """
+        """Return the region of a wheel (0 or 1) that can touch its mate while a tooth is near the line of centres."""
         kind = which, self._alike[which][tooth]
         if kind in self._cropped:
             return self._cropped[kind]
@@ -238,18 +244,14 @@ class TurnedPair:
 
     @cached_property
     def _alike(self) -> tuple[tuple[int, ...], tuple[int, ...]]:
-        """Kind of each tooth of both wheels; teeth of the same kind have equal outlines and equal neighbours."""
+        """Number for each tooth of both wheels, which is the same for teeth with equal outlines and neighbours."""
         first, second = self.materials
         return _alike(first, self.counts[0], False, self.same), _alike(second, self.counts[1], self.ring, self.same)
 
     # --------------------------------------------------------------------------------------------------- descriptions
 
     def words(self, place: tuple[float, float], names: tuple[str, str]) -> str:
-        """Return a phrase with the part (tip, flank or root) and the radius [mm] of an overlap on both wheels.
-
-        place   coordinates of the overlap relative to the axis of wheel 1 (mm)
-        names   names of wheels 1 and 2
-        """
+        """Return a phrase with the part (tip, flank or root) and the radius of both wheels at the point `place`."""
         away = -self.distance if self.ring else self.distance
         radii = hypot(*place), hypot(place[0] - away, place[1])
         parts = [_part(radius, *reach) for radius, reach in zip(radii, self.reaches, strict=True)]
@@ -271,7 +273,11 @@ def _part(radius: float, tip: float, root: float) -> str:
 
 
 def _tooth_lines(material: Any, ring: bool) -> Any:
-    """Return the outline of an external wheel, the hole of an internal wheel, or the outlines of lantern pins."""
+    """Return the line or lines of a wheel that can touch its mate.
+
+    These are the largest hole of an internal wheel (`ring`), the outline of an external wheel, or the outlines of the
+    pins of a lantern.
+    """
     shapely = plane_geometry()
     if ring:
         return max(material.interiors, key=lambda line: float(shapely.Polygon(line).area))
@@ -287,7 +293,7 @@ def _teeth(material: Any, ring: bool) -> tuple[float, float]:
 
 
 def _alike(material: Any, count: int, ring: bool, same: float) -> tuple[int, ...]:
-    """Return the kind of each tooth: 0 if a rotation by a pitch leaves the wheel unchanged, otherwise its index.
+    """Return 0 for each tooth if a rotation by a pitch leaves the wheel unchanged, otherwise the numbers of the teeth.
 
     same   distance below which two outlines are treated as equal (mm)
     """
@@ -301,7 +307,7 @@ def _alike(material: Any, count: int, ring: bool, same: float) -> tuple[int, ...
 
 
 def _wedge(facing: float, half: float, reach: tuple[float, float]) -> Any:
-    """Return a sector of half angle `half` about the direction `facing` [rad].
+    """Return a sector of a ring about the axis, of half angle `half` about the direction `facing` [rad].
 
     reach   tip and root radii of the wheel, which the sector exceeds by margins (mm)
     """
@@ -387,7 +393,10 @@ def _commands(data: str) -> Iterator[tuple[str, Sequence[float]]]:
 
 
 def _arc(start: Point, end: Point, radius: float, flags: tuple[bool, bool], tolerance: float) -> list[Point]:
-    """Return the points of a circular arc after its start. The flags select the larger arc and a left turn."""
+    """Return the points of a circular arc from `start` to `end`, without its start, within `tolerance`.
+
+    flags   True, True for the larger of the two possible arcs, and for a counter-clockwise arc
+    """
     large, left = flags
     (x, y), (u, v) = start, end
     half = sqrt((u - x) ** 2 + (v - y) ** 2) / 2

@@ -66,7 +66,9 @@ class InferenceProblem:
 
     @property
     def moved(self) -> dict[str, ToothCountPrior]:
-        """Priors of the wheels on which an observed output or a condition depends, in the order of declaration."""
+        """Priors of the wheels on whose tooth counts an observed output or a condition for the train to turn depends,
+        keyed by wheel in the order of declaration.
+        """
         functions = [witness.function for witness in self.witnesses] + [one.function for one in self.conditions]
         wheels = {wheel for function in functions for wheel in function.wheels}
         return {wheel: uncertainty for wheel, uncertainty in self.uncertainties.items() if wheel in wheels}

@@ -41,8 +41,8 @@ def may_mesh(wheel: PlacedWheel, mate: PlacedWheel, rings: Rings) -> bool:
 
 
 def rings_limit(topology: Topology, rings: Rings, maximum: int) -> bool:
-    """Return whether a ring used in the topology has at most `maximum` teeth, so that it may limit the tooth counts of
-    added wheels.
+    """Return whether a ring of the topology has at most `maximum` teeth. Only such a ring can limit the tooth counts of
+    added wheels, which have at most `maximum` teeth.
     """
     return any(wheel.name in rings and wheel.teeth <= maximum for wheel in topology.used)
 
@@ -113,8 +113,11 @@ class MeshFacts:
         return MeshFacts(problem.meshes, problem.apart, problem.coaxial, problem.rings)
 
     def met(self, driving: _Driving, arbor: str | None, driven: PlacedWheel | None) -> _Pairs | None:
-        """Return the known pairs of meshing wheels that a mesh realises, as a set with at most one pair. Return None if
-        the known facts exclude the mesh.
+        """Return the set of the known meshing pairs of wheels that a mesh forms, which contains one pair or none.
+        Return None if the known facts exclude the mesh.
+
+        driving        name of the driving arbor, and driving wheel
+        arbor, driven  name of the driven arbor, and driven wheel
         """
         assert driven is not None
         if _pair(driving[0], arbor) in self.coaxial or (pair := _pair(driving[1].name, driven.name)) in self.apart:
@@ -132,7 +135,12 @@ def _pair(one: str | None, other: str | None) -> frozenset[str] | None:
 
 
 def _sequences(through: tuple[_Step, ...], compounds: int, idlers: int) -> Iterator[tuple[_Step, ...]]:
-    """Yield each order of the surviving and added arbors on a chain. Added arbors of one kind are interchangeable."""
+    """Yield each order of the arbors on a chain.
+
+    through     surviving arbors, each with its driven and its driving wheel
+    compounds   number of added arbors with two wheels, which are interchangeable
+    idlers      number of added arbors with one wheel, which are interchangeable
+    """
     if not through and not compounds and not idlers:
         yield ()
     for at, step in enumerate(through):
@@ -150,8 +158,11 @@ def _sequences(through: tuple[_Step, ...], compounds: int, idlers: int) -> Itera
 
 
 def arranged(topology: Topology, counts: Counts, idle: tuple[int, ...], facts: MeshFacts) -> Iterator[Arbor]:
-    """Yield the trains of a topology with given tooth counts of the added wheels, one train for each permitted order of
-    arbors.
+    """Yield the trains of a topology with given tooth counts of the added wheels, one train for each order of arbors
+    that agrees with the known facts about meshes.
+
+    counts   tooth counts of the added wheels that affect speeds
+    idle     tooth counts of the added wheels that affect no speed
     """
     chains = topology.chains
     for chosen in product(*(_sequences(chain.through, chain.compounds, chain.idlers) for chain in chains)):
@@ -197,7 +208,9 @@ class _Assembly:
         self.idle = iter(idle)
 
     def branching(self, branching: Branching, dials: Dials) -> Arbor:
-        """Return the arbor of a branching with its subtree. `dials` contains all dials of the subtree."""
+        """Return the arbor that corresponds to a branching of the topology, with all arbors that it drives. `dials`
+        contains all dials to which it leads.
+        """
         driven = branching.driven
         if driven == ADDED:
             turned = branching.turned_dials(dials)
@@ -209,12 +222,12 @@ class _Assembly:
         return Arbor(branching.name, driven, branching.here, tuple(drives), self.chains(branching.passes))
 
     def chains(self, chains: tuple[Chain, ...]) -> tuple[Arbor, ...]:
-        """Return the arbors that are driven by one wheel and at which the given chains begin."""
+        """Return the arbors that one wheel drives, if it drives the given chains of arbors."""
         return tuple(arbor for chain in chains for arbor in self.chain(chain))
 
     def chain(self, chain: Chain) -> tuple[Arbor, ...]:
-        """Return the first arbor of a chain with its subtree. If the chain has no arbors, return the arbors that follow
-        the chain.
+        """Return the first arbor of a chain, as a tuple with one element, with all arbors that it drives. If the chain
+        has no arbors of its own, return the arbors at its end.
         """
         end = chain.end
         below = (self.branching(end, chain.dials),) if isinstance(end, Branching) else self.chains(end)

@@ -56,8 +56,8 @@ distance  the radii of meshing wheels fit the distance of their axes
 
 @dataclass(frozen=True, slots=True)
 class BrokenRule(Result):
-    """Rule of the problem that a candidate breaks, and the change of the evidence with which the candidate would be
-    admissible.
+    """Rule of a reconstruction problem that is broken by a candidate, with the change of the evidence that would make
+    the candidate admissible.
     """
 
     rule: Rule
@@ -118,7 +118,9 @@ def speed_text(dial: SearchedDial) -> str:
 
 
 def _speeds(candidate: Arbor, speed: Fraction, rings: frozenset[str]) -> Iterator[tuple[Arbor, Fraction]]:
-    """Yield every arbor of a candidate with its speed [turns per unit of the input]."""
+    """Yield every arbor of a candidate with its speed [turns per unit of the input]. `speed` is the speed of the first
+    arbor.
+    """
     yield candidate, speed
     for wheel, child in candidate.driven_arbors():
         assert child.driven is not None
@@ -315,8 +317,8 @@ class _TrainReading:
 
     @cached_property
     def _survivors(self) -> dict[str, str]:
-        """Name of the wheel in the problem, keyed by the name of the wheel in the train. Only wheels on the link of the
-        correct arbor are included.
+        """Name of the wheel in the problem, keyed by the name of the wheel in the train. Only wheels whose link
+        corresponds to the arbor that carries them in the problem are included.
         """
         return {
             self._matches[wheel.name]: wheel.name

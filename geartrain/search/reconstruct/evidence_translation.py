@@ -78,8 +78,8 @@ def find_dial(evidence: Train, name: str, free_sense: bool, base: BaseLink) -> S
 
 
 def _bounds(evidence: Train, name: str, free_sense: bool) -> tuple[Limits, bool]:
-    """Return the minimum and the maximum declared speed of an output, and True; or the minimum and the maximum of its
-    magnitude, and False.
+    """Return the minimum and the maximum declared speed of an output, and whether the sense of rotation is known. If it
+    is not known, they are the minimum and the maximum of the magnitude of the speed.
     """
     output, place = evidence.outputs[name], evidence.place("outputs", name)
     known = list(_ranges(evidence, output))

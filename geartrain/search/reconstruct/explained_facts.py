@@ -53,8 +53,8 @@ _MOST_FACTS = 200
 
 
 class Fact(NamedTuple):
-    """Property of the candidates that has one answer in each candidate, such as the arbor that drives a given
-    arbor.
+    """Question about a train, such as which arbor drives a given arbor. Every candidate reconstruction gives exactly
+    one answer.
     """
 
     kind: FactKind
@@ -167,7 +167,7 @@ class ExplainedFacts:
     same way.
 
     weighed   all trains, or only the best trains, with their weights
-    tally     sums over all trains, or None; if it is not None, equivalent facts must also have equal sums
+    tally     total weight and number of trains for each answer, over all trains; None to compute them from `weighed`
     """
 
     def __init__(self, weighed: WeighedTrains, problem: ReconstructionProblem, tally: FactTally | None = None) -> None:
@@ -212,8 +212,8 @@ class ExplainedFacts:
         )
 
     def _parts(self, one: FactMarginal) -> Hashable:
-        """Return the sets into which a fact partitions the listed trains. Each set is returned with the sums over all
-        trains that have the same answer.
+        """Return the sets into which the answers to the fact of a marginal distribution divide the listed trains, and
+        the probability and the number of trains of each answer. Facts with equal results are equivalent.
         """
         fact = Fact(one.kind, one.subject)
         parts = [frozenset(indexes) for indexes in self._listed.get(fact, {}).values()]
@@ -313,7 +313,7 @@ def sum_facts(
 
 @dataclass(frozen=True, slots=True)
 class FamilyTrain(Result):
-    """Candidate that ends at a branch of the family tree."""
+    """Candidate whose last mesh, in the order of the family tree, belongs to a given branch."""
 
     KEYS = ("rank", Key("weight", "share", float), "counts")
 

@@ -86,7 +86,7 @@ def _carrier(evidence: Train) -> str | None:
 
 
 def _frame_problems(evidence: Train) -> Iterator[Problem]:
-    """Yield the problems of evidence in which arbors turn on the frame."""
+    """Yield an error message for each unsupported declaration of evidence in which arbors turn on the frame."""
     inputs = evidence.case(None).inputs
     turning = [link for link, speed in inputs.items() if speed]
     if len(turning) != 1 or len(inputs) != 1:
@@ -284,7 +284,9 @@ def coupling_problems(evidence: Train) -> Iterator[Problem]:
 
 
 def _bearing_problems(evidence: Train, pair: tuple[str, str], place: str) -> Iterator[Problem]:
-    """Yield a problem for each joined link that does not turn on the base, which is the frame or the carrier."""
+    """Yield an error message for each of two coupled links that does not turn on the base, which is the frame or the
+    carrier.
+    """
     assert evidence.reconstruct is not None, "no evidence"
     base = evidence.reconstruct.carrier or evidence.frame
     for link in pair:
@@ -308,8 +310,8 @@ def _bearing_problems(evidence: Train, pair: tuple[str, str], place: str) -> Ite
 
 
 def parted_problems(evidence: Train, problem: ReconstructionProblem, joined: Joined) -> Iterator[Problem]:
-    """Yield a problem for joined links on different axes. Such links are not supported, because each axis would exclude
-    different meshes.
+    """Yield an error message for each group of coupled links that are on different axes. Such links are not supported,
+    because each axis would exclude different meshes.
 
     problem   reconstruction problem in which the links are not yet joined
     """

@@ -68,12 +68,12 @@ def _meshes(problem: ReconstructionProblem) -> Iterator[tuple[int, str, int, str
 
 
 class SeenMeshes:
-    """Compatibility of the passes of a path through different arbors according to the known meshes. A pass is the pair
-    of the driven and the driving wheel by which the path passes through an arbor.
+    """Test whether a path may pass through several arbors in given ways, according to the known meshes. A pass is the
+    pair of the driven and the driving wheel of an arbor on the path.
 
     passes   possible passes of each arbor, the input arbor first
-    order    indices of the arbors; arbors of one component are adjacent, and components with many passes come before
-             others
+    order    order in which paths are extended, as indices of arbors: arbors that known meshes connect are adjacent, and
+             connected arbors with many passes come first
     """
 
     def __init__(self, problem: ReconstructionProblem, passes: Sequence[Sequence[ArborPass]]) -> None:
@@ -95,8 +95,11 @@ class SeenMeshes:
             self._fits[second].append((first, np.array(fits, dtype=bool)))
 
     def allowed(self, codes: NDArray[np.uint16], at: int, code: int) -> Bools | None:
-        """Return a mask of the paths that may have the pass `code` of the arbor with index `at`; None if all paths may
-        have it.
+        """Return a mask of the paths that may be extended by one pass of the arbor with index `at`; None if all paths
+        may be.
+
+        codes   number of the pass of each path through each arbor, shape (paths, arbors)
+        code    number of the pass, starting with 1; 0 if the paths avoid the arbor
         """
         if not self._fits[at]:
             return None
@@ -111,10 +114,12 @@ class SeenMeshes:
 def _are_compatible(
     mine: ArborPass | None, one: str, theirs: ArborPass | None, other: str, idlers: bool, below: bool
 ) -> bool:
-    """Return whether a path may contain the passes `mine` and `theirs` of two arbors whose wheels `one` and `other`
-    mesh. A pass is None if the path avoids the arbor.
+    """Return whether one path may pass through two arbors in given ways. The wheels `one` and `other` of these arbors
+    are known to mesh.
 
-    below   True if the arbor of wheel `one` must drive the arbor of wheel `other`
+    mine, theirs   driven and driving wheel of each arbor on the path; None if the path avoids the arbor
+    idlers         True if a driven wheel may also drive
+    below          True if the arbor of wheel `one` must drive the arbor of wheel `other`
     """
     if mine is None or theirs is None:
         there, wheel = (mine, one) if theirs is None else (theirs, other)
@@ -177,11 +182,12 @@ class PathGrowth(NamedTuple):
         powers: NDArray[np.int8],
         limits: tuple[int, int | None],
     ) -> PathGrowth:
-        """Return the paths that may be extended by the pass `each` of one more arbor, or that may avoid the arbor if
-        `each` is None. The array `need` of these paths is updated.
+        """Return the paths that may be extended by one more arbor with the given driven and driving wheel, or that may
+        avoid the arbor if `each` is None. Their numbers of added wheels that must contain a large prime are updated.
 
         closing   columns of the large primes that occur in no later arbor
-        lost      mask of the columns with a prime larger than the maximum tooth count
+        lost      True for each column whose prime is larger than the maximum tooth count
+        powers    exponents of the large primes that the pass adds to the required quotient
         limits    maximum number of added wheels, and maximum number of unused surviving wheels (None for no limit)
         """
         wheels, debts = limits
@@ -200,8 +206,13 @@ class PathGrowth(NamedTuple):
         return self._replace(need=need).kept(good)
 
     def through(self, at: int, code: int, each: ArborPass, ratio: float, powers: NDArray[np.int8]) -> PathGrowth:
-        """Return the paths extended by a pass of the arbor with index `at`. Paths that have ended must not be
-        included.
+        """Return the paths extended by one more arbor, which has the index `at`. None of the paths may already end at
+        an arbor.
+
+        code     number of the pass, the pair of driven and driving wheel
+        each     the pass itself
+        ratio    factor of the speed due to the surviving wheels of the pass
+        powers   exponents of the large primes that the pass adds to the required quotient
         """
         codes = self.codes.copy()
         codes[:, at] = code
@@ -234,8 +245,8 @@ AddedArbors = tuple[int, int]
 class PathList:
     """Possible paths to a dial. Each row of the arrays represents one path.
 
-    along   the only permitted pass of each surviving arbor in the mapping, where all other arbors are excluded; None
-            for all paths
+    along   driven and driving wheel of each surviving arbor through which the paths must pass, keyed by arbor; the
+            paths avoid all other surviving arbors. None to list all paths
 
     codes                code of the pass of each arbor, the input arbor first: 1 + index in `passes`, or 0 if the path
                          avoids the arbor; shape (rows, arbors)
@@ -289,8 +300,9 @@ class PathList:
     # extension by one arbor at a time
 
     def _possible_paths(self, plans: tuple[AddedArbors, ...]) -> tuple[PathGrowth, Bools]:
-        """Return the complete paths, and a Boolean matrix that is True for the plans of added arbors that are possible
-        with each path.
+        """Return the complete paths, and a Boolean matrix that is True for the numbers of added arbors that are
+        possible with each path, shape (paths, plans). A plan is a pair (added arbors with two wheels, added arbors with
+        one wheel).
         """
         # a single path through no arbor
         zero = np.zeros(1, dtype=np.int8)
@@ -363,8 +375,8 @@ class PathList:
 
     @cached_property
     def primes(self) -> tuple[int, ...]:
-        """Large primes. The tooth count of an added wheel contains at most one of them, and only once. Empty if the
-        dial has a tolerance.
+        """Primes so large that the tooth count of an added wheel is divisible by at most one of them, and not by its
+        square. The result is empty if the dial has a tolerance.
         """
         if not self.dial.is_exact:
             return ()
@@ -401,8 +413,8 @@ class PathList:
     # added arbors on a path
 
     def _possible(self, growth: PathGrowth, plans: tuple[AddedArbors, ...]) -> Bools:
-        """Return, for each path and each plan of added arbors, whether the path is possible with the plan, shape
-        (paths, plans).
+        """Return, for each path and each plan, whether the path is possible with the numbers of added arbors in the
+        plan, shape (paths, plans). A plan is a pair (added arbors with two wheels, added arbors with one wheel).
         """
         new = ~growth.ended
         found = np.zeros((len(growth.codes), len(plans)), dtype=bool)
@@ -458,7 +470,9 @@ class PathList:
         return np.asarray(reversals % 2 == 1)
 
     def wanted_quotients(self, row: int) -> tuple[Fraction, Fraction]:
-        """Return the minimum and the maximum required quotient of the added wheels on the path in a given row."""
+        """Return the minimum and the maximum of the quotient that the tooth counts of the added wheels on the path in a
+        given row must have: product of driving counts divided by product of driven counts.
+        """
         taken = (passes[code - 1] for passes, code in zip(self.passes, self.codes[row], strict=True) if code)
         known = prod(map(_known_ratio, taken), start=abs(self.problem.input_speed))
         (turned,) = self._turned(self.codes[[row]], self.new[[row]])

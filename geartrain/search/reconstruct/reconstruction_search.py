@@ -150,7 +150,8 @@ def find_reconstructions(
     listed : int
         Minimum number of candidates to list. If there are fewer candidates, all are listed.
     prior_of : {"solution", "class"}
-        Unit of the prior: one weight for every train, or one weight for every ratio class, divided among its trains.
+        Unit of the prior: one weight for every train, or one weight for every class of trains with equal driving wheels
+        and equal driven wheels on each path, divided among these trains.
 
     Returns
     -------
@@ -245,7 +246,9 @@ def _best(problem: ReconstructionProblem, found: dict[int, list[CountedTopology]
 
 
 def _order(arbor: Arbor) -> tuple[int, str]:
-    """Return the sort key for candidates of equal weight."""
+    """Return the sort key for candidates of equal weight: the sum of the tooth counts of added wheels, then the
+    candidate as text.
+    """
     return sum(wheel.teeth for wheel in arbor.wheels() if wheel.name is None), repr(astuple(arbor))
 
 
@@ -328,7 +331,9 @@ def _prior(problem: ReconstructionProblem, wheels: int, arbors: int, used: Itera
 
 
 def weight_ranks(weighed: Iterable[tuple[_Weight, int]]) -> dict[_Weight, tuple[int, int]]:
-    """Return the first and last rank of each weight, computed from pairs of a weight and a number of candidates."""
+    """Rank candidates by weight, and return the first and the last rank of the candidates with each weight. The input
+    consists of pairs of a weight and a number of candidates with this weight.
+    """
     alike = Counter[_Weight]()
     for weight, number in weighed:
         alike[weight] += number

@@ -46,11 +46,11 @@ _MOST_ADDED = 100  # numbers of added wheels are stored in 8 bits
 
 
 class PathColumns:
-    """Columns of a path list, with which many paths can be compared quickly with a path to another dial.
+    """Paths to one dial as arrays, so that many of them can be compared with one path to another dial in one step.
 
-    A pass is the pair of a driven and a driving wheel by which a path passes through an arbor.
+    A pass is the pair of a driven and a driving wheel by which a path passes through an arbor. A row is a path.
 
-    codes          code of the pass; 0 if the path avoids the arbor; shape (arbors, rows)
+    codes          number of the pass; 0 if the path avoids the arbor; shape (arbors, rows)
     driven         number that identifies the driven wheel and its tooth count; 0 if the path avoids the arbor; shape
                    (arbors, rows)
     driver         number that identifies the surviving driving wheel; 0 if there is none; shape (arbors, rows)
@@ -171,8 +171,8 @@ class PathChoice:
         return kept
 
     def _fork(self, one: tuple[str, int], other: tuple[str, int], dial: str, rows: Rows) -> Bools:
-        """Return, for each path in `rows`, whether it forms a tree with two chosen paths. This requires that two of the
-        three paths separate from the third at the same arbor.
+        """Return, for each path in `rows`, whether one tree can contain it together with two chosen paths. This
+        requires that two of the three paths separate from the third at the same arbor.
         """
         first, second = (np.int64(self.lists[end].arbors[row]) for end, row in (one, other))
         third = self.lists[dial].arbors[rows]
@@ -199,7 +199,7 @@ class PathChoice:
 
 
 class OrderPart(NamedTuple):
-    """Orders of the arbors of a topology for which the possible choices of added tooth counts are the same.
+    """Orders of the arbors of one topology that all permit the same choices of added tooth counts.
 
     Each combination of an order and a choice is one train.
     """
@@ -218,7 +218,9 @@ class OrderPart(NamedTuple):
 
 
 class TopologyTrains:
-    """Numbers of trains of topologies in a reconstruction problem."""
+    """Counter of the trains of each topology of a reconstruction problem. A train is a topology with an order of its
+    arbors and with tooth counts of its added wheels.
+    """
 
     def __init__(self, problem: ReconstructionProblem) -> None:
         limits = problem.additions

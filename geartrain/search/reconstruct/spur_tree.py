@@ -175,7 +175,9 @@ class SpurTree:
         return self.joined.get(arbor, (arbor,))
 
     def arbor_of(self, link: str) -> str:
-        """Return the arbor to which a link belongs. Usually, it has the name of the link."""
+        """Return the name of the arbor to which a link belongs. It is the name of the link itself unless couplings join
+        the link to other links.
+        """
         return next((arbor for arbor, links in self.joined.items() if link in links), link)
 
     def link_of(self, pointer: str) -> str:
@@ -411,8 +413,8 @@ class _Parts:
         return {name: base for name, base in found.items() if base.meshes}
 
     def _arbor(self, base: _Base, link: str) -> str:
-        """Return the arbor of a link on a base. If the link is fixed, this is the frame; if not, it is the first of the
-        links joined to the link.
+        """Return the arbor of a link on a base. The arbor of a fixed link is the frame. If couplings join several
+        links, their arbor has the name of the first of these links.
         """
         return self.train.frame if link in self.train.fixed else base.joined.get(link, (link,))[0]
 

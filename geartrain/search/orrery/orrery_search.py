@@ -264,10 +264,10 @@ def find_orrery(
     if first in targets.names:
         what = f"the first arbor and a period are both named {first!r}"
         why = "arbors are named after their periods, and names of arbors must be unique"
-        raise QuestionError(Problem(what, why, "rename the first arbor"))
+        raise QuestionError(Problem(what, why, f"give the period another name, such as '{first} hand'"))
     if "frame" in (first, *targets.names):
         what, why = "an arbor is named 'frame'", "this name is reserved for the link that carries the arbors"
-        raise QuestionError(Problem(what, why, "rename the arbor"))
+        raise QuestionError(Problem(what, why, "give the period or the first arbor another name"))
     search = _OrrerySearch(pair_ratios(counts), targets, tell)
     ended = search.run(effort, walk)
     if search.best is None:

@@ -164,7 +164,7 @@ def _check(
         what, why = f"'{against}' is not a kind of observation", "valid kinds are all, targets and figures"
         raise QuestionError(Problem(what, why, suggest(against, LIKELIHOOD_KINDS)))
     if tolerance is not None and tolerance < 0:
-        what, why = f"the tolerance {tolerance} is negative", "a tolerance must not be negative"
+        what, why = f"the tolerance {tolerance} is negative", "a tolerance is a maximum magnitude of an error"
         raise QuestionError(Problem(what, why, "give a tolerance >= 0"))
     if scale < 0:
         what, why = (

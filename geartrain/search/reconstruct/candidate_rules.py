@@ -221,8 +221,6 @@ def _mesh_rules(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[Br
 class KnownTrain:
     """Known train, converted to a candidate of a reconstruction problem."""
 
-    name: str
-    """Name of the train."""
     arbor: Arbor
     """Input arbor of the candidate. The candidate has a pointer for every dial of the problem that is connected to the
     input by meshes, even if its speed differs from the required speed.
@@ -264,7 +262,7 @@ class _TrainReading:
         wheels = [name for link in kept for name in (driven[link].driving, driven[link].driven)]
         counts = {name: self._teeth(name) for name in self.train.wheels if name in wheels}
         added = {name: teeth for name, teeth in counts.items() if name not in self._survivors}
-        return KnownTrain(self.train.name, arbor, added, tuple(self._notes()))
+        return KnownTrain(arbor, added, tuple(self._notes()))
 
     # names
 

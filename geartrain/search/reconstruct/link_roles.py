@@ -104,9 +104,10 @@ def _frame_problems(evidence: Train) -> Iterator[Problem]:
         yield Problem(what, why, fix, evidence.place("links", evidence.frame))
     for at, joint in enumerate(evidence.revolutes):
         if evidence.frame not in joint.pair:
-            what = "an arbor turns on a moving link that is not the `carrier`"
-            why = "ignoring the arbor could change the trains that are found"
-            fix = "name the link as `carrier` with its speed as an input, or remove the joint"
+            one, other = joint.pair
+            what = f"an arbor turns on a moving link: the turning pair of '{one}' and '{other}' omits the frame"
+            why = "arbors on a moving link are reconstructed only if this link is the `carrier`"
+            fix = "name the link as `carrier` with its speed as an input, or remove the turning pair"
             yield Problem(what, why, fix, evidence.place("revolutes", at))
 
 
@@ -162,8 +163,9 @@ def _carrier_part_problems(evidence: Train, carrier: str) -> Iterator[Problem]:
             fix = f"put it on the carrier, `pair: [{carrier}, {link}]`, or on the axis of `{own}`"
             yield Problem(what, why, fix, place)
         elif not {evidence.frame, carrier} & set(joint.pair):
-            what = "an arbor turns on a second moving link"
-            fix = "put it on the carrier, or remove it"
+            one, other = joint.pair
+            what = f"the turning pair of '{one}' and '{other}' is on a second moving link"
+            fix = f"put the arbor on the carrier '{carrier}', or remove the turning pair"
             yield Problem(what, "a reconstruction supports one carrier", fix, place)
     for name, output in evidence.outputs.items():
         if output.of == carrier:
@@ -172,7 +174,7 @@ def _carrier_part_problems(evidence: Train, carrier: str) -> Iterator[Problem]:
             yield Problem(what, why, "remove the output, or correct its `of`", place)
     if evidence.reconstruct is not None and evidence.reconstruct.geometry is not None:
         what, place = "`geometry` is not supported for arbors on a carrier", evidence.place("reconstruct", "geometry")
-        yield Problem(what, "axes on a carrier move", "delete `geometry`", place)
+        yield Problem(what, "measured distances are compared only with fixed axes", "delete `geometry`", place)
 
 
 def carrier_axis(evidence: Train, carrier: str) -> str | None:

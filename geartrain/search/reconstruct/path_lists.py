@@ -346,9 +346,13 @@ class PathList:
         # wheels unused on this path must be used on paths to the other dials
         debts = len(self.problem.dials) - 1 if self.problem.use == "wheels" else None
         limits = self.problem.additions.wheels, debts
+        arbor = (self.problem.input, *self.problem.arbors)[at]
         parts = []
         for code, each in enumerate((None, *self.passes[at])):
-            if (each is None and not at) or not self._is_listed(at, each):
+            if each is None and not at:  # every path includes the input arbor
+                continue
+            way = None if each is None else (each.driven, each.driver)
+            if self._along is not None and self._along.get(arbor.name) != way:
                 continue
             good = self._seen.allowed(growth.codes, at, code)
             own = growth if good is None else growth.kept(good)
@@ -361,15 +365,6 @@ class PathList:
             what = f"more than {_MOST_PATHS} paths to '{self.dial.name}' would have to be examined"
             raise QuestionError(too_wide(self.problem, what))
         return PathGrowth.joined(parts) if parts else growth.kept(np.zeros(len(growth.codes), dtype=bool))
-
-    def _is_listed(self, at: int, each: ArborPass | None) -> bool:
-        """Return whether `along` permits the pass `each` of the arbor with index `at`. The pass is None if the path
-        avoids the arbor.
-        """
-        if self._along is None:
-            return True
-        arbor = (self.problem.input, *self.problem.arbors)[at]
-        return self._along.get(arbor.name) == (None if each is None else (each.driven, each.driver))
 
     # large primes: an added tooth count contains at most one of them
 

@@ -114,11 +114,6 @@ class DialPath(NamedTuple):
         """True if no arbor is left on the remaining part of the path, except possibly an added last arbor."""
         return not (self.arbors or self.compounds or self.idlers)
 
-    @property
-    def new(self) -> int:
-        """Number of added arbors on the remaining part of the path."""
-        return self.compounds + self.idlers + self.ends_new
-
 
 Paths = dict[str, DialPath]
 """Path to each dial, keyed by the name of the dial in sorted order."""
@@ -269,7 +264,7 @@ class PathTrees:
         return None if len(ends) > 1 else (tuple(through), ends[0] if ends else None)
 
     def _single_chain(self, dial: str, path: DialPath, left: _Budget) -> Iterator[tuple[Chain, _Budget]]:
-        after = left.without(path.wheels, path.new)
+        after = left.without(path.wheels, path.compounds + path.idlers + path.ends_new)
         if not after.is_possible:
             return
         through, end = [], Branching(None, ADDED, (dial,))

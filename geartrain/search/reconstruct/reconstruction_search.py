@@ -16,7 +16,7 @@ from geartrain.numerics.exact import plural
 from geartrain.numerics.results import Key, Result
 from geartrain.numerics.work import Execution
 from geartrain.search.reconstruct.added_counts import AddedCounts
-from geartrain.search.reconstruct.arbor_orders import MeshFacts, arranged, rings_limit
+from geartrain.search.reconstruct.arbor_orders import arranged, rings_limit
 from geartrain.search.reconstruct.geometry_likelihood import candidate_likelihood
 from geartrain.search.reconstruct.reconstruction_problem import Arbor, PlacedWheel, ReconstructionProblem
 from geartrain.search.reconstruct.search_tasks import CountedTopology, count_topologies
@@ -220,10 +220,9 @@ def _trains(each: CountedTopology, problem: ReconstructionProblem, one_order: bo
     counts.
     """
     limits = problem.additions
-    facts = MeshFacts() if one_order else MeshFacts.of(problem)
     topology = each.topology
     for counts, idle in AddedCounts(limits.minimum, limits.maximum).assignments(topology.added, topology.wanted):
-        yield from islice(arranged(topology, counts, idle, facts), 1 if one_order else None)
+        yield from islice(arranged(topology, counts, idle, None if one_order else problem), 1 if one_order else None)
 
 
 def _best(problem: ReconstructionProblem, found: dict[int, list[CountedTopology]], listed: int) -> Iterator[Candidate]:

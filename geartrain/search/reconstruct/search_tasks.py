@@ -21,7 +21,7 @@ from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.arrays import Bools
 from geartrain.numerics.work import Execution
 from geartrain.search.reconstruct.added_counts import AddedCounts, OpenCounts, QuotientTables
-from geartrain.search.reconstruct.arbor_orders import CountTokens, MeshFacts, arranged
+from geartrain.search.reconstruct.arbor_orders import CountTokens, arranged
 from geartrain.search.reconstruct.path_lists import PathList, Rows
 from geartrain.search.reconstruct.path_trees import PathTrees
 from geartrain.search.reconstruct.reconstruction_problem import Arbor, ReconstructionProblem
@@ -225,14 +225,14 @@ class TopologyTrains:
     def __init__(self, problem: ReconstructionProblem) -> None:
         limits = problem.additions
         self.counts = AddedCounts(limits.minimum, limits.maximum)
-        self._facts, self._maximum = MeshFacts.of(problem), limits.maximum
+        self._problem = problem
 
     def parts(self, topology: Topology) -> list[OrderPart]:
         """Return the orders of the arbors of a topology, grouped by the tooth-count limits that rings impose."""
         tokens = CountTokens(topology.added)
         by_limits: dict[OpenCounts, list[tuple[Arbor, dict[int, AddedKind]]]] = defaultdict(list)
-        for arbor in arranged(topology, tokens.counts, tokens.idle, self._facts):
-            kinds = tokens.kinds(arbor, self._facts.rings, self._maximum)
+        for arbor in arranged(topology, tokens.counts, tokens.idle, self._problem):
+            kinds = tokens.kinds(arbor, self._problem.rings, self._problem.additions.maximum)
             limits = sorted(kind for kind in kinds.values() if kind.most is not None)
             by_limits[OpenCounts(topology.added, topology.wanted, tuple(limits))].append((arbor, kinds))
         return [OrderPart(requested, self.counts.total(requested), orders) for requested, orders in by_limits.items()]

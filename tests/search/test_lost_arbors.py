@@ -113,7 +113,7 @@ def test_the_train_as_a_candidate() -> None:
     lost = Arbor(None, wheel(20), (), ((wheel(14), (moon,)),))
     assert tree.arbor(["b"]) == Arbor("a", None, (), ((wheel(10, "a1"), (lost,)), (wheel(12, "a2"), (sun,))))
     assert not {"d", "e"} & {*tree.arbors}
-    assert not tree.has_idlers
+    assert not lost_evidence(tree, ["b"]).reconstruct.idlers
 
 
 def test_the_last_arbor_whose_speed_is_known_is_a_pointer() -> None:

@@ -39,13 +39,6 @@ def may_mesh(wheel: PlacedWheel, mate: PlacedWheel, rings: Rings) -> bool:
     return inside.teeth < ring.teeth
 
 
-def rings_limit(topology: Topology, rings: Rings, maximum: int) -> bool:
-    """Return whether a ring of the topology has at most `maximum` teeth. Only such a ring can limit the tooth counts of
-    added wheels, which have at most `maximum` teeth.
-    """
-    return any(wheel.name in rings and wheel.teeth <= maximum for wheel in topology.used)
-
-
 class CountTokens:
     """Negative numbers (tokens) that replace the tooth counts of added wheels. Each token identifies one wheel."""
 

@@ -347,6 +347,7 @@ class PathList:
         debts = len(self.problem.dials) - 1 if self.problem.use == "wheels" else None
         limits = self.problem.additions.wheels, debts
         arbor = (self.problem.input, *self.problem.arbors)[at]
+        lost = np.array([prime > self.problem.additions.maximum for prime in self.primes], dtype=bool)
         parts = []
         for code, each in enumerate((None, *self.passes[at])):
             if each is None and not at:  # every path includes the input arbor
@@ -359,7 +360,7 @@ class PathList:
             self._examined += len(own.codes)
             ratio = Fraction(1) if each is None else _known_ratio(each)
             powers = self._powers(1 / ratio)
-            allowed = own.along(closing, self._lost, each, powers, limits)
+            allowed = own.along(closing, lost, each, powers, limits)
             parts.append(allowed if each is None else allowed.through(at, code, each, float(ratio), powers))
         if self._examined > _MOST_PATHS:
             what = f"more than {_MOST_PATHS} paths to '{self.dial.name}' would have to be examined"
@@ -393,11 +394,6 @@ class PathList:
         return np.array([up.get(prime, 0) - down.get(prime, 0) for prime in self.primes], dtype=np.int8)
 
     @cached_property
-    def _lost(self) -> Bools:
-        """Mask of the large primes that are larger than the maximum tooth count of an added wheel."""
-        return np.array([prime > self.problem.additions.maximum for prime in self.primes], dtype=bool)
-
-    @cached_property
     def _wanted(self) -> Fraction:
         """Magnitude of the speed of the dial divided by the speed of the input. If the dial has a tolerance, its
         minimum speed is used.
@@ -421,7 +417,12 @@ class PathList:
             turned = self._turned(growth.codes, arbors)
             # a sense whose maximum magnitude is 0 is excluded
             fits &= np.where(turned, self._magnitudes(True)[1] > 0, self._magnitudes(False)[1] > 0)
-            fits &= self._may_be_quotient(growth, compounds, turned, fits)
+            # both numbers in one integer for np.unique; an added last arbor has one more driven wheel
+            kinds = growth.drivers.astype(np.int64) * 64 + growth.driven + new
+            for kind in np.unique(kinds[fits]):
+                rows = np.flatnonzero(fits & (kinds == kind))
+                drivers, driven = int(kind) // 64 + compounds, int(kind) % 64 + compounds
+                fits[rows] = self.tables.may_hold(self._bounds(growth.ratio[rows], turned[rows]), drivers, driven)
             found[:, at] = fits
         return found
 
@@ -433,16 +434,6 @@ class PathList:
         if self.dial.signed and (self.problem.input_speed > 0) == turned:
             low, high = -high, -low
         return max(low, Fraction(0)), max(high, Fraction(0))
-
-    def _may_be_quotient(self, growth: PathGrowth, compounds: int, turned: Bools, requested: Bools) -> Bools:
-        found = requested.copy()
-        # both numbers in one integer for np.unique; an added last arbor has one more driven wheel
-        kinds = growth.drivers.astype(np.int64) * 64 + growth.driven + ~growth.ended
-        for kind in np.unique(kinds[requested]):
-            rows = np.flatnonzero(requested & (kinds == kind))
-            drivers, driven = int(kind) // 64 + compounds, int(kind) % 64 + compounds
-            found[rows] = self.tables.may_hold(self._bounds(growth.ratio[rows], turned[rows]), drivers, driven)
-        return found
 
     # speed of a path
 

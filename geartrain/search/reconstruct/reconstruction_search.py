@@ -16,7 +16,7 @@ from geartrain.numerics.exact import plural
 from geartrain.numerics.results import Key, Result
 from geartrain.numerics.work import Execution
 from geartrain.search.reconstruct.added_counts import AddedCounts
-from geartrain.search.reconstruct.arbor_orders import arranged, rings_limit
+from geartrain.search.reconstruct.arbor_orders import arranged
 from geartrain.search.reconstruct.geometry_likelihood import candidate_likelihood
 from geartrain.search.reconstruct.reconstruction_problem import Arbor, PlacedWheel, ReconstructionProblem
 from geartrain.search.reconstruct.search_tasks import CountedTopology, count_topologies
@@ -206,9 +206,12 @@ def _weight_classes(weighed: Iterable[tuple[int, Fraction, int]]) -> Iterator[We
 
 def _count(added: int, topologies: Sequence[CountedTopology], problem: ReconstructionProblem) -> ExplanationCount:
     solutions = sum(each.solutions for each in topologies)
-    # the order of arbors changes neither key, unless a ring limits counts in some orders
-    maximum = problem.additions.maximum
-    marked = [(each, not rings_limit(each.topology, problem.rings, maximum)) for each in topologies]
+    # the order of arbors changes neither key, unless a ring limits the counts of added wheels in some orders
+    rings, maximum = problem.rings, problem.additions.maximum
+    marked = [
+        (each, not any(wheel.name in rings and wheel.teeth <= maximum for wheel in each.topology.used))
+        for each in topologies
+    ]
     if sum(each.choices if one_order else each.solutions for each, one_order in marked) > _MOST_CLASSIFIED:
         return ExplanationCount(added, solutions, None, None)
     some = [arbor for each, one_order in marked for arbor in _trains(each, problem, one_order)]

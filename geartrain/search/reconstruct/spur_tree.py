@@ -147,12 +147,6 @@ class SpurTree:
         """Names of all arbors, beginning with the first arbor of the part."""
         return self.source, *self.driven
 
-    @property
-    def has_idlers(self) -> bool:
-        """True if a driven wheel also drives (an idler)."""
-        driving = {mesh.driving for mesh in self.driven.values()}
-        return any(mesh.driven in driving for mesh in self.driven.values())
-
     @cached_property
     def able(self) -> tuple[str, ...]:
         """Names of the arbors that can be treated as lost: all driven arbors that carry no ring, because rings are
@@ -634,6 +628,7 @@ def lost_wheels(tree: SpurTree, lost: Sequence[str]) -> int:
 
 
 def _requested(tree: SpurTree, lost: Sequence[str], seen: bool) -> dict[str, Any]:
+    has_idlers = {mesh.driving for mesh in tree.driven.values()} & {mesh.driven for mesh in tree.driven.values()}
     pairs = [[links[0], other] for arbor, links in tree.joined.items() if arbor not in lost for other in links[1:]]
     return {
         **({"carrier": tree.base.name} if tree.base.is_carrier else {}),
@@ -642,7 +637,7 @@ def _requested(tree: SpurTree, lost: Sequence[str], seen: bool) -> dict[str, Any
             "teeth": list(tree.teeth),
             **({"arbors": len(lost)} if seen else {}),
         },
-        **({"idlers": True} if tree.has_idlers else {}),
+        **({"idlers": True} if has_idlers else {}),
         **({"given": [{"pair": pair} for pair in pairs]} if pairs else {}),
     }
 

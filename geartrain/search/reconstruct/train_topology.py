@@ -68,7 +68,10 @@ def arbor_passes(arbor: SurvivingArbor, problem: ReconstructionProblem) -> Itera
     """
     beside = problem.additions.on == "any" and problem.additions.wheels > 0
     is_input = arbor is problem.input
-    for driven in _driven_wheels(arbor, problem, beside):
+    drivens: list[PlacedWheel | None] = [None] if is_input else [ADDED] if beside else []
+    if arbor.wheels and not is_input:
+        drivens = [reading for wheel in arbor.wheels for reading in wheel.readings]
+    for driven in drivens:
         others = [wheel for wheel in arbor.wheels if driven is None or wheel.name != driven.name]
         drivers = [reading for wheel in others for reading in wheel.readings]
         for driver in drivers:
@@ -78,16 +81,6 @@ def arbor_passes(arbor: SurvivingArbor, problem: ReconstructionProblem) -> Itera
         if problem.idlers and not is_input:
             yield ArborPass(driven, driven, len(others), idler=True)
         yield ArborPass(driven, None, len(others))
-
-
-def _driven_wheels(arbor: SurvivingArbor, problem: ReconstructionProblem, beside: bool) -> Iterator[PlacedWheel | None]:
-    if arbor is problem.input:
-        yield None
-    elif arbor.wheels:
-        for wheel in arbor.wheels:
-            yield from wheel.readings
-    elif beside:
-        yield ADDED
 
 
 # A train without tooth counts of added wheels, whose arbors have any order between two branchings.

@@ -48,9 +48,9 @@ class BaseLink:
 
 
 def find_base(evidence: Train) -> BaseLink:
-    """Return the base of a reconstruction, which is the link that carries the arbors, and the input link of the train.
+    """Return the link that carries the arbors of a reconstruction, with its speed, and the input link of the train.
 
-    The evidence must be valid, that is, `base_problems` must not yield a problem.
+    The evidence must be valid, that is, `base_problems` must not yield an error message.
     """
     inputs = evidence.case(None).inputs
     carrier = _carrier(evidence)
@@ -62,8 +62,8 @@ def find_base(evidence: Train) -> BaseLink:
 
 
 def base_problems(evidence: Train) -> Iterator[Problem]:
-    """Yield a problem for each declaration that leaves the base or the input of the train undetermined, or that is not
-    supported.
+    """Yield an error message for each declaration that is not supported, or that leaves open which link carries the
+    arbors or which link is the input.
     """
     carrier = _carrier(evidence)
     if not evidence.case(None).exact:
@@ -144,8 +144,8 @@ def _carrier_speed_problems(evidence: Train, carrier: str) -> Iterator[Problem]:
 
 
 def _carrier_part_problems(evidence: Train, carrier: str) -> Iterator[Problem]:
-    """Yield a problem for each wheel and pointer of the carrier, for each arbor that turns neither on the carrier nor
-    in the frame about the axis of the carrier, and for a declared geometry.
+    """Yield an error message for each wheel and pointer of the carrier, for each arbor that turns neither on the
+    carrier nor about its axis in the frame, and for measured sizes.
     """
     for name in evidence.links[carrier].wheels:
         what = f"'{name}' is a wheel of the carrier"
@@ -252,7 +252,7 @@ def join_arbors(problem: ReconstructionProblem, joined: Joined) -> Reconstructio
 
 
 def coupling_problems(evidence: Train) -> Iterator[Problem]:
-    """Yield a problem for each declared coupling that locks an arbor, closes a loop, or connects links across a
+    """Yield an error message for each declared coupling that locks an arbor, closes a loop, or connects links across a
     carrier.
     """
     assert evidence.reconstruct is not None, "no evidence"

@@ -327,7 +327,9 @@ class PathList:
         return PathGrowth.joined([piece for piece, _ in found]), np.concatenate([possible for _, possible in found])
 
     def _grown(self, growth: PathGrowth, order: tuple[int, ...]) -> Iterator[PathGrowth]:
-        """Yield the paths extended by the arbors in `order`, in blocks that fit into memory."""
+        """Yield the paths after extension by the arbors in `order`, in several sets of at most about `_PIECE` paths, to
+        save memory.
+        """
         if not order:
             yield growth
             return

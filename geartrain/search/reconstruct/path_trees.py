@@ -63,8 +63,8 @@ def dial_partitions(
 
 
 def partitions(dials: Dials, arbors: Mapping[str, int]) -> Iterator[tuple[Dials, ...]]:
-    """Yield each partition of dials into blocks such that the paths of different blocks have no common surviving arbor.
-    The first dial is in the first block.
+    """Yield each partition of dials into sets such that the paths to dials of different sets have no common surviving
+    arbor. The first dial is in the first set.
     """
     place = {dial: at for at, dial in enumerate(dials)}
     # dials whose paths have a common arbor are in one group
@@ -111,7 +111,7 @@ class DialPath(NamedTuple):
 
     @property
     def is_at_end(self) -> bool:
-        """True if no arbor is left on the remaining part of the path, except possibly an added last arbor."""
+        """True if the remaining part of the path contains no arbor, or only an added last arbor."""
         return not (self.arbors or self.compounds or self.idlers)
 
 

@@ -125,8 +125,8 @@ class PathChoice:
         self._columns = {dial: PathColumns(paths, problem) for dial, paths in lists.items()}
 
     def choices(self, added: int, part: int = 0, parts: int = 1) -> Iterator[Choice]:
-        """Yield all choices for trains with exactly `added` added wheels that belong to the part with index `part`, of
-        `parts` parts in total.
+        """Yield all choices of one path for each dial that give trains with exactly `added` added wheels. If the search
+        is divided into `parts` parts, only the choices of the part with index `part` are yielded.
         """
         self._added = added
         lists = {dial: np.flatnonzero(paths.wheels <= added) for dial, paths in self.lists.items()}
@@ -256,7 +256,7 @@ class TopologySearch:
         self._trains = TopologyTrains(problem)
 
     def counted(self, task: TopologyTask) -> Iterator[CountedTopology]:
-        """Yield the topologies of one part of the search that have at least one train."""
+        """Yield the topologies of one task that have at least one train, with their numbers of choices and trains."""
         for chosen in self._choice.choices(task.added, task.part, task.parts):
             for topology in self._trees.topologies(chosen, task.added):
                 choices = self._trains.counts.total(OpenCounts(topology.added, topology.wanted))
@@ -277,7 +277,9 @@ class CountedTopology:
 
 
 class TopologyTask(NamedTuple):
-    """One part of the search for the topologies that have a given number of added wheels."""
+    """Task of a search: one of several parts of the search for the topologies that have a given number of added
+    wheels.
+    """
 
     problem: ReconstructionProblem
     added: int
@@ -309,8 +311,8 @@ def count_topologies(
 
 
 def _counted(task: TopologyTask) -> list[tuple[Any, int, int]]:
-    """Return the topologies of one part of the search as plain data, each with its number of choices of tooth counts
-    and its number of trains.
+    """Return the topologies of one task as plain data, each with its number of choices of tooth counts and its number
+    of trains.
     """
     counted = _search(task.problem).counted(task)
     return [(TOPOLOGIES.dump_python(each.topology, mode="json"), each.choices, each.solutions) for each in counted]

@@ -117,7 +117,9 @@ def are_spur_mates(train: Train, tree: Tree, pair: Iterable[str], carrier: str) 
 
 @dataclass(frozen=True)
 class SpurTree:
-    """Tree of the arbors in one part of a train, from the first arbor to the arbors that carry pointers."""
+    """Tree of arbors that a reconstruction can find in a train, on the frame or on one carrier, from its first arbor to
+    the arbors that carry pointers. Such a tree is called a part of the train.
+    """
 
     train: Train
     base: BaseLink
@@ -357,8 +359,8 @@ class _Base:
 
 
 class _Parts:
-    """Search for the parts of a train. `loop` describes the last closed loop of meshes that was found; a part with a
-    closed loop is excluded.
+    """Search for the parts of a train, which are trees of arbors. A part whose meshes close a loop is excluded; `loop`
+    describes the last such loop.
     """
 
     def __init__(self, train: Train) -> None:
@@ -425,7 +427,9 @@ class _Parts:
     # first arbor of a part
 
     def _start_of(self, base: str, arbors: set[str], known: tuple[str, ...]) -> BaseLink | None:
-        """Return the base and the first arbor of a part; None if the part has no arbor with a known speed."""
+        """Return the base of a part and its first arbor, which has a known speed; None if no arbor of the part has a
+        known speed.
+        """
         frame, speed = self.train.frame, self._speed(base)
         if speed is None or (not speed and base != frame):
             return None
@@ -478,10 +482,8 @@ class _Parts:
         return _renamed(SpurTree(train, start, driven, joined, pointers, counts, teeth))
 
     def _known_outputs(self, base: str) -> Iterator[tuple[str, str, bool]]:
-        """Yield, for each output of known speed relative to the frame or the base, its name, its link, and whether it
-        has a target.
-
-        If the base is a carrier, the inputs of the train are also treated as outputs.
+        """Yield, for each output whose speed relative to the frame or the base is declared: its name, its link, and
+        whether it has a target. If the base is a carrier, the inputs of the train are also treated as outputs.
         """
         train = self.train
         for name, output in train.case(None).outputs.items():

@@ -92,7 +92,9 @@ Dials = tuple[str, ...]
 
 @dataclass(frozen=True)
 class Branching:
-    """Arbor at which paths to dials end or separate, with the chains of arbors that its wheels drive."""
+    """Arbor at which at least one path to a dial ends, or at which paths separate, or the input arbor; with the chains
+    of arbors that its wheels drive.
+    """
 
     name: str | None
     """Name of the surviving arbor; None for an added arbor."""
@@ -123,7 +125,9 @@ class Branching:
 
 @dataclass(frozen=True)
 class Chain:
-    """Arbors in series on the path to one or more dials, without a branching between them, and the end of the chain."""
+    """Arbors that drive each other in series on the path to one or more dials. Paths neither end nor separate at these
+    arbors; they do so at the end of the chain.
+    """
 
     dials: Dials
     """Dials to which the chain leads."""

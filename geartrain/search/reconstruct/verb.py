@@ -257,8 +257,8 @@ class CommandRun(ReconstructionRun):
 
     @contextmanager
     def part(self, what: str) -> Iterator[Execution]:
-        """Yield an executor with a progress bar for another part of the work. After an interruption, the results of
-        this part that are not yet computed are missing in the answer.
+        """Yield an executor with a progress bar for the part of a reconstruction with the name `what`. After an
+        interruption, results of this part that are not yet computed are missing in the answer.
         """
         try:
             with self._options.executor(what) as executor, progress(what, patience=_PATIENCE) as bar:

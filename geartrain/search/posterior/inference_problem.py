@@ -167,10 +167,8 @@ def _check(
         what, why = f"the tolerance {tolerance} is negative", "a tolerance is a maximum magnitude of an error"
         raise QuestionError(Problem(what, why, "give a tolerance >= 0"))
     if scale < 0:
-        what, why = (
-            f"the tolerance factor {scale} is negative",
-            "tolerances are multiplied by it and cannot be negative",
-        )
+        what = f"the tolerance factor {scale} is negative"
+        why = "tolerances are multiplied by it and cannot be negative"
         raise QuestionError(Problem(what, why, "give a factor >= 0"))
 
 

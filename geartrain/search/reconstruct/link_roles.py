@@ -91,11 +91,8 @@ def _frame_problems(evidence: Train) -> Iterator[Problem]:
     turning = [link for link, speed in inputs.items() if speed]
     if len(turning) != 1 or len(inputs) != 1:
         what = f"{len(turning)} links are driven" if len(inputs) == len(turning) else "the speed of an input is 0"
-        why, fix = (
-            "a reconstruction needs exactly one input, with a speed other than 0",
-            "give one, such as `inputs: {b: 1}`",
-        )
-        yield Problem(what, why, fix, evidence.place("inputs"))
+        why = "a reconstruction needs exactly one input, with a speed other than 0"
+        yield Problem(what, why, "give one, such as `inputs: {b: 1}`", evidence.place("inputs"))
     frame = evidence.links.get(evidence.frame)
     if frame is not None and frame.wheels:
         what = "the frame has wheels, but no carrier is named"

@@ -381,7 +381,7 @@ def test_who_does_the_work_changes_nothing(tmp_path: Any) -> None:
         ({"samples": 0}, "samples is 0"),
         ({"method": "guess"}, "'guess' is not a method"),
         ({"scale": Fraction(-1)}, "tolerance factor -1"),
-        ({"tolerance": Fraction(-1)}, "must not be negative"),
+        ({"tolerance": Fraction(-1)}, "the tolerance -1 is negative"),
         ({"method": "exact", "limit": 1}, "the exact method needs more than 1 steps"),
     ],
 )

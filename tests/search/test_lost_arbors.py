@@ -113,7 +113,7 @@ def test_the_train_as_a_candidate() -> None:
     lost = Arbor(None, wheel(20), (), ((wheel(14), (moon,)),))
     assert tree.arbor(["b"]) == Arbor("a", None, (), ((wheel(10, "a1"), (lost,)), (wheel(12, "a2"), (sun,))))
     assert not {"d", "e"} & {*tree.arbors}
-    assert not tree.has_idlers
+    assert not lost_evidence(tree, ["b"]).reconstruct.idlers
 
 
 def test_the_last_arbor_whose_speed_is_known_is_a_pointer() -> None:
@@ -134,20 +134,10 @@ def test_a_wheel_that_is_driven_and_drives_is_an_idler() -> None:
     assert lost_evidence(tree, ["s"]).reconstruct.idlers
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "why"),
-    [
-        ("inputs: {a: 1}", "inputs: {a: 1, b: 2}", "has 2 inputs that turn"),
-        ("[b2, c1]}", "[b2, c1]}\n  - {pair: [b3, s1]}", "close a loop at 'b3~s1'"),
-        ("inputs: {a: 1}", "inputs: {a: 1}\nfixed: [c]", None),
-    ],
-)
-def test_only_trees_of_spur_wheels_are_taken(old: str, new: str, why: str | None) -> None:
-    if why is None:
-        assert "moon" not in sample(old, new).pointers
-    else:
-        with pytest.raises(GearTrainError, match=why):
-            sample(old, new)
+def test_only_trees_of_spur_wheels_with_one_input_are_taken() -> None:
+    assert "moon" not in sample("inputs: {a: 1}", "inputs: {a: 1}\nfixed: [c]").pointers
+    with pytest.raises(GearTrainError, match="has 2 inputs that turn"):
+        sample("inputs: {a: 1}", "inputs: {a: 1, b: 2}")
 
 
 def test_a_ring_turns_with_what_drives_it_and_is_not_lost() -> None:

@@ -79,8 +79,9 @@ def _dial(given: dict[str, Any]) -> SearchedDial:
 
 
 def _parameter(question: dict[str, Any]) -> Any:
-    name = question["name"]
-    return pytest.param(question, id=name.replace(" ", "-"), marks=[pytest.mark.slow] if name in LONG else [])
+    name = question.get("name") or "-".join(map(str, [*question["dials"], *question["added"], len(question["counts"])]))
+    marks = [pytest.mark.slow] * (name in LONG) + [pytest.mark.long] * question.get("slow", False)
+    return pytest.param(question, id=name.replace(" ", "-"), marks=marks)
 
 
 @pytest.mark.parametrize("question", [*map(_parameter, QUESTIONS)])
@@ -96,12 +97,7 @@ def test_plain_growth_has_the_counts_of_toys_and_of_al_biruni(question: dict[str
     assert found == question["counts"]
 
 
-def _carried(question: dict[str, Any]) -> Any:
-    name = "-".join(map(str, [*question["dials"], *question["added"], len(question["counts"]) - 1]))
-    return pytest.param(question, id=name, marks=[pytest.mark.long] if question.get("slow") else [])
-
-
-@pytest.mark.parametrize("question", [*map(_carried, CARRIED)])
+@pytest.mark.parametrize("question", [*map(_parameter, CARRIED)])
 def test_counts_on_a_carrier_are_those_of_another_program(question: dict[str, Any]) -> None:
     evidence = read_evidence("front-planets").model_dump(mode="json", exclude_unset=True, by_alias=True)
     evidence["outputs"] = {dial: evidence["outputs"][dial] for dial in question["dials"]}
@@ -144,29 +140,6 @@ def test_back_wheels_have_as_many_trains_with_five_added_as_another_program_foun
     problem = replace(problem, additions=replace(problem.additions, wheels=5))
     found = find_reconstructions(problem, listed=0)
     assert [each.solutions for each in found.counts] == [0, 0, 0, 21, 3674, 879_124]
-
-
-@pytest.mark.slow
-def test_counts_in_doubt_have_the_trains_of_each_combination() -> None:
-    whole = _read(evidence_question(read_evidence("back-wheels")).problem, {"l1": (37, 38), "e3": (222, 223)})
-    each = [_read(whole, {"l1": (one,), "e3": (other,)}) for one in (37, 38) for other in (222, 223)]
-    counts = [[count.solutions for count in find_reconstructions(one, listed=0).counts] for one in (whole, *each)]
-    assert counts[0] == [sum(column) for column in zip(*counts[1:], strict=True)]
-    assert counts[0][3]
-
-
-def _read(problem: ReconstructionProblem, counts: dict[str, tuple[int, ...]]) -> ReconstructionProblem:
-    """The same with fewer readings of some wheels, and the best of others that are in doubt."""
-    best = {"m1": (96,), "e4": (188,), "f1": (53,), "g1": (54,), **counts}
-
-    def kept(arbor: SurvivingArbor) -> SurvivingArbor:
-        wheels = (
-            replace(wheel, counts=tuple(one for one in wheel.counts if one[0] in best.get(wheel.name, (one[0],))))
-            for wheel in arbor.wheels
-        )
-        return replace(arbor, wheels=tuple(wheels))
-
-    return replace(problem, arbors=tuple(map(kept, problem.arbors)))
 
 
 def _plain(problem: ReconstructionProblem) -> tuple[Any, ...]:

@@ -52,7 +52,9 @@ class PeriodTargets:
 
     @cached_property
     def logs(self) -> tuple[tuple[float, float], ...]:
-        """Natural logarithms of `bounds`. Each interval is widened by the rounding error."""
+        """Natural logarithms of the bounds of each period, (minimum, maximum). Both are moved outwards by `ROUNDING`,
+        so that rounding errors exclude no admissible period.
+        """
         return tuple((math.log(low) - ROUNDING, math.log(high) + ROUNDING) for low, high in self.bounds)
 
     @property
@@ -143,8 +145,8 @@ class PairRatios:
         return int(self.driven[at]), int(self.driver[at])
 
     def choices(self, driven: int, driver: int) -> tuple[tuple[int, int], ...]:
-        """Return all admissible pairs of tooth counts (driven, driver) whose ratio is driven / driver, given in lowest
-        terms. Pairs with the fewest teeth come first.
+        """Return all pairs of admissible tooth counts (driven, driver) that have a given ratio. The arguments are the
+        numerator and the denominator of the ratio in lowest terms. Pairs with the fewest teeth come first.
         """
         found = self._choices.get((driven, driver))
         if found is None:
@@ -193,8 +195,8 @@ def pair_ratios(counts: Sequence[int]) -> PairRatios:
 
 @dataclass(frozen=True)
 class ReachablePeriods:
-    """Requested periods that two gear pairs in series can drive from one arbor, for each of m possible intermediate
-    arbors.
+    """Intermediate arbors, m in number, from which one gear pair can drive at least one requested period. Another gear
+    pair drives each intermediate arbor from a common arbor.
     """
 
     first: Ints
@@ -206,11 +208,14 @@ class ReachablePeriods:
 
 
 def reach(table: PairRatios, targets: PeriodTargets, log_period: float, requested: int) -> ReachablePeriods:
-    """Return all intermediate arbors from which one gear pair can drive at least one requested target.
+    """Return all intermediate arbors, driven by one gear pair, from which a second gear pair can drive at least one
+    requested period.
 
-    If several ratios lead to a target, one of them is returned. Ratios are selected in floating point with a margin,
-    and are compared exactly where they are used. The table and the queries are sorted, so each target requires one pass
-    over the table.
+    log_period   natural logarithm of the period of the arbor that drives the intermediate arbors
+    requested    bit mask of the requested periods that are considered; the bit of the period with index i is 2^i
+
+    If several ratios lead to a period, one of them is returned. Ratios are selected in floating point with a margin, so
+    the caller must check the periods exactly.
     """
     logs, size = table.logs, len(table)
     found = np.full((len(targets.periods), size), -1, dtype=np.int32)
@@ -331,7 +336,10 @@ FIRST = TreeArbor(-1, -1, 1, 1, 1, 1)
 
 
 def grown(tree: ArborTree, target: int, parent: int, driven: int, driver: int) -> TreeArbor:
-    """Return a new arbor that is driven from arbor `parent` of the tree by a pair with the ratio driven / driver."""
+    """Return a new arbor that is driven from arbor `parent` of the tree by a pair with the ratio driven / driver.
+
+    target   index of the requested period of the new arbor; -1 for an intermediate arbor
+    """
     n, d = times(tree[parent].n, tree[parent].d, driven, driver)
     return TreeArbor(target, parent, driven, driver, n, d)
 
@@ -342,11 +350,11 @@ def edges(tree: ArborTree) -> list[Edge]:
 
 
 class TreeEnumeration:
-    """Enumeration of every tree with exactly `extra` intermediate arbors.
+    """Enumeration of every tree of arbors that has exactly `extra` intermediate arbors and one arbor for each requested
+    period.
 
-    Each target that one pair can drive from an arbor is either driven from this arbor or left for later arbors. One
-    more intermediate arbor is then added. Each tree is visited once for each order in which its intermediate arbors can
-    be added.
+    A period that one pair can drive from an arbor is driven from this arbor, or else from a later arbor; both are
+    tried. Each tree is visited once for each order in which its intermediate arbors can be added.
     """
 
     def __init__(
@@ -355,16 +363,19 @@ class TreeEnumeration:
         self.table, self.targets, self.extra, self.tell = table, targets, extra, tell
 
     def trees(self) -> Iterator[ArborTree]:
-        """Yield all trees of the enumeration."""
+        """Yield all trees of arbors that have exactly `extra` intermediate arbors and drive all requested periods."""
         yield from self._with_targets((FIRST,), self.targets.everything, self.extra, 0)
 
     def _with_targets(
         self, tree: ArborTree, left: int, extra: int, requested: int, blank: bool = True
     ) -> Iterator[ArborTree]:
-        """Yield the trees in which arbors with index `requested` and above drive targets; earlier arbors are not
-        changed.
+        """Yield all complete trees that extend a tree by new arbors. Arbors with an index below `requested` drive no
+        further arbors with a requested period.
 
-        If `blank` is False, the arbor with index `requested` must drive at least one target.
+        left        bit mask of the requested periods that no arbor has yet
+        extra       number of intermediate arbors that are still to be added
+        requested   index of the arbor for which driven arbors are chosen next
+        blank       False if the arbor with index `requested` must drive at least one arbor with a requested period
         """
         if requested == len(tree):
             if left:
@@ -391,7 +402,9 @@ class TreeEnumeration:
             yield from self._with_targets(tree + arbors, rest, extra, requested + 1)
 
     def _with_extra_arbor(self, tree: ArborTree, left: int, extra: int) -> Iterator[ArborTree]:
-        """Yield the trees with one more intermediate arbor. It may be driven from any arbor of the tree."""
+        """Yield all complete trees in which one more intermediate arbor is driven from any arbor of the tree. The bit
+        mask `left` selects the periods without an arbor; `extra` intermediate arbors are to be added in total.
+        """
         if not extra:
             return
         for parent, arbor in enumerate(tree):

@@ -264,10 +264,10 @@ def find_orrery(
     if first in targets.names:
         what = f"the first arbor and a period are both named {first!r}"
         why = "arbors are named after their periods, and names of arbors must be unique"
-        raise QuestionError(Problem(what, why, "rename the first arbor"))
+        raise QuestionError(Problem(what, why, f"give the period another name, such as '{first} hand'"))
     if "frame" in (first, *targets.names):
         what, why = "an arbor is named 'frame'", "this name is reserved for the link that carries the arbors"
-        raise QuestionError(Problem(what, why, "rename the arbor"))
+        raise QuestionError(Problem(what, why, "give the period or the first arbor another name"))
     search = _OrrerySearch(pair_ratios(counts), targets, tell)
     ended = search.run(effort, walk)
     if search.best is None:
@@ -414,12 +414,16 @@ class PartialTree:
 
     @property
     def rank(self) -> tuple[int, float]:
-        """Sort key of the tree: its number of wheels, then `bulk`. Lower is better."""
+        """Sort key of the tree, lower is better: its number of wheels, then the sum of the logarithms of the numerators
+        and denominators of its ratios.
+        """
         return self.wheels, self.bulk
 
     @property
     def key(self) -> _Key:
-        """Key that detects duplicates. It is equal for trees whose arbors have the same targets and periods."""
+        """Set of (index of the requested period, numerator and denominator of the period) of all arbors. Trees with
+        equal sets are duplicates.
+        """
         return frozenset((arbor.target, arbor.n, arbor.d) for arbor in self.tree)
 
 
@@ -465,8 +469,9 @@ class BeamSearch:
                 chosen = _best(levels[shown + 1], width)
 
     def _seed_trees(self, part: PartialTree, most: int) -> Iterator[PartialTree]:
-        """Yield trees with one more intermediate arbor, whose period is much nearer to the requested periods. Trees
-        with the simplest ratios come first.
+        """Yield at most `most` trees that extend a tree by one intermediate arbor, which is driven from its last arbor
+        with a large speed change towards the requested periods. Trees whose new ratio has the smallest numerator and
+        denominator come first.
         """
         # periods are mostly longer, or mostly shorter, than a turn of the first arbor
         side = math.copysign(1.0, sum(low for low, _ in self.targets.logs))
@@ -481,8 +486,9 @@ class BeamSearch:
         return PartialTree(tree, left, wheels, bulk)
 
     def _children(self, part: PartialTree) -> Iterator[PartialTree]:
-        """Yield the best extensions of a partial tree. An extension adds one arbor with its targets, and possibly
-        further targets of the new arbors.
+        """Yield the best extensions of a partial tree. Each extension adds an intermediate arbor and the arbors of all
+        requested periods that it drives, and then drives further requested periods from the new arbors, if one pair is
+        sufficient.
         """
         reaches = [reach(self.table, self.targets, arbor.log, part.left) for arbor in part.tree]
         rows = np.concatenate([self._moves(part, at, known) for at, known in enumerate(reaches)])
@@ -512,8 +518,12 @@ class BeamSearch:
                         yield from self._direct(child, parent)
 
     def _moves(self, part: PartialTree, parent: int, known: ReachablePeriods) -> Floats:
-        """Return a table of the moves from arbor `parent`, shape (moves, 5). Its columns are: number of targets gained,
-        number of wheels added, `bulk`, driving arbor, and row in `known`.
+        """Return a table of the possible extensions of a tree by an intermediate arbor that arbor `parent` drives,
+        shape (extensions, 5).
+
+        Its columns are: number of requested periods that the new arbor drives, number of added wheels, sum of the
+        logarithms of numerators and denominators of the added ratios, index `parent`, and index of the intermediate
+        arbor in the arrays of `known`.
         """
         gained, first = (known.next >= 0).sum(axis=1), known.first
         # two wheels per pair, minus those that can be shared
@@ -542,10 +552,9 @@ class BeamSearch:
         return able.astype(np.int64)
 
     def _joint(self, mine: Ints, mate: Ints, other: Ints, its_mate: Ints) -> Ints:
-        """Return 1 if the pairs of two ratios can share a wheel, and 0 if they cannot.
-
-        A wheel can be shared if the terms `mine` and `other` of the two ratios have a common multiple for which all
-        four tooth counts are admissible.
+        """Return 1 if two gear pairs can share a wheel, and 0 if they cannot. The wheel can be shared if the terms
+        `mine` and `other` of the two ratios have a common multiple for which all four tooth counts are admissible;
+        `mate` and `its_mate` are the other terms of the two ratios.
         """
         common = np.lcm(mine, other)
         largest = np.maximum(common, np.maximum(common // mine * mate, common // other * its_mate))
@@ -556,7 +565,9 @@ class BeamSearch:
         return good
 
     def _built(self, part: PartialTree, parent: int, known: ReachablePeriods, at: int) -> PartialTree | None:
-        """Return the tree after a move; None if exact arithmetic rejects all targets of the move."""
+        """Return the tree extended by intermediate arbor `at` of `known`, driven from arbor `parent`, and by the arbors
+        that it drives. Return None if no requested period is within its tolerance in exact arithmetic.
+        """
         tree = (*part.tree, grown(part.tree, -1, parent, *self.table.terms(int(known.first[at]))))
         extra, left = len(tree) - 1, part.left
         for target, further in enumerate(known.next[at]):
@@ -569,9 +580,9 @@ class BeamSearch:
 
 
 def _best(level: dict[_Key, PartialTree], width: int) -> list[PartialTree]:
-    """Return the `width` best partial trees of a level.
+    """Return the `width` best partial trees of a mapping in which all trees drive the same number of requested periods.
 
-    Only a few trees with the same targets and periods are selected before trees with other targets or periods.
+    Only a few trees whose arbors have the same requested periods and exact periods are selected before other trees.
     """
     kept: list[PartialTree] = []
     spare: list[PartialTree] = []

@@ -270,8 +270,8 @@ def _single_output_evidence(question: InferenceProblem, seed: int) -> dict[str, 
 
 
 def find_exact_posterior(question: InferenceProblem, most: int, limit: float) -> PosteriorSummary:
-    """Return the exact posterior of the tooth counts, computed by a join. `BudgetSpentError` is raised if the number of
-    steps exceeds `limit`.
+    """Return the exact posterior of the tooth counts, computed by a join. `BudgetSpentError` is raised if the join
+    examines more than `limit` partial combinations.
 
     most   maximum number of combinations to list
     """
@@ -307,7 +307,7 @@ def find_exact_posterior(question: InferenceProblem, most: int, limit: float) ->
 
 def evidence_of(question: InferenceProblem, limit: float) -> CountProbability:
     """Return the evidence of the observations, which is the prior mean of the likelihood. `BudgetSpentError` is raised
-    if the number of steps exceeds `limit`.
+    if the join examines more than `limit` partial combinations.
     """
     if question.soft:
         root, _ = _recorded(question, limit)

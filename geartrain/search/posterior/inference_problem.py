@@ -66,7 +66,9 @@ class InferenceProblem:
 
     @property
     def moved(self) -> dict[str, ToothCountPrior]:
-        """Priors of the wheels on which an observed output or a condition depends, in the order of declaration."""
+        """Priors of the wheels on whose tooth counts an observed output or a condition for the train to turn depends,
+        keyed by wheel in the order of declaration.
+        """
         functions = [witness.function for witness in self.witnesses] + [one.function for one in self.conditions]
         wheels = {wheel for function in functions for wheel in function.wheels}
         return {wheel: uncertainty for wheel, uncertainty in self.uncertainties.items() if wheel in wheels}
@@ -162,13 +164,11 @@ def _check(
         what, why = f"'{against}' is not a kind of observation", "valid kinds are all, targets and figures"
         raise QuestionError(Problem(what, why, suggest(against, LIKELIHOOD_KINDS)))
     if tolerance is not None and tolerance < 0:
-        what, why = f"the tolerance {tolerance} is negative", "a tolerance must not be negative"
+        what, why = f"the tolerance {tolerance} is negative", "a tolerance is a maximum magnitude of an error"
         raise QuestionError(Problem(what, why, "give a tolerance >= 0"))
     if scale < 0:
-        what, why = (
-            f"the tolerance factor {scale} is negative",
-            "tolerances are multiplied by it and cannot be negative",
-        )
+        what = f"the tolerance factor {scale} is negative"
+        why = "tolerances are multiplied by it and cannot be negative"
         raise QuestionError(Problem(what, why, "give a factor >= 0"))
 
 

@@ -19,7 +19,9 @@ Method = Literal["exact", "sample"]
 
 @dataclass(frozen=True, slots=True)
 class CountProbability(Result):
-    """Probability. It is exact, correct up to rounding errors, or estimated from a sample."""
+    """Probability of a tooth count or of an observation. It is exact, correct up to rounding errors, or estimated from
+    a sample.
+    """
 
     KEYS = (Key("value", to=float), "exact", "low", "high")
 

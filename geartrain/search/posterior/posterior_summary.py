@@ -46,8 +46,9 @@ _NONE = 1e-13
 
 
 def first_with_ties(candidates: Iterator[GradedAssignment], most: int) -> tuple[list[GradedAssignment], bool]:
-    """Return the first `most` candidates with all candidates that may be tied with the last of them, and whether all
-    such ties are included.
+    """Return the first `most` candidates in ascending order of misfit, followed by all candidates whose misfit equals
+    that of the last of them up to rounding errors. The second result is False if some of these equal candidates are
+    omitted.
     """
     # misfits in floats: entries that may be tied with the last are later sorted exactly
     found: list[GradedAssignment] = []
@@ -232,7 +233,10 @@ def _moments(
     question: InferenceProblem, by: Mapping[str, Sequence[Any]], total: Any
 ) -> tuple[dict[str, float], dict[str, float]]:
     """Return the posterior mean and the posterior standard deviation of each tooth count, keyed by wheel. The standard
-    deviation is 0 if the tooth count is almost certain.
+    deviation is set to 0 if it is less than `_CERTAIN` times the range of the possible tooth counts.
+
+    by      posterior weight of each possible tooth count, keyed by wheel
+    total   sum of the posterior weights of one wheel
     """
     means, spreads = {}, {}
     for wheel, weights in by.items():
@@ -362,7 +366,9 @@ def _listed_indices(name: str, formula: Formula, uncertainties: Sequence[ToothCo
 
 
 def _has_pole(formula: Formula, uncertainties: Sequence[ToothCountPrior], places: NDArray[np.int64]) -> bool:
-    """Return whether the speed is undefined for one of the given combinations, by exact arithmetic."""
+    """Return whether the speed is undefined for one of the combinations of tooth counts with the given flat indices
+    `places`, by exact arithmetic.
+    """
     shape = [len(uncertainty.counts) for uncertainty in uncertainties]
     for place in places:
         at = np.unravel_index(int(place), shape)

@@ -115,9 +115,10 @@ class PosteriorTally:
     weight    sum of the likelihoods
     square    sum of the squared likelihoods, for confidence intervals
     by        sum of the likelihoods for each tooth count of each wheel
-    sizes     weighted sums of products of two tooth counts, each minus the value of `origin_of` for its wheel
-    best      pairs (misfit, indices of tooth counts) in ascending order
-    ranked    False if ties were omitted
+    sizes     for each pair of wheels, sum of likelihood (x - a) (y - b), where x and y are the tooth counts of the two
+              wheels, and a and b are their most probable tooth counts in the prior
+    best      best combinations as (misfit, indices of tooth counts), in ascending order of misfit
+    ranked    False if combinations with the same misfit as the last of `best` are omitted
     """
 
     def __init__(self, batch: LikelihoodBatch, most: int) -> None:
@@ -174,7 +175,7 @@ def sample_task(shared: bytes, task: Sequence[int]) -> dict[str, Any]:
     """Draw combinations from the prior, and return the sums of their likelihoods as plain data.
 
     shared  pickled inference problem, and number of combinations to list
-    task   random seed, number of the block, number of combinations
+    task    random seed, number of the task (which selects an independent random stream), and size of the sample
     """
     batch, most = _unpacked(shared)
     seed, block, size = task

@@ -40,7 +40,7 @@ _LONGEST = 12_000_000
 
 @lru_cache(maxsize=16)
 def product_tally(wheels: int, counts: Range) -> NDArray[np.int64]:
-    """Return an array in which entry n is the number of choices of `wheels` tooth counts whose product is n."""
+    """Return an array in which entry n is the number of ordered choices of `wheels` tooth counts whose product is n."""
     if not wheels:
         return np.array([0, 1], dtype=np.int64)
     before = product_tally(wheels - 1, counts)
@@ -91,10 +91,10 @@ def list_choices(
 def quotients_of_parts(
     quotient: Fraction, one: tuple[int, int], other: tuple[int, int], counts: Range
 ) -> tuple[tuple[Fraction, int], ...]:
-    """Return the possible quotients of the first of two groups whose total quotient is given. Each quotient is returned
-    with the number of choices of tooth counts for both groups.
+    """Divide wheels into two groups, and return each possible quotient of the first group with the number of choices of
+    tooth counts of both groups. The quotient of all wheels is given.
 
-    A group is given as (number of driving wheels, number of driven wheels).
+    one, other   numbers of driving wheels and of driven wheels in the first and in the second group
     """
     found: dict[Fraction, int] = {}
     for drivers, driven in list_choices(quotient, one[0] + other[0], one[1] + other[1], counts):
@@ -213,8 +213,8 @@ Counts = dict[Dials, tuple[tuple[int, ...], tuple[int, ...]]]
 
 
 class OpenCounts(NamedTuple):
-    """Added wheels whose tooth counts are not yet chosen, with the required quotients of these tooth counts and the
-    upper limits set by rings. All are in sorted order.
+    """Added wheels whose tooth counts are not yet chosen, required quotients of these tooth counts, and kinds of wheels
+    whose tooth count is limited because they mesh with a ring. All are in sorted order.
     """
 
     added: AddedWheels
@@ -234,8 +234,8 @@ class OpenCounts(NamedTuple):
                 yield AddedKind(dials, drives), left
 
     def with_one(self, kind: AddedKind, count: int) -> OpenCounts:
-        """Return the remaining problem if one wheel of the given kind has the tooth count `count`, which must be within
-        the limit of the kind.
+        """Return the added wheels and the required quotients that remain after one wheel of the given kind has received
+        the tooth count `count`. The count must not exceed the maximum of this kind.
         """
         limits = list(self.limits)
         if kind.most is not None:
@@ -272,8 +272,8 @@ class AddedCounts:
         return int(self._count(groups, alike) * (maximum - minimum + 1) ** idle) if alike is not None else 0
 
     def assignments(self, added: AddedWheels, wanted: Wanted) -> Iterator[tuple[Counts, tuple[int, ...]]]:
-        """Yield each assignment as the tooth counts of the groups and the tooth counts of the wheels that affect no
-        speed.
+        """Yield each assignment as two parts: the tooth counts of the wheels that affect speeds, keyed by the dials
+        whose speeds they affect, and the tooth counts of the wheels that affect no speed.
         """
         alike = _merged_dials(added.groups, wanted)
         for counts in self._listed(added.groups, alike) if alike is not None else ():
@@ -364,8 +364,8 @@ class AddedCounts:
 
     @staticmethod
     def _next(groups: tuple[Group, ...], wanted: Wanted) -> tuple[int, Quotients, bool] | None:
-        """Return the index of the group to be eliminated next, the bounds of its quotient, and whether the group
-        affects only one dial. Return None if no group remains.
+        """Return the index of the group of added wheels to be eliminated next, the minimum and the maximum quotient of
+        its tooth counts, and whether the group affects only one dial. Return None if there is no group.
         """
         if not groups:
             return None
@@ -400,8 +400,8 @@ _LISTED_TOGETHER = 3
 
 
 def _pair(groups: tuple[Group, ...], wanted: Wanted) -> tuple[int, int, Fraction] | None:
-    """Return the indices of two small groups that together determine the speed of a dial with an exact speed, and their
-    total quotient; None if there are no such groups.
+    """Return the indices of two groups with few added wheels that together determine an exact speed of a dial, and the
+    total quotient of their tooth counts; None if there are no such groups.
     """
     best, fewest = None, _LISTED_TOGETHER + 1
     for dial, (low, high) in wanted:
@@ -413,14 +413,14 @@ def _pair(groups: tuple[Group, ...], wanted: Wanted) -> tuple[int, int, Fraction
 
 
 def _may_satisfy(groups: tuple[Group, ...], wanted: Wanted) -> bool:
-    """Return whether every dial that depends on no remaining group has its required speed."""
+    """Return whether every dial that depends on none of the given groups of added wheels has its required speed."""
     open_dials = {dial for dials, _, _ in groups for dial in dials}
     return all(low <= 1 <= high for dial, (low, high) in wanted if dial not in open_dials)
 
 
 def _merged_dials(groups: tuple[Group, ...], wanted: Wanted) -> Wanted | None:
-    """Return the bounds after the bounds of all dials that depend on the same groups were merged. Return None if such
-    bounds do not intersect.
+    """Return the required quotients with one entry for all dials that depend on the same groups of added wheels: the
+    intersection of their ranges. Return None if an intersection is empty.
     """
     found: dict[tuple[int, ...], tuple[str, Quotients]] = {}
     for dial, (low, high) in wanted:
@@ -435,8 +435,8 @@ def _merged_dials(groups: tuple[Group, ...], wanted: Wanted) -> Wanted | None:
 
 
 def divided(wanted: Wanted, dials: Dials, quotient: Fraction) -> Wanted:
-    """Return the bounds that remain for the other groups if the group that affects the given dials has the given
-    quotient.
+    """Return the required quotients of the other added wheels if the group of wheels that affects the given dials has
+    the given quotient of tooth counts.
     """
     return tuple(
         (dial, (low / quotient, high / quotient) if dial in dials else (low, high)) for dial, (low, high) in wanted
@@ -462,14 +462,14 @@ class QuotientTables:
         self._counts = np.arange(minimum, maximum + 1, dtype=np.float64)
 
     def may_hold(self, bounds: Bounds, drivers: int, driven: int) -> Bools:
-        """Return, for each range, whether it may contain the product of `drivers` added tooth counts divided by the
-        product of `driven` added tooth counts. False is returned only if this is impossible.
+        """Return, for each range of quotients in `bounds`, whether it may contain a product of `drivers` added tooth
+        counts divided by a product of `driven` added tooth counts. False is returned only if this is impossible.
         """
         return _contain(self._table(drivers, driven), bounds)
 
     def fewest(self, bounds: Bounds) -> NDArray[np.int8]:
-        """Return, for each range, a lower bound of the number of added wheels with a quotient in this range. The bound
-        is at most `_FEW` + 1.
+        """Return, for each range of quotients in `bounds`, a lower bound of the number of added wheels with which a
+        quotient in this range is possible. The lower bound is at most `_FEW` + 1.
         """
         found = np.full(bounds[0].shape, _FEW + 1, dtype=np.int8)
         for wheels in range(_FEW, -1, -1):

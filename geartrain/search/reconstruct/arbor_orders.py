@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import product
 
 from geartrain.search.reconstruct.added_counts import Counts
@@ -38,13 +37,6 @@ def may_mesh(wheel: PlacedWheel, mate: PlacedWheel, rings: Rings) -> bool:
         return not internal
     ring, inside = (wheel, mate) if internal else (mate, wheel)
     return inside.teeth < ring.teeth
-
-
-def rings_limit(topology: Topology, rings: Rings, maximum: int) -> bool:
-    """Return whether a ring used in the topology has at most `maximum` teeth, so that it may limit the tooth counts of
-    added wheels.
-    """
-    return any(wheel.name in rings and wheel.teeth <= maximum for wheel in topology.used)
 
 
 class CountTokens:
@@ -96,32 +88,20 @@ _Driving = tuple[str | None, PlacedWheel]
 _Pairs = frozenset[frozenset[str]]
 
 
-@dataclass(frozen=True)
-class MeshFacts:
-    """Known facts about meshes: pairs of wheels that mesh, pairs that do not mesh, pairs of coaxial arbors, and
-    rings.
+def _known_pairs(
+    problem: ReconstructionProblem, driving: _Driving, arbor: str | None, driven: PlacedWheel | None
+) -> _Pairs | None:
+    """Return the set of the known meshing pairs of wheels that a mesh forms, which contains one pair or none. Return
+    None if the known facts exclude the mesh.
+
+    arbor, driven  name of the driven arbor, and driven wheel
     """
-
-    meshes: _Pairs = frozenset()
-    apart: _Pairs = frozenset()
-    coaxial: _Pairs = frozenset()
-    rings: Rings = frozenset()
-
-    @staticmethod
-    def of(problem: ReconstructionProblem) -> MeshFacts:
-        """Return the known facts about meshes of a problem."""
-        return MeshFacts(problem.meshes, problem.apart, problem.coaxial, problem.rings)
-
-    def met(self, driving: _Driving, arbor: str | None, driven: PlacedWheel | None) -> _Pairs | None:
-        """Return the known pairs of meshing wheels that a mesh realises, as a set with at most one pair. Return None if
-        the known facts exclude the mesh.
-        """
-        assert driven is not None
-        if _pair(driving[0], arbor) in self.coaxial or (pair := _pair(driving[1].name, driven.name)) in self.apart:
-            return None
-        if not may_mesh(driving[1], driven, self.rings):
-            return None
-        return frozenset({pair}) & self.meshes if pair is not None else frozenset()
+    assert driven is not None
+    if _pair(driving[0], arbor) in problem.coaxial or (pair := _pair(driving[1].name, driven.name)) in problem.apart:
+        return None
+    if not may_mesh(driving[1], driven, problem.rings):
+        return None
+    return frozenset({pair}) & problem.meshes if pair is not None else frozenset()
 
 
 def _pair(one: str | None, other: str | None) -> frozenset[str] | None:
@@ -132,7 +112,12 @@ def _pair(one: str | None, other: str | None) -> frozenset[str] | None:
 
 
 def _sequences(through: tuple[_Step, ...], compounds: int, idlers: int) -> Iterator[tuple[_Step, ...]]:
-    """Yield each order of the surviving and added arbors on a chain. Added arbors of one kind are interchangeable."""
+    """Yield each order of the arbors on a chain.
+
+    through     surviving arbors, each with its driven and its driving wheel
+    compounds   number of added arbors with two wheels, which are interchangeable
+    idlers      number of added arbors with one wheel, which are interchangeable
+    """
     if not through and not compounds and not idlers:
         yield ()
     for at, step in enumerate(through):
@@ -149,21 +134,26 @@ def _sequences(through: tuple[_Step, ...], compounds: int, idlers: int) -> Itera
 # trains
 
 
-def arranged(topology: Topology, counts: Counts, idle: tuple[int, ...], facts: MeshFacts) -> Iterator[Arbor]:
-    """Yield the trains of a topology with given tooth counts of the added wheels, one train for each permitted order of
-    arbors.
+def arranged(
+    topology: Topology, counts: Counts, idle: tuple[int, ...], problem: ReconstructionProblem | None
+) -> Iterator[Arbor]:
+    """Yield the trains of a topology with given tooth counts of the added wheels, one train for each order of arbors
+    that agrees with the known facts about meshes. If `problem` is None, all orders are permitted.
+
+    counts   tooth counts of the added wheels that affect speeds
+    idle     tooth counts of the added wheels that affect no speed
     """
     chains = topology.chains
     for chosen in product(*(_sequences(chain.through, chain.compounds, chain.idlers) for chain in chains)):
         orders = {id(chain): steps for chain, steps in zip(chains, chosen, strict=True)}
-        if _agrees(topology, orders, facts):
+        if problem is None or _agrees(topology, orders, problem):
             arbor = _Assembly(orders, counts, idle).branching(topology.root, ())
             # again, because added wheels have tooth counts only now
-            if all(may_mesh(wheel, mate, facts.rings) for wheel, mate in _meshes(arbor)):
+            if problem is None or all(may_mesh(wheel, mate, problem.rings) for wheel, mate in _meshes(arbor)):
                 yield arbor
 
 
-def _agrees(topology: Topology, orders: dict[int, tuple[_Step, ...]], facts: MeshFacts) -> bool:
+def _agrees(topology: Topology, orders: dict[int, tuple[_Step, ...]], problem: ReconstructionProblem) -> bool:
     """Return whether the meshes of a topology with given orders of arbors agree with the known facts."""
     found: _Pairs = frozenset()
     waiting = [(chain, (topology.root.name, driver)) for driver, chain in topology.root.driven_chains()]
@@ -174,7 +164,7 @@ def _agrees(topology: Topology, orders: dict[int, tuple[_Step, ...]], facts: Mes
         if isinstance(end, Branching):
             steps.append((end.name, end.driven, None))
         for name, driven, driver in steps:
-            met = facts.met(driving, name, driven)
+            met = _known_pairs(problem, driving, name, driven)
             if met is None:
                 return False
             found |= met
@@ -184,7 +174,7 @@ def _agrees(topology: Topology, orders: dict[int, tuple[_Step, ...]], facts: Mes
             waiting += [(each, (end.name, driver)) for driver, each in end.driven_chains()]
         else:
             waiting += [(each, driving) for each in end]
-    return found == facts.meshes  # every known mesh must be in the train
+    return found == problem.meshes  # every known mesh must be in the train
 
 
 class _Assembly:
@@ -197,7 +187,9 @@ class _Assembly:
         self.idle = iter(idle)
 
     def branching(self, branching: Branching, dials: Dials) -> Arbor:
-        """Return the arbor of a branching with its subtree. `dials` contains all dials of the subtree."""
+        """Return the arbor that corresponds to a branching of the topology, with all arbors that it drives. `dials`
+        contains all dials to which it leads.
+        """
         driven = branching.driven
         if driven == ADDED:
             turned = branching.turned_dials(dials)
@@ -209,12 +201,12 @@ class _Assembly:
         return Arbor(branching.name, driven, branching.here, tuple(drives), self.chains(branching.passes))
 
     def chains(self, chains: tuple[Chain, ...]) -> tuple[Arbor, ...]:
-        """Return the arbors that are driven by one wheel and at which the given chains begin."""
+        """Return the arbors that one wheel drives, if it drives the given chains of arbors."""
         return tuple(arbor for chain in chains for arbor in self.chain(chain))
 
     def chain(self, chain: Chain) -> tuple[Arbor, ...]:
-        """Return the first arbor of a chain with its subtree. If the chain has no arbors, return the arbors that follow
-        the chain.
+        """Return the first arbor of a chain, as a tuple with one element, with all arbors that it drives. If the chain
+        has no arbors of its own, return the arbors at its end.
         """
         end = chain.end
         below = (self.branching(end, chain.dials),) if isinstance(end, Branching) else self.chains(end)

@@ -101,7 +101,7 @@ class _Naming:
     """Names of wheels that are already in use."""
 
     def name(self, arbor: Arbor) -> NamedArbor:
-        """Return an arbor and its subtree with names."""
+        """Return a copy of an arbor and of all arbors that it drives, in which every arbor and wheel has a name."""
         link = arbor.name
         if link is None:
             wanted = f"{_ADDED}_{arbor.dials[0]}" if arbor.dials else numbered(_ADDED, self.links)

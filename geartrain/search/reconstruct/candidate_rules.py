@@ -56,8 +56,8 @@ distance  the radii of meshing wheels fit the distance of their axes
 
 @dataclass(frozen=True, slots=True)
 class BrokenRule(Result):
-    """Rule of the problem that a candidate breaks, and the change of the evidence with which the candidate would be
-    admissible.
+    """Rule of a reconstruction problem that is broken by a candidate, with the change of the evidence that would make
+    the candidate admissible.
     """
 
     rule: Rule
@@ -118,7 +118,9 @@ def speed_text(dial: SearchedDial) -> str:
 
 
 def _speeds(candidate: Arbor, speed: Fraction, rings: frozenset[str]) -> Iterator[tuple[Arbor, Fraction]]:
-    """Yield every arbor of a candidate with its speed [turns per unit of the input]."""
+    """Yield every arbor of a candidate with its speed [turns per unit of the input]. `speed` is the speed of the first
+    arbor.
+    """
     yield candidate, speed
     for wheel, child in candidate.driven_arbors():
         assert child.driven is not None
@@ -219,8 +221,6 @@ def _mesh_rules(candidate: Arbor, problem: ReconstructionProblem) -> Iterator[Br
 class KnownTrain:
     """Known train, converted to a candidate of a reconstruction problem."""
 
-    name: str
-    """Name of the train."""
     arbor: Arbor
     """Input arbor of the candidate. The candidate has a pointer for every dial of the problem that is connected to the
     input by meshes, even if its speed differs from the required speed.
@@ -262,7 +262,7 @@ class _TrainReading:
         wheels = [name for link in kept for name in (driven[link].driving, driven[link].driven)]
         counts = {name: self._teeth(name) for name in self.train.wheels if name in wheels}
         added = {name: teeth for name, teeth in counts.items() if name not in self._survivors}
-        return KnownTrain(self.train.name, arbor, added, tuple(self._notes()))
+        return KnownTrain(arbor, added, tuple(self._notes()))
 
     # names
 
@@ -315,8 +315,8 @@ class _TrainReading:
 
     @cached_property
     def _survivors(self) -> dict[str, str]:
-        """Name of the wheel in the problem, keyed by the name of the wheel in the train. Only wheels on the link of the
-        correct arbor are included.
+        """Name of the wheel in the problem, keyed by the name of the wheel in the train. Only wheels whose link
+        corresponds to the arbor that carries them in the problem are included.
         """
         return {
             self._matches[wheel.name]: wheel.name

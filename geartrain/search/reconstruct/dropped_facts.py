@@ -31,7 +31,7 @@ ChangedProblem = tuple[str, ReconstructionProblem]
 
 @dataclass(frozen=True, slots=True)
 class ChangedCount(Result):
-    """Number of trains that explain the evidence after one change."""
+    """Number of trains that explain the evidence after one change of the evidence."""
 
     change: str
     """Description of the change."""
@@ -83,7 +83,9 @@ def without_each_fact(problem: ReconstructionProblem) -> list[ChangedProblem]:
 
 
 def _facts(problem: ReconstructionProblem) -> Iterator[ChangedProblem]:
-    """Yield the problem without each known pair of wheels or arbors, and without the limits of distances."""
+    """Yield one problem for each known fact about two wheels or two arbors, in which this fact is omitted, and one
+    problem without the limits of axis distances.
+    """
     measured = frozenset(find_unreachable((problem.input, *problem.arbors), problem.geometry))
     for key, pairs, what in (
         ("meshes", problem.meshes, "that {} mesh"),
@@ -100,7 +102,9 @@ def _facts(problem: ReconstructionProblem) -> Iterator[ChangedProblem]:
 
 
 def _dials(problem: ReconstructionProblem) -> Iterator[ChangedProblem]:
-    """Yield the problem without the sense of each dial, without all senses, and without the arbor of each dial."""
+    """Yield one problem for each dial without its sense of rotation, one problem without all senses of rotation, and
+    one problem for each dial whose arbor is then unknown.
+    """
 
     def with_dials(changed: Mapping[str, SearchedDial]) -> ReconstructionProblem:
         return replace(problem, dials=tuple(changed.get(dial.name, dial) for dial in problem.dials))
@@ -119,7 +123,7 @@ def _dials(problem: ReconstructionProblem) -> Iterator[ChangedProblem]:
 
 
 def _rules(problem: ReconstructionProblem) -> Iterator[ChangedProblem]:
-    """Yield the problem without each rule for the use of surviving parts and for added parts."""
+    """Yield one problem for each rule on the use of surviving parts or on added parts, with this rule relaxed."""
     limits = problem.additions
     if problem.use == "wheels":
         yield "if every surviving arbor is used, but not every wheel", replace(problem, use="arbors")

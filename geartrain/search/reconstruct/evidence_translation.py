@@ -78,8 +78,8 @@ def find_dial(evidence: Train, name: str, free_sense: bool, base: BaseLink) -> S
 
 
 def _bounds(evidence: Train, name: str, free_sense: bool) -> tuple[Limits, bool]:
-    """Return the minimum and the maximum declared speed of an output, and True; or the minimum and the maximum of its
-    magnitude, and False.
+    """Return the minimum and the maximum declared speed of an output, and whether the sense of rotation is known. If it
+    is not known, they are the minimum and the maximum of the magnitude of the speed.
     """
     output, place = evidence.outputs[name], evidence.place("outputs", name)
     known = list(_ranges(evidence, output))
@@ -309,11 +309,11 @@ def _wheels(evidence: Train) -> Iterator[Problem]:
             continue
         for count in (teeth.range[1] - teeth.range[0] + 1 if teeth.range else 0, len(teeth.searched)):
             if count > _MOST_COUNTS:
-                what = f"a wheel has {count} possible counts"
+                what = f"wheel '{name}' has {count} possible tooth counts"
                 why = f"at most {_MOST_COUNTS} tooth counts per wheel can be searched"
                 yield Problem(what, why, "narrow the range of tooth counts", evidence.place(*loc, "teeth"))
         if fault := teeth.fault_of_weights:
-            what = "the weights of a tooth count do not define probabilities"
+            what = f"the weights of the tooth counts of wheel '{name}' do not define probabilities"
             fix = "give non-negative weights, at least one of them above 0"
             yield Problem(what, fault, fix, evidence.place(*loc, "teeth", "weights"))
 

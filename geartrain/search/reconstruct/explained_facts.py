@@ -7,7 +7,7 @@ determines the answer, so the expected information of an observation of the fact
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Iterator, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Literal, NamedTuple, get_args
@@ -53,8 +53,8 @@ _MOST_FACTS = 200
 
 
 class Fact(NamedTuple):
-    """Property of the candidates that has one answer in each candidate, such as the arbor that drives a given
-    arbor.
+    """Question about a train, such as which arbor drives a given arbor. Every candidate reconstruction gives exactly
+    one answer.
     """
 
     kind: FactKind
@@ -117,6 +117,8 @@ class NextFact(Result):
     """Other facts that partition the candidates in the same way."""
 
 
+ListedFacts = Mapping[Fact, Mapping[str, Sequence[int]]]
+"""Indices of the listed trains that give each answer to each fact."""
 WeighedTrains = Sequence[tuple[NamedArbor, int]]
 """Candidates in descending order of weight. The weights are integers, so that sums are exact and fast."""
 
@@ -162,66 +164,42 @@ class FactTally:
         return FactMarginal(fact.kind, fact.subject, tuple(answers))
 
 
-class ExplainedFacts:
-    """Marginal distributions of all facts, and groups of equivalent facts. Equivalent facts partition the trains in the
-    same way.
-
-    weighed   all trains, or only the best trains, with their weights
-    tally     sums over all trains, or None; if it is not None, equivalent facts must also have equal sums
+def _sorted_marginals(tally: FactTally) -> tuple[FactMarginal, ...]:
+    """Return the marginal distributions of all facts except facts of the kind `pair`, sorted by kind and then by
+    descending probability.
     """
 
-    def __init__(self, weighed: WeighedTrains, problem: ReconstructionProblem, tally: FactTally | None = None) -> None:
-        self._weighed = weighed
-        self._listed: dict[Fact, dict[str, list[int]]] = {}
-        lost, doubtful = lost_pointers(problem), uncertain_wheels(problem)
-        own = FactTally(problem)
-        for index, (train, weight) in enumerate(weighed):
-            own.add_trains(weight)
-            for fact, answer in train_facts(train, doubtful, lost):
-                self._listed.setdefault(fact, {}).setdefault(answer, []).append(index)
-                own.add(fact, answer, weight)
-        self._tally = own if tally is None else tally
+    def order(one: FactMarginal) -> tuple[object, ...]:
+        # facts with the answers yes and no by the probability of yes
+        share = one.answers[0].share if one.kind in _ELSE else one.share(YES)
+        return _KINDS.index(one.kind), -share, _answer_order(one.subject)
 
-    def marginals(self) -> tuple[FactMarginal, ...]:
-        """Return the marginal distributions of all facts except facts of the kind `pair`, sorted by kind and then by
-        descending probability.
-        """
+    return tuple(sorted((tally.marginal(fact) for fact in tally.facts() if fact.kind != "pair"), key=order))
 
-        def order(one: FactMarginal) -> tuple[object, ...]:
-            # facts with the answers yes and no by the probability of yes
-            share = one.answers[0].share if one.kind in _ELSE else one.share(YES)
-            return _KINDS.index(one.kind), -share, _answer_order(one.subject)
 
-        found = (self._tally.marginal(fact) for fact in self._tally.facts() if fact.kind != "pair")
-        return tuple(sorted(found, key=order))
+def _next_facts(tally: FactTally, listed: ListedFacts, trains: int) -> tuple[NextFact, ...]:
+    """Return the observable facts whose answers differ among the trains, in descending order of entropy. Equivalent
+    facts, which divide the trains in the same way, are combined into one entry.
 
-    def next_facts(self) -> tuple[NextFact, ...]:
-        """Return the observable facts whose answers differ among the trains, in descending order of entropy. Equivalent
-        facts are combined into one entry.
-        """
-        requested = [self._tally.marginal(fact) for fact in self._tally.facts() if fact.kind in LOOKED_FOR]
-        requested = [one for one in requested if len(one.answers) > 1]
-        order = {kind: at for at, kind in enumerate(LOOKED_FOR)}
-        # rounded, so that equal entropies are ordered by kind
-        requested.sort(key=lambda one: (-round(one.bits, 12), order[one.kind], one.subject))
-        alike: dict[Hashable, list[FactMarginal]] = {}
-        for one in requested[:_MOST_FACTS]:
-            alike.setdefault(self._parts(one), []).append(one)
-        return tuple(
-            NextFact(first, tuple(Fact(one.kind, one.subject) for one in others)) for first, *others in alike.values()
-        )
-
-    def _parts(self, one: FactMarginal) -> Hashable:
-        """Return the sets into which a fact partitions the listed trains. Each set is returned with the sums over all
-        trains that have the same answer.
-        """
+    trains   number of trains in `listed`
+    """
+    requested = [tally.marginal(fact) for fact in tally.facts() if fact.kind in LOOKED_FOR]
+    requested = [one for one in requested if len(one.answers) > 1]
+    order = {kind: at for at, kind in enumerate(LOOKED_FOR)}
+    # rounded, so that equal entropies are ordered by kind
+    requested.sort(key=lambda one: (-round(one.bits, 12), order[one.kind], one.subject))
+    alike: dict[Hashable, list[FactMarginal]] = {}
+    for one in requested[:_MOST_FACTS]:
         fact = Fact(one.kind, one.subject)
-        parts = [frozenset(indexes) for indexes in self._listed.get(fact, {}).values()]
-        rest = frozenset(range(len(self._weighed))).difference(*parts)
-        found = frozenset([*parts, *([rest] if rest else [])])
-        if len(found) < len(one.answers):  # the listed trains do not show the whole partition
-            return fact
-        return found, frozenset((answer.share, answer.solutions) for answer in one.answers)
+        parts = [frozenset(indexes) for indexes in listed.get(fact, {}).values()]
+        rest = frozenset(range(trains)).difference(*parts)
+        division = frozenset([*parts, *([rest] if rest else [])])
+        totals = frozenset((answer.share, answer.solutions) for answer in one.answers)
+        # if the listed trains do not show the whole division, the fact is equivalent to no other
+        alike.setdefault((division, totals) if len(division) >= len(one.answers) else fact, []).append(one)
+    return tuple(
+        NextFact(first, tuple(Fact(one.kind, one.subject) for one in others)) for first, *others in alike.values()
+    )
 
 
 def train_facts(train: NamedArbor, doubtful: set[str], lost: set[str]) -> Iterator[tuple[Fact, str]]:
@@ -313,7 +291,7 @@ def sum_facts(
 
 @dataclass(frozen=True, slots=True)
 class FamilyTrain(Result):
-    """Candidate that ends at a branch of the family tree."""
+    """Candidate whose last mesh, in the order of the family tree, belongs to a given branch."""
 
     KEYS = ("rank", Key("weight", "share", float), "counts")
 
@@ -475,19 +453,31 @@ def find_facts(
         return CandidateFindings(assumptions=assumptions)
     weights = whole_multiple([Fraction(one.weight) for one in candidates])
     weighed = [(named_candidate(evidence, one.arbor), each) for one, each in zip(candidates, weights, strict=True)]
-    tally = None
-    if found.topologies and sum(each.solutions for each in found.topologies) <= MOST_SUMMED:
+    lost, doubtful = lost_pointers(problem), uncertain_wheels(problem)
+    listed: dict[Fact, dict[str, list[int]]] = {}
+    for index, (train, _) in enumerate(weighed):
+        for fact, answer in train_facts(train, doubtful, lost):
+            listed.setdefault(fact, {}).setdefault(answer, []).append(index)
+    of_all = bool(found.topologies) and sum(each.solutions for each in found.topologies) <= MOST_SUMMED
+    if of_all:
         every = ((each.topology, topology_prior(each.topology, problem)) for each in found.topologies)
         tally = sum_facts(every, problem, evidence)
-    facts = ExplainedFacts(weighed, problem, tally)
-    marginals = facts.marginals()
+    else:
+        tally = FactTally(problem)
+        for _, weight in weighed:
+            tally.add_trains(weight)
+        for fact, answers in listed.items():
+            for answer, indexes in answers.items():
+                for index in indexes:
+                    tally.add(fact, answer, weighed[index][1])
+    marginals = _sorted_marginals(tally)
     differ = {fact.subject for fact in marginals if fact.kind == "count" and len(fact.answers) > 1}
     return CandidateFindings(
         len(candidates),
         float(min(1, sum(one.weight for one in candidates))),
-        tally is not None or len(candidates) == sum(count.solutions for count in found.counts),
+        of_all or len(candidates) == sum(count.solutions for count in found.counts),
         marginals,
-        facts.next_facts(),
+        _next_facts(tally, listed, len(weighed)),
         grow_family_tree(weighed, [name for name in evidence.wheels if name in differ]),
         assumptions,
     )

@@ -46,8 +46,8 @@ def candidate_likelihood(arbor: Arbor, geometry: SurvivingGeometry) -> float:
 
 
 class _Misfit(NamedTuple):
-    """Misfit of a part of a train as the function stiffness * (x - centre)^2 + misfit of x, the natural logarithm of a
-    module.
+    """Misfit of a part of a train as a function of x, the natural logarithm of the module of a wheel: stiffness * (x -
+    centre)^2 + misfit.
     """
 
     stiffness: float

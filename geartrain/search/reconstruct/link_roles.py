@@ -48,9 +48,9 @@ class BaseLink:
 
 
 def find_base(evidence: Train) -> BaseLink:
-    """Return the base of a reconstruction, which is the link that carries the arbors, and the input link of the train.
+    """Return the link that carries the arbors of a reconstruction, with its speed, and the input link of the train.
 
-    The evidence must be valid, that is, `base_problems` must not yield a problem.
+    The evidence must be valid, that is, `base_problems` must not yield an error message.
     """
     inputs = evidence.case(None).inputs
     carrier = _carrier(evidence)
@@ -62,8 +62,8 @@ def find_base(evidence: Train) -> BaseLink:
 
 
 def base_problems(evidence: Train) -> Iterator[Problem]:
-    """Yield a problem for each declaration that leaves the base or the input of the train undetermined, or that is not
-    supported.
+    """Yield an error message for each declaration that is not supported, or that leaves open which link carries the
+    arbors or which link is the input.
     """
     carrier = _carrier(evidence)
     if not evidence.case(None).exact:
@@ -86,16 +86,13 @@ def _carrier(evidence: Train) -> str | None:
 
 
 def _frame_problems(evidence: Train) -> Iterator[Problem]:
-    """Yield the problems of evidence in which arbors turn on the frame."""
+    """Yield an error message for each unsupported declaration of evidence in which arbors turn on the frame."""
     inputs = evidence.case(None).inputs
     turning = [link for link, speed in inputs.items() if speed]
     if len(turning) != 1 or len(inputs) != 1:
         what = f"{len(turning)} links are driven" if len(inputs) == len(turning) else "the speed of an input is 0"
-        why, fix = (
-            "a reconstruction needs exactly one input, with a speed other than 0",
-            "give one, such as `inputs: {b: 1}`",
-        )
-        yield Problem(what, why, fix, evidence.place("inputs"))
+        why = "a reconstruction needs exactly one input, with a speed other than 0"
+        yield Problem(what, why, "give one, such as `inputs: {b: 1}`", evidence.place("inputs"))
     frame = evidence.links.get(evidence.frame)
     if frame is not None and frame.wheels:
         what = "the frame has wheels, but no carrier is named"
@@ -104,9 +101,10 @@ def _frame_problems(evidence: Train) -> Iterator[Problem]:
         yield Problem(what, why, fix, evidence.place("links", evidence.frame))
     for at, joint in enumerate(evidence.revolutes):
         if evidence.frame not in joint.pair:
-            what = "an arbor turns on a moving link that is not the `carrier`"
-            why = "ignoring the arbor could change the trains that are found"
-            fix = "name the link as `carrier` with its speed as an input, or remove the joint"
+            one, other = joint.pair
+            what = f"an arbor turns on a moving link: the turning pair of '{one}' and '{other}' omits the frame"
+            why = "arbors on a moving link are reconstructed only if this link is the `carrier`"
+            fix = "name the link as `carrier` with its speed as an input, or remove the turning pair"
             yield Problem(what, why, fix, evidence.place("revolutes", at))
 
 
@@ -143,8 +141,8 @@ def _carrier_speed_problems(evidence: Train, carrier: str) -> Iterator[Problem]:
 
 
 def _carrier_part_problems(evidence: Train, carrier: str) -> Iterator[Problem]:
-    """Yield a problem for each wheel and pointer of the carrier, for each arbor that turns neither on the carrier nor
-    in the frame about the axis of the carrier, and for a declared geometry.
+    """Yield an error message for each wheel and pointer of the carrier, for each arbor that turns neither on the
+    carrier nor about its axis in the frame, and for measured sizes.
     """
     for name in evidence.links[carrier].wheels:
         what = f"'{name}' is a wheel of the carrier"
@@ -162,8 +160,9 @@ def _carrier_part_problems(evidence: Train, carrier: str) -> Iterator[Problem]:
             fix = f"put it on the carrier, `pair: [{carrier}, {link}]`, or on the axis of `{own}`"
             yield Problem(what, why, fix, place)
         elif not {evidence.frame, carrier} & set(joint.pair):
-            what = "an arbor turns on a second moving link"
-            fix = "put it on the carrier, or remove it"
+            one, other = joint.pair
+            what = f"the turning pair of '{one}' and '{other}' is on a second moving link"
+            fix = f"put the arbor on the carrier '{carrier}', or remove the turning pair"
             yield Problem(what, "a reconstruction supports one carrier", fix, place)
     for name, output in evidence.outputs.items():
         if output.of == carrier:
@@ -172,7 +171,7 @@ def _carrier_part_problems(evidence: Train, carrier: str) -> Iterator[Problem]:
             yield Problem(what, why, "remove the output, or correct its `of`", place)
     if evidence.reconstruct is not None and evidence.reconstruct.geometry is not None:
         what, place = "`geometry` is not supported for arbors on a carrier", evidence.place("reconstruct", "geometry")
-        yield Problem(what, "axes on a carrier move", "delete `geometry`", place)
+        yield Problem(what, "measured distances are compared only with fixed axes", "delete `geometry`", place)
 
 
 def carrier_axis(evidence: Train, carrier: str) -> str | None:
@@ -250,7 +249,7 @@ def join_arbors(problem: ReconstructionProblem, joined: Joined) -> Reconstructio
 
 
 def coupling_problems(evidence: Train) -> Iterator[Problem]:
-    """Yield a problem for each declared coupling that locks an arbor, closes a loop, or connects links across a
+    """Yield an error message for each declared coupling that locks an arbor, closes a loop, or connects links across a
     carrier.
     """
     assert evidence.reconstruct is not None, "no evidence"
@@ -284,7 +283,9 @@ def coupling_problems(evidence: Train) -> Iterator[Problem]:
 
 
 def _bearing_problems(evidence: Train, pair: tuple[str, str], place: str) -> Iterator[Problem]:
-    """Yield a problem for each joined link that does not turn on the base, which is the frame or the carrier."""
+    """Yield an error message for each of two coupled links that does not turn on the base, which is the frame or the
+    carrier.
+    """
     assert evidence.reconstruct is not None, "no evidence"
     base = evidence.reconstruct.carrier or evidence.frame
     for link in pair:
@@ -308,8 +309,8 @@ def _bearing_problems(evidence: Train, pair: tuple[str, str], place: str) -> Ite
 
 
 def parted_problems(evidence: Train, problem: ReconstructionProblem, joined: Joined) -> Iterator[Problem]:
-    """Yield a problem for joined links on different axes. Such links are not supported, because each axis would exclude
-    different meshes.
+    """Yield an error message for each group of coupled links that are on different axes. Such links are not supported,
+    because each axis would exclude different meshes.
 
     problem   reconstruction problem in which the links are not yet joined
     """

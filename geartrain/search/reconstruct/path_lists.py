@@ -68,12 +68,12 @@ def _meshes(problem: ReconstructionProblem) -> Iterator[tuple[int, str, int, str
 
 
 class SeenMeshes:
-    """Compatibility of the passes of a path through different arbors according to the known meshes. A pass is the pair
-    of the driven and the driving wheel by which the path passes through an arbor.
+    """Test whether a path may pass through several arbors in given ways, according to the known meshes. A pass is the
+    pair of the driven and the driving wheel of an arbor on the path.
 
     passes   possible passes of each arbor, the input arbor first
-    order    indices of the arbors; arbors of one component are adjacent, and components with many passes come before
-             others
+    order    order in which paths are extended, as indices of arbors: arbors that known meshes connect are adjacent, and
+             connected arbors with many passes come first
     """
 
     def __init__(self, problem: ReconstructionProblem, passes: Sequence[Sequence[ArborPass]]) -> None:
@@ -95,8 +95,11 @@ class SeenMeshes:
             self._fits[second].append((first, np.array(fits, dtype=bool)))
 
     def allowed(self, codes: NDArray[np.uint16], at: int, code: int) -> Bools | None:
-        """Return a mask of the paths that may have the pass `code` of the arbor with index `at`; None if all paths may
-        have it.
+        """Return a mask of the paths that may be extended by one pass of the arbor with index `at`; None if all paths
+        may be.
+
+        codes   number of the pass of each path through each arbor, shape (paths, arbors)
+        code    number of the pass, starting with 1; 0 if the paths avoid the arbor
         """
         if not self._fits[at]:
             return None
@@ -111,10 +114,12 @@ class SeenMeshes:
 def _are_compatible(
     mine: ArborPass | None, one: str, theirs: ArborPass | None, other: str, idlers: bool, below: bool
 ) -> bool:
-    """Return whether a path may contain the passes `mine` and `theirs` of two arbors whose wheels `one` and `other`
-    mesh. A pass is None if the path avoids the arbor.
+    """Return whether one path may pass through two arbors in given ways. The wheels `one` and `other` of these arbors
+    are known to mesh.
 
-    below   True if the arbor of wheel `one` must drive the arbor of wheel `other`
+    mine, theirs   driven and driving wheel of each arbor on the path; None if the path avoids the arbor
+    idlers         True if a driven wheel may also drive
+    below          True if the arbor of wheel `one` must drive the arbor of wheel `other`
     """
     if mine is None or theirs is None:
         there, wheel = (mine, one) if theirs is None else (theirs, other)
@@ -177,11 +182,12 @@ class PathGrowth(NamedTuple):
         powers: NDArray[np.int8],
         limits: tuple[int, int | None],
     ) -> PathGrowth:
-        """Return the paths that may be extended by the pass `each` of one more arbor, or that may avoid the arbor if
-        `each` is None. The array `need` of these paths is updated.
+        """Return the paths that may be extended by one more arbor with the given driven and driving wheel, or that may
+        avoid the arbor if `each` is None. Their numbers of added wheels that must contain a large prime are updated.
 
         closing   columns of the large primes that occur in no later arbor
-        lost      mask of the columns with a prime larger than the maximum tooth count
+        lost      True for each column whose prime is larger than the maximum tooth count
+        powers    exponents of the large primes that the pass adds to the required quotient
         limits    maximum number of added wheels, and maximum number of unused surviving wheels (None for no limit)
         """
         wheels, debts = limits
@@ -200,8 +206,13 @@ class PathGrowth(NamedTuple):
         return self._replace(need=need).kept(good)
 
     def through(self, at: int, code: int, each: ArborPass, ratio: float, powers: NDArray[np.int8]) -> PathGrowth:
-        """Return the paths extended by a pass of the arbor with index `at`. Paths that have ended must not be
-        included.
+        """Return the paths extended by one more arbor, which has the index `at`. None of the paths may already end at
+        an arbor.
+
+        code     number of the pass, the pair of driven and driving wheel
+        each     the pass itself
+        ratio    factor of the speed due to the surviving wheels of the pass
+        powers   exponents of the large primes that the pass adds to the required quotient
         """
         codes = self.codes.copy()
         codes[:, at] = code
@@ -234,8 +245,8 @@ AddedArbors = tuple[int, int]
 class PathList:
     """Possible paths to a dial. Each row of the arrays represents one path.
 
-    along   the only permitted pass of each surviving arbor in the mapping, where all other arbors are excluded; None
-            for all paths
+    along   driven and driving wheel of each surviving arbor through which the paths must pass, keyed by arbor; the
+            paths avoid all other surviving arbors. None to list all paths
 
     codes                code of the pass of each arbor, the input arbor first: 1 + index in `passes`, or 0 if the path
                          avoids the arbor; shape (rows, arbors)
@@ -289,8 +300,9 @@ class PathList:
     # extension by one arbor at a time
 
     def _possible_paths(self, plans: tuple[AddedArbors, ...]) -> tuple[PathGrowth, Bools]:
-        """Return the complete paths, and a Boolean matrix that is True for the plans of added arbors that are possible
-        with each path.
+        """Return the complete paths, and a Boolean matrix that is True for the numbers of added arbors that are
+        possible with each path, shape (paths, plans). A plan is a pair (added arbors with two wheels, added arbors with
+        one wheel).
         """
         # a single path through no arbor
         zero = np.zeros(1, dtype=np.int8)
@@ -315,7 +327,9 @@ class PathList:
         return PathGrowth.joined([piece for piece, _ in found]), np.concatenate([possible for _, possible in found])
 
     def _grown(self, growth: PathGrowth, order: tuple[int, ...]) -> Iterator[PathGrowth]:
-        """Yield the paths extended by the arbors in `order`, in blocks that fit into memory."""
+        """Yield the paths after extension by the arbors in `order`, in several sets of at most about `_PIECE` paths, to
+        save memory.
+        """
         if not order:
             yield growth
             return
@@ -334,37 +348,33 @@ class PathList:
         # wheels unused on this path must be used on paths to the other dials
         debts = len(self.problem.dials) - 1 if self.problem.use == "wheels" else None
         limits = self.problem.additions.wheels, debts
+        arbor = (self.problem.input, *self.problem.arbors)[at]
+        lost = np.array([prime > self.problem.additions.maximum for prime in self.primes], dtype=bool)
         parts = []
         for code, each in enumerate((None, *self.passes[at])):
-            if (each is None and not at) or not self._is_listed(at, each):
+            if each is None and not at:  # every path includes the input arbor
+                continue
+            way = None if each is None else (each.driven, each.driver)
+            if self._along is not None and self._along.get(arbor.name) != way:
                 continue
             good = self._seen.allowed(growth.codes, at, code)
             own = growth if good is None else growth.kept(good)
             self._examined += len(own.codes)
             ratio = Fraction(1) if each is None else _known_ratio(each)
             powers = self._powers(1 / ratio)
-            allowed = own.along(closing, self._lost, each, powers, limits)
+            allowed = own.along(closing, lost, each, powers, limits)
             parts.append(allowed if each is None else allowed.through(at, code, each, float(ratio), powers))
         if self._examined > _MOST_PATHS:
             what = f"more than {_MOST_PATHS} paths to '{self.dial.name}' would have to be examined"
             raise QuestionError(too_wide(self.problem, what))
         return PathGrowth.joined(parts) if parts else growth.kept(np.zeros(len(growth.codes), dtype=bool))
 
-    def _is_listed(self, at: int, each: ArborPass | None) -> bool:
-        """Return whether `along` permits the pass `each` of the arbor with index `at`. The pass is None if the path
-        avoids the arbor.
-        """
-        if self._along is None:
-            return True
-        arbor = (self.problem.input, *self.problem.arbors)[at]
-        return self._along.get(arbor.name) == (None if each is None else (each.driven, each.driver))
-
     # large primes: an added tooth count contains at most one of them
 
     @cached_property
     def primes(self) -> tuple[int, ...]:
-        """Large primes. The tooth count of an added wheel contains at most one of them, and only once. Empty if the
-        dial has a tolerance.
+        """Primes so large that the tooth count of an added wheel is divisible by at most one of them, and not by its
+        square. The result is empty if the dial has a tolerance.
         """
         if not self.dial.is_exact:
             return ()
@@ -386,11 +396,6 @@ class PathList:
         return np.array([up.get(prime, 0) - down.get(prime, 0) for prime in self.primes], dtype=np.int8)
 
     @cached_property
-    def _lost(self) -> Bools:
-        """Mask of the large primes that are larger than the maximum tooth count of an added wheel."""
-        return np.array([prime > self.problem.additions.maximum for prime in self.primes], dtype=bool)
-
-    @cached_property
     def _wanted(self) -> Fraction:
         """Magnitude of the speed of the dial divided by the speed of the input. If the dial has a tolerance, its
         minimum speed is used.
@@ -401,8 +406,8 @@ class PathList:
     # added arbors on a path
 
     def _possible(self, growth: PathGrowth, plans: tuple[AddedArbors, ...]) -> Bools:
-        """Return, for each path and each plan of added arbors, whether the path is possible with the plan, shape
-        (paths, plans).
+        """Return, for each path and each plan, whether the path is possible with the numbers of added arbors in the
+        plan, shape (paths, plans). A plan is a pair (added arbors with two wheels, added arbors with one wheel).
         """
         new = ~growth.ended
         found = np.zeros((len(growth.codes), len(plans)), dtype=bool)
@@ -414,7 +419,12 @@ class PathList:
             turned = self._turned(growth.codes, arbors)
             # a sense whose maximum magnitude is 0 is excluded
             fits &= np.where(turned, self._magnitudes(True)[1] > 0, self._magnitudes(False)[1] > 0)
-            fits &= self._may_be_quotient(growth, compounds, turned, fits)
+            # both numbers in one integer for np.unique; an added last arbor has one more driven wheel
+            kinds = growth.drivers.astype(np.int64) * 64 + growth.driven + new
+            for kind in np.unique(kinds[fits]):
+                rows = np.flatnonzero(fits & (kinds == kind))
+                drivers, driven = int(kind) // 64 + compounds, int(kind) % 64 + compounds
+                fits[rows] = self.tables.may_hold(self._bounds(growth.ratio[rows], turned[rows]), drivers, driven)
             found[:, at] = fits
         return found
 
@@ -426,16 +436,6 @@ class PathList:
         if self.dial.signed and (self.problem.input_speed > 0) == turned:
             low, high = -high, -low
         return max(low, Fraction(0)), max(high, Fraction(0))
-
-    def _may_be_quotient(self, growth: PathGrowth, compounds: int, turned: Bools, requested: Bools) -> Bools:
-        found = requested.copy()
-        # both numbers in one integer for np.unique; an added last arbor has one more driven wheel
-        kinds = growth.drivers.astype(np.int64) * 64 + growth.driven + ~growth.ended
-        for kind in np.unique(kinds[requested]):
-            rows = np.flatnonzero(requested & (kinds == kind))
-            drivers, driven = int(kind) // 64 + compounds, int(kind) % 64 + compounds
-            found[rows] = self.tables.may_hold(self._bounds(growth.ratio[rows], turned[rows]), drivers, driven)
-        return found
 
     # speed of a path
 
@@ -458,7 +458,9 @@ class PathList:
         return np.asarray(reversals % 2 == 1)
 
     def wanted_quotients(self, row: int) -> tuple[Fraction, Fraction]:
-        """Return the minimum and the maximum required quotient of the added wheels on the path in a given row."""
+        """Return the minimum and the maximum of the quotient that the tooth counts of the added wheels on the path in a
+        given row must have: product of driving counts divided by product of driven counts.
+        """
         taken = (passes[code - 1] for passes, code in zip(self.passes, self.codes[row], strict=True) if code)
         known = prod(map(_known_ratio, taken), start=abs(self.problem.input_speed))
         (turned,) = self._turned(self.codes[[row]], self.new[[row]])

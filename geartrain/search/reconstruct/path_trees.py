@@ -34,7 +34,9 @@ Block = tuple[str, Dials]
 
 
 def exit_of(each: ArborPass) -> str:
-    """Return the exit by which a path with the pass `each` leaves the arbor."""
+    """Return the wheel by which a path leaves an arbor, or `HERE` if the path ends at the arbor. An added wheel is
+    represented by `BESIDE`, and a driven wheel that also drives by `IDLER`.
+    """
     if each.driver is None:
         return HERE
     if each.idler:
@@ -45,14 +47,11 @@ def exit_of(each: ArborPass) -> str:
 def dial_partitions(
     dials: Dials, ways: Mapping[str, tuple[str, ...]], arbors: Mapping[str, int]
 ) -> Iterator[tuple[Dials, tuple[Block, ...]]]:
-    """Yield each partition of dials into the dials whose pointers an arbor carries and, for each wheel of the arbor,
-    the dials to which this wheel leads.
+    """Yield each way to divide dials among an arbor: the dials whose pointers it carries, and the dials to which each
+    of its driving wheels leads. Each added wheel leads to a different set of dials.
 
-    Dials whose paths leave the arbor by added wheels are partitioned into blocks, with one added wheel for each block.
-
-    ways     exits by which the path to each dial may leave the arbor
-    arbors   bit mask of the surviving arbors on the path to each dial; dials whose paths have a common arbor are in the
-             same block
+    ways     wheels by which the path to each dial may leave the arbor, as returned by `exit_of`
+    arbors   bit mask of the surviving arbors on the path to each dial; dials with a common arbor stay together
     """
     for chosen in product(*(ways[dial] for dial in dials)):
         by_way: dict[str, list[str]] = {}
@@ -64,8 +63,8 @@ def dial_partitions(
 
 
 def partitions(dials: Dials, arbors: Mapping[str, int]) -> Iterator[tuple[Dials, ...]]:
-    """Yield each partition of dials into blocks such that the paths of different blocks have no common surviving arbor.
-    The first dial is in the first block.
+    """Yield each partition of dials into sets such that the paths to dials of different sets have no common surviving
+    arbor. The first dial is in the first set.
     """
     place = {dial: at for at, dial in enumerate(dials)}
     # dials whose paths have a common arbor are in one group
@@ -112,13 +111,8 @@ class DialPath(NamedTuple):
 
     @property
     def is_at_end(self) -> bool:
-        """True if no arbor is left on the remaining part of the path, except possibly an added last arbor."""
+        """True if the remaining part of the path contains no arbor, or only an added last arbor."""
         return not (self.arbors or self.compounds or self.idlers)
-
-    @property
-    def new(self) -> int:
-        """Number of added arbors on the remaining part of the path."""
-        return self.compounds + self.idlers + self.ends_new
 
 
 Paths = dict[str, DialPath]
@@ -171,8 +165,9 @@ class PathTrees:
     # subtrees of a driving wheel
 
     def _forest(self, paths: Paths, left: _Budget, minimum: int = 1) -> Iterator[tuple[tuple[Chain, ...], _Budget]]:
-        """Yield each set of chains that lead to the dials of the given paths. Dials whose paths have a common surviving
-        arbor share a chain.
+        """Yield each set of chains of arbors that can lead to the dials of the given paths, and the numbers of added
+        wheels and arbors that remain. Dials whose paths have a common surviving arbor share a chain. At least `minimum`
+        chains are required.
         """
         for blocks in partitions(tuple(paths), _own_arbors(paths)):
             if len(blocks) >= minimum:
@@ -184,10 +179,11 @@ class PathTrees:
         left: _Budget,
         subtrees: Callable[[Paths, _Budget], Iterator[tuple[_T, _Budget]]],
     ) -> Iterator[tuple[tuple[_T, ...], _Budget]]:
-        """Yield each combination of one subtree for each block of dials, and the remaining budget. The added wheels
-        required by later blocks are reserved.
+        """Yield each combination of one subtree for each set of dials, and the numbers of added wheels and arbors that
+        remain. The added wheels that later sets of dials require are reserved.
 
-        subtrees   function that yields the subtrees for one block within a budget
+        blocks     paths to the dials of each set
+        subtrees   function that yields the subtrees for one set of dials, within the remaining numbers
         """
         if not blocks:
             yield (), left
@@ -200,7 +196,9 @@ class PathTrees:
                 yield (subtree, *others), end
 
     def _chain(self, paths: Paths, left: _Budget) -> Iterator[tuple[Chain, _Budget]]:
-        """Yield each chain that leads to the dials of the given paths, and the remaining budget."""
+        """Yield each chain of arbors that leads to the dials of the given paths, and the numbers of added wheels and
+        arbors that remain.
+        """
         if len(paths) == 1:
             ((dial, path),) = paths.items()
             yield from self._single_chain(dial, path, left)
@@ -225,8 +223,9 @@ class PathTrees:
                     yield from _with_ends(trunk, self._branching(last, below, after))
 
     def _trunks(self, paths: Paths, through: tuple[int, ...], left: _Budget) -> Iterator[tuple[Chain, _Budget, Paths]]:
-        """Yield each chain, without its end, of the surviving arbors `through` and of added arbors that all paths can
-        share; with the remaining budget and the remaining part of each path.
+        """Yield each chain that consists of the surviving arbors `through` and of added arbors that all paths can
+        share. The chain has no end yet. It is followed by the numbers of added wheels and arbors that remain, and by
+        the paths without the arbors of the chain.
         """
         passes = paths_first(paths).passes
         named = tuple((self.names[at], passes[at]) for at in through)
@@ -249,10 +248,11 @@ class PathTrees:
                 yield Chain(tuple(paths), named, compounds, idlers, ()), after, below
 
     def _common(self, paths: Paths) -> tuple[tuple[int, ...], int | None] | None:
-        """Return the indices of the surviving arbors through which all paths have the same pass, and the index of the
-        surviving arbor at which the paths separate or end.
+        """Return the indices of the surviving arbors at which all paths have the same driven and the same driving
+        wheel, and the index of the surviving arbor at which the paths separate or end.
 
-        The index is None if there is no such arbor. The result is None if there is more than one such arbor.
+        This index is None if there is no such arbor. If there are two or more such arbors, no tree has these paths, and
+        None is returned instead of the pair.
         """
         through, ends = [], []
         for at in _arbors(reduce(and_, (path.arbors for path in paths.values()))):
@@ -264,7 +264,7 @@ class PathTrees:
         return None if len(ends) > 1 else (tuple(through), ends[0] if ends else None)
 
     def _single_chain(self, dial: str, path: DialPath, left: _Budget) -> Iterator[tuple[Chain, _Budget]]:
-        after = left.without(path.wheels, path.new)
+        after = left.without(path.wheels, path.compounds + path.idlers + path.ends_new)
         if not after.is_possible:
             return
         through, end = [], Branching(None, ADDED, (dial,))
@@ -280,8 +280,9 @@ class PathTrees:
     # arbors at which paths end or separate
 
     def _branching(self, at: int, paths: Paths, left: _Budget) -> Iterator[tuple[Branching, _Budget]]:
-        """Yield each branching at the surviving arbor with index `at`, and the remaining budget. Such an arbor carries
-        pointers, or has several exits, or is the input arbor.
+        """Yield each form of the surviving arbor with index `at` and of all arbors that it drives, and the numbers of
+        added wheels and arbors that remain. The arbor carries pointers, or paths separate at it, or it is the input
+        arbor.
         """
         first = paths_first(paths).passes[at]
         ways = {dial: (exit_of(path.passes[at]),) for dial, path in paths.items()}
@@ -302,8 +303,8 @@ class PathTrees:
                 )
 
     def _new_branching(self, paths: Paths, left: _Budget) -> Iterator[tuple[Branching, _Budget]]:
-        """Yield each branching at an added arbor that carries pointers or has several exits, and the remaining
-        budget.
+        """Yield each form of an added arbor, at which paths end or separate, and of all arbors that it drives, and the
+        numbers of added wheels and arbors that remain.
         """
         ways: dict[str, tuple[str, ...]] = {}
         for dial, path in paths.items():
@@ -338,7 +339,14 @@ class PathTrees:
         paths: Paths,
         left: _Budget,
     ) -> Iterator[tuple[Branching, _Budget]]:
-        """Yield a branching for each set of chains that its wheels can drive, and the remaining budget."""
+        """Yield an arbor with each possible choice of the arbors that it drives, and the numbers of added wheels and
+        arbors that remain.
+
+        here      dials whose pointers are on the arbor
+        blocks    each wheel that drives, with the dials to which it leads
+        drivers   driving wheel of each block; None if the driven wheel drives (an idler)
+        paths     paths to all dials, without this arbor
+        """
         masks = [reduce(or_, (paths[dial].arbors for dial in dials)) for _, dials in blocks]
         if any(one & other for one, other in combinations(masks, 2)):
             return

@@ -92,20 +92,23 @@ class ReconstructionRun:
     """
 
     def begin(self, problem: ReconstructionProblem) -> None:
-        """Handle the start of the search. `problem` is the reconstruction problem that is searched."""
+        """Handle the start of the search. By default, nothing is done; the command prints the size of the problem."""
 
     def search(self, problem: ReconstructionProblem) -> AbstractContextManager[Execution]:
         """Return a context manager that provides the executor of the search."""
         return nullcontext(Execution())
 
     def searched(self, complete: bool) -> None:
-        """Handle the end of the search. `complete` is True if the search covered all candidates."""
+        """Handle the end of the search. By default, nothing is done. `complete` is True if the search covered all
+        candidates.
+        """
 
     def part(self, what: str) -> AbstractContextManager[Execution]:
-        """Return a context manager that provides the executor for another part of the work.
+        """Return a context manager that provides the executor for the part of a reconstruction with the name `what`,
+        after the search.
 
-        If the context manager suppresses an interruption, the results of this part that are not yet computed are
-        missing in the answer.
+        If an override suppresses an interruption (Ctrl-C), results of this part that are not yet computed are missing
+        in the answer.
         """
         return nullcontext(Execution())
 
@@ -291,8 +294,9 @@ def _findings(
     found: Reconstructions,
     run: ReconstructionRun,
 ) -> CandidateFindings:
-    """Return the facts derived from the candidates or, if there are none, the reasons why no train explains the
-    evidence, and the numbers of trains without each hard constraint if they are requested.
+    """Return the facts that are derived from the candidates. If there are no candidates, the result contains the
+    reasons why no train explains the evidence. It also contains the numbers of trains without each hard constraint, if
+    they are requested.
     """
     counted: list[ChangedCount] = []
     if request.assumptions and found.complete:

@@ -467,9 +467,7 @@ def _plain(value: object) -> object:
 
 def read_geometry_evidence(evidence: Train) -> SurvivingGeometry:
     """Return the measurements in the evidence; `NO_GEOMETRY` if the evidence has no block `geometry`.
-
-    `DeclarationError` is raised if a module is not greater than 0, or if the evidence contains both a ring and an arbor
-    with a position.
+    `DeclarationError` is raised if the evidence contains both a ring and an arbor with a position.
     """
     assert evidence.reconstruct is not None, "no evidence"
     requested = evidence.reconstruct.geometry

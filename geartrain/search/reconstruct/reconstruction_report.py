@@ -243,7 +243,9 @@ def _agreed(marginals: Sequence[FactMarginal]) -> Iterator[str]:
 
 
 def _yes_table(title: str, kind: FactKind, facts: Sequence[FactMarginal]) -> Table:
-    """Return the table of the facts of one kind, with the weight and the number of trains of the answer `yes`."""
+    """Return the table of the facts of one kind that are true in some trains, each with the total probability and the
+    number of these trains.
+    """
     rows = [
         (fact.subject, share_text(float(answer.share)), str(answer.solutions))
         for fact in facts

@@ -16,7 +16,7 @@ from geartrain.numerics.exact import plural
 from geartrain.numerics.results import Key, Result
 from geartrain.numerics.work import Execution
 from geartrain.search.reconstruct.added_counts import AddedCounts
-from geartrain.search.reconstruct.arbor_orders import MeshFacts, arranged, rings_limit
+from geartrain.search.reconstruct.arbor_orders import arranged
 from geartrain.search.reconstruct.geometry_likelihood import candidate_likelihood
 from geartrain.search.reconstruct.reconstruction_problem import Arbor, PlacedWheel, ReconstructionProblem
 from geartrain.search.reconstruct.search_tasks import CountedTopology, count_topologies
@@ -150,7 +150,8 @@ def find_reconstructions(
     listed : int
         Minimum number of candidates to list. If there are fewer candidates, all are listed.
     prior_of : {"solution", "class"}
-        Unit of the prior: one weight for every train, or one weight for every ratio class, divided among its trains.
+        Unit of the prior: one weight for every train, or one weight for every class of trains with equal driving wheels
+        and equal driven wheels on each path, divided among these trains.
 
     Returns
     -------
@@ -205,9 +206,12 @@ def _weight_classes(weighed: Iterable[tuple[int, Fraction, int]]) -> Iterator[We
 
 def _count(added: int, topologies: Sequence[CountedTopology], problem: ReconstructionProblem) -> ExplanationCount:
     solutions = sum(each.solutions for each in topologies)
-    # the order of arbors changes neither key, unless a ring limits counts in some orders
-    maximum = problem.additions.maximum
-    marked = [(each, not rings_limit(each.topology, problem.rings, maximum)) for each in topologies]
+    # the order of arbors changes neither key, unless a ring limits the counts of added wheels in some orders
+    rings, maximum = problem.rings, problem.additions.maximum
+    marked = [
+        (each, not any(wheel.name in rings and wheel.teeth <= maximum for wheel in each.topology.used))
+        for each in topologies
+    ]
     if sum(each.choices if one_order else each.solutions for each, one_order in marked) > _MOST_CLASSIFIED:
         return ExplanationCount(added, solutions, None, None)
     some = [arbor for each, one_order in marked for arbor in _trains(each, problem, one_order)]
@@ -219,10 +223,9 @@ def _trains(each: CountedTopology, problem: ReconstructionProblem, one_order: bo
     counts.
     """
     limits = problem.additions
-    facts = MeshFacts() if one_order else MeshFacts.of(problem)
     topology = each.topology
     for counts, idle in AddedCounts(limits.minimum, limits.maximum).assignments(topology.added, topology.wanted):
-        yield from islice(arranged(topology, counts, idle, facts), 1 if one_order else None)
+        yield from islice(arranged(topology, counts, idle, None if one_order else problem), 1 if one_order else None)
 
 
 def _best(problem: ReconstructionProblem, found: dict[int, list[CountedTopology]], listed: int) -> Iterator[Candidate]:
@@ -245,7 +248,9 @@ def _best(problem: ReconstructionProblem, found: dict[int, list[CountedTopology]
 
 
 def _order(arbor: Arbor) -> tuple[int, str]:
-    """Return the sort key for candidates of equal weight."""
+    """Return the sort key for candidates of equal weight: the sum of the tooth counts of added wheels, then the
+    candidate as text.
+    """
     return sum(wheel.teeth for wheel in arbor.wheels() if wheel.name is None), repr(astuple(arbor))
 
 
@@ -328,7 +333,9 @@ def _prior(problem: ReconstructionProblem, wheels: int, arbors: int, used: Itera
 
 
 def weight_ranks(weighed: Iterable[tuple[_Weight, int]]) -> dict[_Weight, tuple[int, int]]:
-    """Return the first and last rank of each weight, computed from pairs of a weight and a number of candidates."""
+    """Rank candidates by weight, and return the first and the last rank of the candidates with each weight. The input
+    consists of pairs of a weight and a number of candidates with this weight.
+    """
     alike = Counter[_Weight]()
     for weight, number in weighed:
         alike[weight] += number

@@ -21,7 +21,7 @@ from geartrain.errors import Problem, QuestionError
 from geartrain.numerics.arrays import Bools
 from geartrain.numerics.work import Execution
 from geartrain.search.reconstruct.added_counts import AddedCounts, OpenCounts, QuotientTables
-from geartrain.search.reconstruct.arbor_orders import CountTokens, MeshFacts, arranged
+from geartrain.search.reconstruct.arbor_orders import CountTokens, arranged
 from geartrain.search.reconstruct.path_lists import PathList, Rows
 from geartrain.search.reconstruct.path_trees import PathTrees
 from geartrain.search.reconstruct.reconstruction_problem import Arbor, ReconstructionProblem
@@ -46,11 +46,11 @@ _MOST_ADDED = 100  # numbers of added wheels are stored in 8 bits
 
 
 class PathColumns:
-    """Columns of a path list, with which many paths can be compared quickly with a path to another dial.
+    """Paths to one dial as arrays, so that many of them can be compared with one path to another dial in one step.
 
-    A pass is the pair of a driven and a driving wheel by which a path passes through an arbor.
+    A pass is the pair of a driven and a driving wheel by which a path passes through an arbor. A row is a path.
 
-    codes          code of the pass; 0 if the path avoids the arbor; shape (arbors, rows)
+    codes          number of the pass; 0 if the path avoids the arbor; shape (arbors, rows)
     driven         number that identifies the driven wheel and its tooth count; 0 if the path avoids the arbor; shape
                    (arbors, rows)
     driver         number that identifies the surviving driving wheel; 0 if there is none; shape (arbors, rows)
@@ -125,8 +125,8 @@ class PathChoice:
         self._columns = {dial: PathColumns(paths, problem) for dial, paths in lists.items()}
 
     def choices(self, added: int, part: int = 0, parts: int = 1) -> Iterator[Choice]:
-        """Yield all choices for trains with exactly `added` added wheels that belong to the part with index `part`, of
-        `parts` parts in total.
+        """Yield all choices of one path for each dial that give trains with exactly `added` added wheels. If the search
+        is divided into `parts` parts, only the choices of the part with index `part` are yielded.
         """
         self._added = added
         lists = {dial: np.flatnonzero(paths.wheels <= added) for dial, paths in self.lists.items()}
@@ -171,8 +171,8 @@ class PathChoice:
         return kept
 
     def _fork(self, one: tuple[str, int], other: tuple[str, int], dial: str, rows: Rows) -> Bools:
-        """Return, for each path in `rows`, whether it forms a tree with two chosen paths. This requires that two of the
-        three paths separate from the third at the same arbor.
+        """Return, for each path in `rows`, whether one tree can contain it together with two chosen paths. This
+        requires that two of the three paths separate from the third at the same arbor.
         """
         first, second = (np.int64(self.lists[end].arbors[row]) for end, row in (one, other))
         third = self.lists[dial].arbors[rows]
@@ -199,7 +199,7 @@ class PathChoice:
 
 
 class OrderPart(NamedTuple):
-    """Orders of the arbors of a topology for which the possible choices of added tooth counts are the same.
+    """Orders of the arbors of one topology that all permit the same choices of added tooth counts.
 
     Each combination of an order and a choice is one train.
     """
@@ -218,19 +218,21 @@ class OrderPart(NamedTuple):
 
 
 class TopologyTrains:
-    """Numbers of trains of topologies in a reconstruction problem."""
+    """Counter of the trains of each topology of a reconstruction problem. A train is a topology with an order of its
+    arbors and with tooth counts of its added wheels.
+    """
 
     def __init__(self, problem: ReconstructionProblem) -> None:
         limits = problem.additions
         self.counts = AddedCounts(limits.minimum, limits.maximum)
-        self._facts, self._maximum = MeshFacts.of(problem), limits.maximum
+        self._problem = problem
 
     def parts(self, topology: Topology) -> list[OrderPart]:
         """Return the orders of the arbors of a topology, grouped by the tooth-count limits that rings impose."""
         tokens = CountTokens(topology.added)
         by_limits: dict[OpenCounts, list[tuple[Arbor, dict[int, AddedKind]]]] = defaultdict(list)
-        for arbor in arranged(topology, tokens.counts, tokens.idle, self._facts):
-            kinds = tokens.kinds(arbor, self._facts.rings, self._maximum)
+        for arbor in arranged(topology, tokens.counts, tokens.idle, self._problem):
+            kinds = tokens.kinds(arbor, self._problem.rings, self._problem.additions.maximum)
             limits = sorted(kind for kind in kinds.values() if kind.most is not None)
             by_limits[OpenCounts(topology.added, topology.wanted, tuple(limits))].append((arbor, kinds))
         return [OrderPart(requested, self.counts.total(requested), orders) for requested, orders in by_limits.items()]
@@ -254,7 +256,7 @@ class TopologySearch:
         self._trains = TopologyTrains(problem)
 
     def counted(self, task: TopologyTask) -> Iterator[CountedTopology]:
-        """Yield the topologies of one part of the search that have at least one train."""
+        """Yield the topologies of one task that have at least one train, with their numbers of choices and trains."""
         for chosen in self._choice.choices(task.added, task.part, task.parts):
             for topology in self._trees.topologies(chosen, task.added):
                 choices = self._trains.counts.total(OpenCounts(topology.added, topology.wanted))
@@ -275,7 +277,9 @@ class CountedTopology:
 
 
 class TopologyTask(NamedTuple):
-    """One part of the search for the topologies that have a given number of added wheels."""
+    """Task of a search: one of several parts of the search for the topologies that have a given number of added
+    wheels.
+    """
 
     problem: ReconstructionProblem
     added: int
@@ -307,8 +311,8 @@ def count_topologies(
 
 
 def _counted(task: TopologyTask) -> list[tuple[Any, int, int]]:
-    """Return the topologies of one part of the search as plain data, each with its number of choices of tooth counts
-    and its number of trains.
+    """Return the topologies of one task as plain data, each with its number of choices of tooth counts and its number
+    of trains.
     """
     counted = _search(task.problem).counted(task)
     return [(TOPOLOGIES.dump_python(each.topology, mode="json"), each.choices, each.solutions) for each in counted]

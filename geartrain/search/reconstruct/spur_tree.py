@@ -117,7 +117,9 @@ def are_spur_mates(train: Train, tree: Tree, pair: Iterable[str], carrier: str) 
 
 @dataclass(frozen=True)
 class SpurTree:
-    """Tree of the arbors in one part of a train, from the first arbor to the arbors that carry pointers."""
+    """Tree of arbors that a reconstruction can find in a train, on the frame or on one carrier, from its first arbor to
+    the arbors that carry pointers. Such a tree is called a part of the train.
+    """
 
     train: Train
     base: BaseLink
@@ -147,12 +149,6 @@ class SpurTree:
         """Names of all arbors, beginning with the first arbor of the part."""
         return self.source, *self.driven
 
-    @property
-    def has_idlers(self) -> bool:
-        """True if a driven wheel also drives (an idler)."""
-        driving = {mesh.driving for mesh in self.driven.values()}
-        return any(mesh.driven in driving for mesh in self.driven.values())
-
     @cached_property
     def able(self) -> tuple[str, ...]:
         """Names of the arbors that can be treated as lost: all driven arbors that carry no ring, because rings are
@@ -175,7 +171,9 @@ class SpurTree:
         return self.joined.get(arbor, (arbor,))
 
     def arbor_of(self, link: str) -> str:
-        """Return the arbor to which a link belongs. Usually, it has the name of the link."""
+        """Return the name of the arbor to which a link belongs. It is the name of the link itself unless couplings join
+        the link to other links.
+        """
         return next((arbor for arbor, links in self.joined.items() if link in links), link)
 
     def link_of(self, pointer: str) -> str:
@@ -361,8 +359,8 @@ class _Base:
 
 
 class _Parts:
-    """Search for the parts of a train. `loop` describes the last closed loop of meshes that was found; a part with a
-    closed loop is excluded.
+    """Search for the parts of a train, which are trees of arbors. A part whose meshes close a loop is excluded; `loop`
+    describes the last such loop.
     """
 
     def __init__(self, train: Train) -> None:
@@ -411,8 +409,8 @@ class _Parts:
         return {name: base for name, base in found.items() if base.meshes}
 
     def _arbor(self, base: _Base, link: str) -> str:
-        """Return the arbor of a link on a base. If the link is fixed, this is the frame; if not, it is the first of the
-        links joined to the link.
+        """Return the arbor of a link on a base. The arbor of a fixed link is the frame. If couplings join several
+        links, their arbor has the name of the first of these links.
         """
         return self.train.frame if link in self.train.fixed else base.joined.get(link, (link,))[0]
 
@@ -429,7 +427,9 @@ class _Parts:
     # first arbor of a part
 
     def _start_of(self, base: str, arbors: set[str], known: tuple[str, ...]) -> BaseLink | None:
-        """Return the base and the first arbor of a part; None if the part has no arbor with a known speed."""
+        """Return the base of a part and its first arbor, which has a known speed; None if no arbor of the part has a
+        known speed.
+        """
         frame, speed = self.train.frame, self._speed(base)
         if speed is None or (not speed and base != frame):
             return None
@@ -482,10 +482,8 @@ class _Parts:
         return _renamed(SpurTree(train, start, driven, joined, pointers, counts, teeth))
 
     def _known_outputs(self, base: str) -> Iterator[tuple[str, str, bool]]:
-        """Yield, for each output of known speed relative to the frame or the base, its name, its link, and whether it
-        has a target.
-
-        If the base is a carrier, the inputs of the train are also treated as outputs.
+        """Yield, for each output whose speed relative to the frame or the base is declared: its name, its link, and
+        whether it has a target. If the base is a carrier, the inputs of the train are also treated as outputs.
         """
         train = self.train
         for name, output in train.case(None).outputs.items():
@@ -632,6 +630,7 @@ def lost_wheels(tree: SpurTree, lost: Sequence[str]) -> int:
 
 
 def _requested(tree: SpurTree, lost: Sequence[str], seen: bool) -> dict[str, Any]:
+    has_idlers = {mesh.driving for mesh in tree.driven.values()} & {mesh.driven for mesh in tree.driven.values()}
     pairs = [[links[0], other] for arbor, links in tree.joined.items() if arbor not in lost for other in links[1:]]
     return {
         **({"carrier": tree.base.name} if tree.base.is_carrier else {}),
@@ -640,7 +639,7 @@ def _requested(tree: SpurTree, lost: Sequence[str], seen: bool) -> dict[str, Any
             "teeth": list(tree.teeth),
             **({"arbors": len(lost)} if seen else {}),
         },
-        **({"idlers": True} if tree.has_idlers else {}),
+        **({"idlers": True} if has_idlers else {}),
         **({"given": [{"pair": pair} for pair in pairs]} if pairs else {}),
     }
 

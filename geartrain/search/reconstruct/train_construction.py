@@ -116,7 +116,7 @@ class TrainConstruction:
 
     given    evidence as plain data
     links, revolutes, gears, couplings   parts of the candidate, as plain data
-    shown    link of each pointer, and its speed relative to the base
+    shown    link that carries each pointer, and speed of this link relative to the base
     meshes   pairs of meshing wheels, the driving wheel first
     added    tooth count of each added wheel
     doubtful tooth count in this candidate of each surviving wheel with an uncertain tooth count
@@ -187,8 +187,10 @@ class TrainConstruction:
             self._joint(self.evidence.frame, link, self.revolutes[0]["axis"])
 
     def _joint(self, bearing: str, link: str, axis: str | None = None) -> None:
-        """Add the declared turning pair of a link or, if there is none, a turning pair with `bearing` about a given or
-        a new axis.
+        """Add the turning pair of a link: the declared pair if there is one, or else a new pair.
+
+        bearing   link on which the new pair is, that is, the frame or the carrier
+        axis      label of the axis of the new pair; None for a new axis
         """
         joints = self.given.get("revolutes", ())
         bearings = {bearing, self.evidence.frame, self.base.name} - {link}

@@ -68,7 +68,10 @@ def arbor_passes(arbor: SurvivingArbor, problem: ReconstructionProblem) -> Itera
     """
     beside = problem.additions.on == "any" and problem.additions.wheels > 0
     is_input = arbor is problem.input
-    for driven in _driven_wheels(arbor, problem, beside):
+    drivens: list[PlacedWheel | None] = [None] if is_input else [ADDED] if beside else []
+    if arbor.wheels and not is_input:
+        drivens = [reading for wheel in arbor.wheels for reading in wheel.readings]
+    for driven in drivens:
         others = [wheel for wheel in arbor.wheels if driven is None or wheel.name != driven.name]
         drivers = [reading for wheel in others for reading in wheel.readings]
         for driver in drivers:
@@ -80,16 +83,6 @@ def arbor_passes(arbor: SurvivingArbor, problem: ReconstructionProblem) -> Itera
         yield ArborPass(driven, None, len(others))
 
 
-def _driven_wheels(arbor: SurvivingArbor, problem: ReconstructionProblem, beside: bool) -> Iterator[PlacedWheel | None]:
-    if arbor is problem.input:
-        yield None
-    elif arbor.wheels:
-        for wheel in arbor.wheels:
-            yield from wheel.readings
-    elif beside:
-        yield ADDED
-
-
 # A train without tooth counts of added wheels, whose arbors have any order between two branchings.
 
 
@@ -99,7 +92,9 @@ Dials = tuple[str, ...]
 
 @dataclass(frozen=True)
 class Branching:
-    """Arbor at which paths to dials end or separate, with the chains of arbors that its wheels drive."""
+    """Arbor at which at least one path to a dial ends, or at which paths separate, or the input arbor; with the chains
+    of arbors that its wheels drive.
+    """
 
     name: str | None
     """Name of the surviving arbor; None for an added arbor."""
@@ -130,7 +125,9 @@ class Branching:
 
 @dataclass(frozen=True)
 class Chain:
-    """Arbors in series on the path to one or more dials, without a branching between them, and the end of the chain."""
+    """Arbors that drive each other in series on the path to one or more dials. Paths neither end nor separate at these
+    arbors; they do so at the end of the chain.
+    """
 
     dials: Dials
     """Dials to which the chain leads."""

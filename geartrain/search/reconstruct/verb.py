@@ -150,13 +150,15 @@ def run(
     from geartrain.train.declaration_files import read_declaration, read_evidence
 
     if not lost and (seen or source is not None):
-        raise option_error("--seen" if seen else "--from", "no arbor is lost", "give --lost too")
+        why = "the option applies only to a train of which arbors are treated as lost"
+        raise option_error("--seen" if seen else "--from", "--lost is not given", "give --lost ARBOR too", why)
     if count and folder is not None:
         raise option_error("--to", "--count lists no trains to write", "omit --to or --count")
     if count and page is not None:
         raise option_error("--page", "--count lists no trains to show", "omit --page or --count")
     if same and not rank:
-        raise option_error("--same", "no train is ranked", "give --rank too")
+        why = "the option identifies parts of a ranked train with parts of the evidence"
+        raise option_error("--same", "--rank is not given", "give --rank too, such as --rank freeth-2008", why)
     to, turning_page = sink(out, force, (".md", ".html", ".json")), sink(page, force, (".html",), "--page")
     check_distinct_outputs(to, turning_page)
     if folder is not None:
@@ -255,8 +257,8 @@ class CommandRun(ReconstructionRun):
 
     @contextmanager
     def part(self, what: str) -> Iterator[Execution]:
-        """Yield an executor with a progress bar for another part of the work. After an interruption, the results of
-        this part that are not yet computed are missing in the answer.
+        """Yield an executor with a progress bar for the part of a reconstruction with the name `what`. After an
+        interruption, results of this part that are not yet computed are missing in the answer.
         """
         try:
             with self._options.executor(what) as executor, progress(what, patience=_PATIENCE) as bar:

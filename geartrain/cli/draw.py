@@ -70,7 +70,7 @@ def run(
     train = load(file)
     if out is None:
         out = file_name(f"{train.name}-{kind}", ".svg")
-    elif not out.suffix and not is_standard(out):
+    elif not out.suffix and not is_standard(out) and out.name not in ("", ".."):  # `.`, `/` and `..` are folders
         out = out.with_name(f"{out.name}.svg")
     to = picture_sink(out, force, theme, "-o")
     from geartrain.drawing import picture

@@ -139,6 +139,8 @@ export watch-going-train --to d --as svg --sheet 300x200x1mm | --sheet
 
 # view
 view planetary-24-18-60 -o . | folder | why:
+draw planetary-24-18-60 -o . | folder | why:
+draw planetary-24-18-60 -o .. | folder | why:
 view planetary-24-18-60 -o missing/train.html | the folder does not exist | why:
 view planetary-24-18-60 -o train.txt | not a suffix of an HTML page | why:
 view planetary-24-18-60 -o train.png | pictures and films can be saved from the page | why:

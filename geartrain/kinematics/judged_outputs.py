@@ -325,7 +325,7 @@ def as_plain_product(value: SpeedValue, times: int) -> float | None:
 
 
 def magnitude(value: SpeedValue) -> SpeedValue:
-    """Return the absolute value, of the same type."""
+    """Return the absolute value of a speed or error, of the same type."""
     return value if value >= 0 else -value
 
 
@@ -397,8 +397,9 @@ def unit_seconds(train: Train) -> Fraction | None:
 
 
 def in_plain_units(printed: Figure, unit: Fraction | None) -> Figure:
-    """Return a published value or tolerance as a number in the unit of `OutputResult.found` (periods in seconds);
-    `unit` is the time of one turn at a speed of 1 [s], which is the length of a printed year.
+    """Return a published value or tolerance as a number in the unit of `OutputResult.found`; periods are converted to
+    seconds. `unit` is the time of one turn at a speed of 1 [s], which defines the length of the year in published
+    periods.
     """
     return printed.in_seconds(year_seconds(unit)) if isinstance(printed, PrintedPeriod) else printed
 
@@ -479,7 +480,8 @@ def sensitivity(
     """Yield the relative change of the speed of each affected output [ppm] if an uncertain wheel has one tooth fewer or
     one tooth more.
 
-    solve_with   function that solves the train with the given circuits, and returns the function for relative speeds
+    solve_with   function that solves the train with the given circuits, and returns a function of two links that
+                 returns the speed of the first link relative to the second
     """
     for name, wheel in train.uncertain_wheels():
         teeth = wheel.count

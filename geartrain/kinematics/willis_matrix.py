@@ -80,7 +80,9 @@ class PaddedRows:
         x[self.columns[single[own], 0]] = right[single[own]]
 
     def size(self, x: Floats) -> Floats:
-        """Return |A| |x|, which is the sum of the magnitudes of the terms, for each row and case."""
+        """Return |A| |x|, shape (rows, cases): the sum of the magnitudes of the terms in each row, for each set of
+        input speeds.
+        """
         total: Floats = np.einsum("rt,rtc->rc", np.abs(self.coefficients), np.abs(x[self.columns]))
         return total
 

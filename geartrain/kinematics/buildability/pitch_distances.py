@@ -333,14 +333,14 @@ class PitchDistances:
         return self.sizes.ratio(("wheel", wheel), _MM)
 
     def distance(self, axes: tuple[str, str]) -> tuple[Node, Fraction]:
-        """Return a root quantity (a module or a distance), and the distance between two axes as a multiple of the root
-        quantity. Distances with the same root quantity can be compared.
+        """Return a reference quantity (a module or a distance), and the ratio of the distance between two axes to it.
+        Distances with the same reference quantity can be compared.
         """
         return self.sizes.root(("axes", *axes))
 
     def measure(self, pair: PitchPair) -> Callable[[Fraction], str]:
-        """Return a function that formats a multiple of the root quantity of a pair's distance. It is given in mm if the
-        root quantity is known in mm, and in modules if it is not.
+        """Return a function that formats a length as text, given the length as a multiple of the reference quantity of
+        a pair's distance. The text is in mm if the reference quantity is known in mm, and in modules if it is not.
         """
         root, _ = self.distance(pair.axis_pair)
         known, module = self.sizes.ratio(root, _MM), self.sizes.ratio(root, ("wheel", pair.wheels[0])) or Fraction(1)
@@ -395,7 +395,9 @@ class PitchDistances:
                 self.placed[node] = f"the offset of '{circuit.id}'"
 
     def _record_positions(self, axes: tuple[str, str]) -> None:
-        """Record the distance between two parallel axes if the positions of both axes are declared."""
+        """Add the distance between two parallel axes to `sizes` and `placed` if the positions of both axes are
+        declared.
+        """
         node = ("axes", *axes)
         if node in self.placed or axes[0] == axes[1]:
             return
@@ -502,9 +504,12 @@ _COMPENSATE = "shift profiles, give the pairs different modules, or change a too
 
 
 def _needed_shifts(pair: PitchPair, distance: Fraction) -> str:
-    """Return the text of a fix with the profile shifts x for which involute teeth have no backlash at a distance
-    [modules]: inv a_w = inv a_t + 2 tan a_n (x1 + x2)/(z1 + z2), cos a_w = cos a_t touching/distance, tan a_t = tan a_n
-    / cos(helix). In a pair with a ring, z and x of the mate are negative. The text is "" if no sum in `_SHIFTS` fits.
+    """Return advice to declare profile shifts for which involute teeth have no backlash at a distance [modules].
+
+    The shifts x satisfy inv a_w = inv a_t + 2 tan a_n (x1 + x2)/(z1 + z2), with the tooth counts z, the normal pressure
+    angle a_n, the transverse pressure angle a_t, tan a_t = tan a_n / cos(helix), and the operating pressure angle a_w,
+    cos a_w = cos a_t touching/distance. In a pair with a ring, z and x of the mate are negative. The advice is "" if
+    the required sum of the shifts is outside the limits `_SHIFTS`.
     """
     from geartrain.teeth.conjugate.involute_geometry import inv
 
@@ -533,7 +538,9 @@ def _needed_shifts(pair: PitchPair, distance: Fraction) -> str:
 
 
 def _backlash_effect(pair: PitchPair, off: Fraction, module: Fraction) -> str:
-    """Describe the change of backlash, 2 off tan(alpha), due to a deviation `off` of the centre distance [modules]."""
+    """Return a text on the change of backlash, 2 |off| tan(alpha), with the deviation `off` of the centre distance
+    [modules], the pressure angle alpha and the module [mm].
+    """
     tight = (off < 0) != (pair.ring is not None)
     if abs(off) <= SLACK and tight:
         return f"they are {_mm(abs(off) * module)} closer than teeth without backlash allow"

@@ -97,8 +97,8 @@ class Circuit(NamedTuple):
         """Links and their non-zero coefficients in the Willis equation a w_i + b w_j - (a + b) w_k = 0.
 
         Speeds are positive about the reference direction of parallel axes. The transposed row gives the torques of a
-        pair without losses. Applied to the link angles, the row gives the phase of the mesh, modulo one pitch. If a
-        sliding carrier is involved, the coefficients -a and -b belong to the two `bases`.
+        pair without losses. Applied to the link angles, the row gives the phase of the mesh, modulo one pitch. If
+        `bases` contains two links, the coefficients -a and -b belong to these links instead of the carrier.
         """
         if self.bases:
             row: dict[str, int] = {}
@@ -241,7 +241,9 @@ class _DeclaredCoupling(NamedTuple):
         return self._travelling(circuit) if circuit.travels else self._rotating(circuit)
 
     def _rotating(self, circuit: Circuit) -> Circuit | Problem:
-        """Return the circuit of two turning links, with the sign that follows from their axes, or a problem."""
+        """Return the circuit of two turning links, with the sign of its ratio as it follows from the directions of
+        their axes, or a problem.
+        """
         axes, coupling = self.axes, self.coupling
         labels = _labels(axes.tree, circuit.carrier, circuit.i, circuit.j)
         sign = 1
@@ -263,7 +265,9 @@ class _DeclaredCoupling(NamedTuple):
         return _turning(axes.tree, circuit._replace(b=sign * circuit.b))
 
     def _travelling(self, circuit: Circuit) -> Circuit | Problem:
-        """Return the circuit of a turning link j and a sliding link i, or a problem of its declaration."""
+        """Return the circuit of a turning link j and a sliding link i, or a problem if their axes do not suit the
+        coupling.
+        """
         axes, coupling, carrier, tree = self.axes, self.coupling, circuit.carrier, self.axes.tree
         along, about = _labels(tree, carrier, circuit.i, circuit.j)
         slides = {label: tree.lines[link] for link, (_, label) in tree.parent.items() if link in tree.lines}
@@ -287,7 +291,9 @@ class _DeclaredCoupling(NamedTuple):
         return circuit._replace(i=i, j=j, b=b, bases=(tree.moving(carrier, line), tree.moving(carrier, None)))
 
     def _wrong_angle(self, labels: tuple[str, str]) -> Problem | None:
-        """Return a problem if two axes are perpendicular or not at the declared angle; None if they are valid."""
+        """Return a problem if two axes are perpendicular, or if the angle between them differs from the declared angle;
+        None if they are valid.
+        """
         between, declared = self.axes.angle(labels), getattr(self.coupling, "angle", None)
         what = f"coupling '{self.coupling.name}': "
         if between is not None and between > pi / 2 - _SAME_ANGLE:
@@ -323,8 +329,8 @@ def _shared_axis(tree: Tree, i: str, j: str) -> str | None:
 
 
 def _coaxial_carrier(tree: Tree, i: str, j: str, declared: str | None) -> str | None:
-    """Return the carrier of a coaxial pair: the declared carrier, or by default the link that carries the axis. Return
-    None if the pair is not coaxial, or if the carrier is not a third link on its axis.
+    """Return the carrier of a coaxial pair: the declared carrier, or by default the link that carries the axis of the
+    pair. Return None if the pair is not coaxial, or if the carrier is a member of the pair or is not on its axis.
     """
     axis = _shared_axis(tree, i, j)
     if axis is None:
@@ -354,8 +360,9 @@ def _labels(tree: Tree, carrier: str, i: str, j: str) -> tuple[str, str]:
 
 
 def _carrier(tree: Tree, i: str, j: str) -> str | None:
-    """Return the carrier of the pair i, j: the link of the tree path at which the axis label changes, if all links of
-    an axis are attached to the link that carries it; None if the label does not change exactly once.
+    """Return the carrier of the pair i, j: the link on the tree path from i to j at which the label of the joint axis
+    changes; None if the label does not change exactly once. If several links are on one axis, their joints count as
+    joints to the link that carries the axis.
     """
     parent, top = tree.parent, tree.top
     axis_i = parent[i][1] if i in parent else None

@@ -100,7 +100,10 @@ def find_divisibility_rule(forms: Iterable[Mapping[str, Fraction]]) -> Divisibil
 
 
 def _join(found: list[tuple[int, Row]], modulus: int, terms: Row) -> None:
-    """Add a divisibility condition, merged with one on a coprime modulus if one sum expresses both conditions."""
+    """Add the condition that `modulus` divides the sum with the weights `terms`. If its modulus and that of an earlier
+    condition are coprime and one sum expresses both conditions, they are replaced by one condition on the product of
+    the moduli.
+    """
     for at, (other, known) in enumerate(found):
         kinds = {*known, *terms}
         for says, to in ((terms, other), (known, modulus)):
@@ -126,7 +129,7 @@ def _prime_powers(number: int) -> Iterable[int]:
 
 
 def _independent_generators(rows: Sequence[Sequence[int]], power: int) -> list[list[int]]:
-    """Return a smallest part of the Howell form of the rows that generates the same group modulo a prime power."""
+    """Return a smallest subset of the rows of the Howell form that generates the same group modulo a prime power."""
 
     def group_order(some: Sequence[Sequence[int]]) -> int:
         firsts = (next(value for value in row if value) for row in _howell_form(some, power))
@@ -166,7 +169,9 @@ def _howell_form(rows: Sequence[Sequence[int]], power: int) -> list[list[int]]:
 
 
 def _simplest_form(row: Sequence[int], power: int) -> tuple[int, list[int]]:
-    """Return the congruence row · x = 0 (mod power) in reduced form: the modulus and the simplest weights."""
+    """Return the congruence row · x = 0 (mod power) in reduced form: the modulus, and equivalent weights with the
+    smallest sum of magnitudes.
+    """
     common = math.gcd(*row, power)
     modulus = power // common
     choices = []
@@ -298,7 +303,9 @@ def _sum_change(problem: PhaseSystem, mesh: int, node: int, row: Mapping[int, in
 
 
 def _inside_angles(problem: PhaseSystem, condition: PhaseCondition) -> dict[str, Fraction | float]:
-    """Return, for each gear of a loop, the angle between its two contacts, multiplied by its sign and weight [turn]."""
+    """Return, for each gear of a loop, the angle between its two contacts [turn], multiplied by the gear's weight in
+    the phase condition of the loop.
+    """
     contacts, cycle = problem.contacts, condition.cycle
     assert cycle is not None
     exact = isinstance(condition.residue, Fraction)
@@ -381,7 +388,9 @@ class MeshPhasing(Result):
 
     @cached_property
     def loops(self) -> Sequence[LoopPhase]:
-        """Phase conditions of a cycle basis of short loops, followed by the conditions on several loops together."""
+        """Phase conditions of the single loops of a cycle basis of short loops, followed by the other conditions, each
+        of which concerns several loops together.
+        """
         return tuple(describe_loop(self.problem, condition) for condition in self.problem.conditions)
 
     @cached_property
@@ -571,7 +580,7 @@ def _name(link: str) -> str:
 def find_phasing(
     train: Train, tree: Tree, circuits: Sequence[Circuit], backlashes: Mapping[str, float] | None = None
 ) -> MeshPhasing:
-    """Check the assembly condition of a declared train, in the pose in which its moving axes are declared.
+    """Return the mesh phases of a declared train around its loops, in the pose in which its moving axes are declared.
 
     backlashes   circumferential backlash [pitch] of each pair for which it is known, by pair
     """

@@ -90,7 +90,9 @@ def resolve_form(row: LinearForm, forms: Mapping[int, LinearForm]) -> LinearForm
 
 
 def held_rows(reduced: ReducedSystem, case: StateCase) -> Iterator[LinearForm]:
-    """Yield one row for each link that is fixed to the frame, and one for each pair of locked links."""
+    """Yield the linear forms in the unknowns of `reduced` that must be 0 because a link is fixed to the frame, or
+    because two links are locked together.
+    """
     index = reduced.components.index
     for link in case.fixed:
         yield dict(reduced.form(index[link]))
@@ -130,8 +132,9 @@ def _locked_inputs(reduced: ReducedSystem, case: StateCase) -> list[str]:
 def _tagged(
     reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int]
 ) -> tuple[list[LinearForm], list[PrescriptionStatement]]:
-    """Return all equations, each with its own symbol in column -1 - t, and the statements of brakes, locks and inputs.
-    The index t counts the structural equations first, then brakes, locks and inputs.
+    """Return all equations and the statements of brakes, locks and inputs. Equation t contains a symbol of its own as
+    an additional unknown in column -1 - t, which shows from which equations a contradiction is combined. The index t
+    counts the structural equations first, then brakes, locks and inputs.
     """
     index = reduced.components.index
     rows: list[LinearForm] = [dict(row) for row in (*reduced.equations, *held_rows(reduced, case))]
@@ -190,7 +193,10 @@ def _describe_contradiction(
 
 
 def _pairs(reduced: ReducedSystem, given: Mapping[int, Fraction], structural: int) -> list[str]:
-    """Return the names of the pairs on the paths between the links that the equations of a contradiction share."""
+    """Return the names of the pairs that transmit the contradictory speeds: in each component, the pairs on the paths
+    between those links that also belong to another component. `given` contains the factors of the equations in the
+    contradictory sum; the first `structural` equations couple components.
+    """
     parts = reduced.components
     touched: dict[int, set[int]] = {}
     for tag in given:
@@ -386,7 +392,7 @@ class Solution:
 
     def relative(self, of: str, base: str) -> Fraction | None:
         """Return the speed of the link `of` relative to the link `base`, about the axis of `of`; None if it is not
-        determined. It can be determined although both links are free, if the difference of their speeds is.
+        determined. The difference of two speeds can be determined although neither of them is.
         """
         found = relative_speed(of, base, self.speeds.get, self.signs)
         if found is not None or self.difference is None:

@@ -45,8 +45,8 @@ class FloatSpeeds(FrozenFields, Shown):
     """Float64 speeds computed by sparse LU factorisation and iterative refinement, with error estimates
     (docs/theory.md, 11).
 
-    `floats[link]` returns the speed of a link in the first case. Each speed is 0, or its magnitude is between 1e-120
-    and 1e120.
+    `floats[link]` is the speed of a link for the first set of input speeds. Each speed is 0, or its magnitude is
+    between 1e-120 and 1e120.
 
     Notes
     -----
@@ -88,7 +88,7 @@ class FloatSpeeds(FrozenFields, Shown):
 def solve_floats(system: WillisSystem, inputs: Mapping[str, Sequence[float]] | None = None) -> FloatSpeeds:
     """Solve a determined Willis system in float64 by factorisation of its `matrix()`.
 
-    inputs   speeds of every input, one for each case, by input link; all cases use the same factorisation
+    inputs   speeds by input link, with one number for each set of input speeds; the matrix is factorised only once
 
     Raises `RangeError` if the system is not square and regular, or if a speed is not between 1e-120 and 1e120.
     """
@@ -129,7 +129,9 @@ def solve_floats(system: WillisSystem, inputs: Mapping[str, Sequence[float]] | N
 
 
 def _refined(lu: Any, matrix: PaddedRows, x: Floats, right: Floats, remainder: Floats) -> Floats:
-    """Return the solution after iterative refinement (23), until corrections are negligible or shrink too slowly."""
+    """Return the solution after iterative refinement, equation (23) of docs/theory.md, until corrections are negligible
+    or shrink too slowly.
+    """
     last = 1.0
     for _ in range(_STEPS):
         step = lu.solve(matrix.residual(x, right, remainder))
@@ -165,8 +167,8 @@ def _error_bound(lu: Any, error: Floats) -> Floats:
 
 
 def prepare(system: WillisSystem) -> tuple[PaddedRows, list[WillisEquation]]:
-    """Return the matrix for factorisation and the equations of its rows, as many as moving links. Raises `RangeError`
-    if the system is not square.
+    """Return the matrix for factorisation, which has one row for each moving link, and the equations of its rows.
+    Raises `RangeError` if the system is not square.
     """
     links, rows = independent_rows(system.links, system.equations, system.redundant)
     if len(rows) > len(links):

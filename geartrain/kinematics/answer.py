@@ -18,7 +18,7 @@ _MAIN = 3  # maximum number of links in the summary of an answer
 
 
 def abridged_names(names: Sequence[str], mark: str = ", ") -> str:
-    """Return the names as one text, separated by `mark`. If there are more than 13 names, the names after the 12th are
+    """Return the names as text, separated by `mark`. If there are more than 13 names, the names after the 12th are
     replaced by the number of these names.
 
     >>> abridged_names(["a", "b"], " - "), abridged_names("abcdefghijklmnop")
@@ -31,7 +31,7 @@ def abridged_names(names: Sequence[str], mark: str = ", ") -> str:
 
 @dataclass(frozen=True, slots=True)
 class Loop(Result):
-    """Closed loop of meshing wheels on one carrier, with the product of its speed ratios (docs/theory.md, section 7)."""
+    """Closed loop of meshing wheels on one carrier, with its ratio product (section 7 of docs/theory.md)."""
 
     carrier: str
     """Link relative to which the ratios of all pairs of the loop are measured."""

@@ -265,7 +265,9 @@ class ReducedSystem:
 
 @collector_paused()
 def reduce_components(parts: Components) -> ReducedSystem:
-    """Reduce every component to one unknown speed, and return the system that couples them; see docs/theory.md, 8."""
+    """Return the linear system that couples the components of a train, with one unknown speed for each component
+    (section 8 of docs/theory.md).
+    """
     groups = len(parts.group_carrier)
     # a component that contains a travel has several carriers
     carriers = dict.fromkeys(each for each in (*parts.group_carrier, *parts.node_carrier) if each != parts.frame)
@@ -313,7 +315,7 @@ class SolvedPart:
 
 def relevant_circuits(circuits: Sequence[Circuit], keep: Iterable[str]) -> list[Circuit]:
     """Return the circuits that can affect the speeds of the links in `keep`, by repeated removal of leaves
-    (docs/theory.md, 10).
+    (section 10 of docs/theory.md).
 
     If a link is not in `keep` and occurs in only one circuit, this circuit only determines the speed of that link and
     is removed. This is repeated until no such circuit remains. Loops have no leaves, so a locked train stays locked.

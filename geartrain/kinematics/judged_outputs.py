@@ -392,13 +392,13 @@ def _expect_holds(output: Output, speed: SpeedValue | None) -> bool | None:
 
 
 def unit_seconds(train: Train) -> Fraction | None:
-    """Return the time of one turn at a speed of 1 [s]; None if the train has no unit of time."""
+    """Return the time [s] of one turn at a speed of 1 [unit of the train]; None if the train has no unit of time."""
     return 1 / train.unit_speed if train.unit_speed else None
 
 
 def in_plain_units(printed: Figure, unit: Fraction | None) -> Figure:
     """Return a published value or tolerance as a number in the unit of `OutputResult.found`; periods are converted to
-    seconds. `unit` is the time of one turn at a speed of 1 [s], which defines the length of the year in published
+    seconds. `unit` is the time [s] of one turn at a speed of 1, which defines the length of the year in published
     periods.
     """
     return printed.in_seconds(year_seconds(unit)) if isinstance(printed, PrintedPeriod) else printed

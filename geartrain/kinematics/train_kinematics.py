@@ -150,7 +150,7 @@ class TrainKinematics(Shown):
 
     @cached_property
     def mobility(self) -> Mobility:
-        """Mobility by counting and by exact rank, with redundant and locking loops (docs/theory.md, 6)."""
+        """Mobility by counting and by exact rank, with redundant and locking loops (section 6 of docs/theory.md)."""
         from geartrain.kinematics.speeds import find_mobility
 
         declared = self.declaration

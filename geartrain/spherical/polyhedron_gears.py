@@ -374,7 +374,9 @@ def without_gears(
         rest = [(i, j) for i, j in left if not ((i in a and j in b) or (j in a and i in b))]
         if len(rest) == len(left):
             why = f"{first} and {second} do not mesh"
-            raise QuestionError(Problem(f"unknown mesh '{word}'", why, "give the names of two gears that mesh"))
+            fix = "give the names of two gears that mesh"
+            fix += f", such as '{names[left[0][0]]}~{names[left[0][1]]}'" if left else ""
+            raise QuestionError(Problem(f"unknown mesh '{word}'", why, fix))
         left = rest
     kept = set(range(len(names))) - gone
     return kept, [(i, j) for i, j in left if i in kept and j in kept]

@@ -265,8 +265,8 @@ def check_shared_wheels(pairs: Sequence[PitchPair], outlines: Outlines) -> Itera
 
 
 def check_skew(train: Train, tree: Tree, pairs: Sequence[PitchPair], sizes: PitchDistances) -> Iterator[BuildFinding]:
-    """Yield findings of rule K4: skew axes are not at the sum of the pitch radii m z/(2 cos(b)), where m is the normal
-    module, z the tooth count and b the helix angle.
+    """Yield findings of rule K4: the distance of two skew axes differs from the sum of the pitch radii m z/(2 cos(b)),
+    where m is the normal module, z the tooth count and b the helix angle.
     """
     axes = Axes(train, tree)
     for pair in pairs:

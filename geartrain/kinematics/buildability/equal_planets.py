@@ -78,7 +78,7 @@ class AssemblyMesh:
 
 @dataclass(frozen=True, slots=True)
 class Planet:
-    """Planet with its meshes, as a node in the tree of planets that mesh with each other (root: the first planet)."""
+    """Planet with its meshes: a node in a tree of planets that mesh with each other. The root is the first planet."""
 
     link: str
     inward: AssemblyMesh | None
@@ -86,7 +86,7 @@ class Planet:
     central: tuple[AssemblyMesh, ...]
     """Meshes with wheels on the carrier's axis, sorted by the names of those wheels."""
     outward: tuple[tuple[AssemblyMesh, Planet], ...]
-    """Meshes with the child planets in the tree, in an order that is the same for isomorphic sets."""
+    """Meshes with the child planets in the tree; equal sets list corresponding meshes in the same order."""
 
     def walk(self) -> Iterator[Planet]:
         """Yield this planet and all its descendants in the tree."""
@@ -635,7 +635,9 @@ class _EqualPlanets:
         return float(sum(sign * int(part) for sign, part in mesh.terms)) if outline is None else 2 * outline.distance
 
     def _axis_distance(self, planet: Planet, wheel: str = "") -> float | None:
-        """Return twice the distance of a planet's axis from the central axis [modules of `wheel`]; None if unknown."""
+        """Return twice the distance of a planet's axis from the carrier's axis [modules of `wheel`, or of the planet's
+        wheel if it is empty]; None if it is unknown.
+        """
         meshes = sorted(planet.central, key=lambda mesh: (planet.own(mesh) != wheel, mesh.ring is not None))
         if not meshes:
             return None
@@ -646,8 +648,9 @@ class _EqualPlanets:
         return None if scale is None else self._mesh_distance(meshes[0]) * float(scale) * slants[0] / slants[1]
 
     def _passing_clearance(self, planet: Planet, other: Planet, mesh: AssemblyMesh) -> float | None:
-        """Return the minimum tip clearance between a planet and the mates of its neighbours [modules]; None if it is
-        unknown, for a pair with a ring, and for planets with declared positions.
+        """Return the minimum tip clearance between the wheels of two planets that mesh within a set, but are in
+        different sets [modules]. Return None if it is unknown, for a pair with a ring, and for planets with declared
+        positions.
         """
         A, B = self._axis_distance(planet, planet.own(mesh)), self._axis_distance(other, other.own(mesh))
         if A is None or B is None or mesh.ring is not None or self.points is not None:

@@ -370,7 +370,9 @@ class PitchDistances:
     # ------------------------------------------------------------------------------------------------------- distances
 
     def _offsets(self, tree: Tree, circuits: Sequence[Circuit]) -> Iterator[BuildFinding]:
-        """Record axis distances from declared positions and pin offsets, and yield a finding for each contradiction."""
+        """Add the axis distances that follow from declared positions and offsets of pins to `sizes`, and yield a
+        finding for each contradiction.
+        """
         offsets = {each.name: each.offset for each in self.train.pin_couplings if each.offset is not None}
         for pair in self.pairs:
             if pair.parallel:
@@ -387,8 +389,9 @@ class PitchDistances:
             if apart is not None and abs(apart - offset) > _EQUAL * max(apart, offset):
                 what = f"axes {_named(axes)} are {_mm(apart)} apart, but the offset of '{circuit.id}' is {_mm(offset)}"
                 why = "the offset of a pin is the distance between the two axes"
+                fix = f"move an axis, or declare `offset: {_mm(apart)}`"
                 place = self.train.place("couplings", at[circuit.id])
-                yield BuildFinding("P1", "error", Problem(what, why, "move an axis, or correct the offset", place))
+                yield BuildFinding("P1", "error", Problem(what, why, fix, place))
             # the offset determines the distance if no positions are declared
             elif apart is None:
                 self.sizes.join(_MM, node, offset)

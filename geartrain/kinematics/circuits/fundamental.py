@@ -302,7 +302,7 @@ class _DeclaredCoupling(NamedTuple):
         if between is not None and declared is not None and abs(declared.si - between) > _SAME_ANGLE:
             what += f"its angle is {declared.text}, but its axes are at {degrees(between):.6g} deg"
             fix = "omit `angle`, which follows from `axes`, or correct a direction"
-            return self._problem(what, "both declare the same angle", fix)
+            return self._problem(what, "`angle` and `axes` both declare the same angle", fix)
         return None
 
     def _problem(self, what: str, why: str, fix: str, *key: str) -> Problem:
@@ -320,7 +320,9 @@ def _turning(tree: Tree, circuit: Circuit) -> Circuit:
 
 
 def _shared_axis(tree: Tree, i: str, j: str) -> str | None:
-    """Return the label of the axis on which links i and j turn, or which one of them carries; None if there is none."""
+    """Return the label of the axis on which both links turn, or on which one link turns while the other carries the
+    axis; None if there is none.
+    """
     for link, other in ((i, j), (j, i)):
         axis = tree.axis(link)
         if axis is not None and (tree.axis(other) == axis or tree.top[link] == other):

@@ -114,12 +114,13 @@ def check_pallets(train: Train, tree: Tree) -> None:
         what = f"pallets on '{on}' do not stay beside the escape wheel '{link}'"
         fix = f"write `on: {bearer}`, or a link that turns about the axis of '{link}'"
         place = train.place("escapement", "on")
-        raise DeclarationError([Problem(what, f"'{bearer}' carries the axis of '{link}'", fix, place)])
+        why = f"the pallets must keep their distance from the axis of the escape wheel, which '{bearer}' carries"
+        raise DeclarationError([Problem(what, why, fix, place)])
 
 
 @collector_paused()
 def find_tree(train: Train) -> Tree:
-    """Build the tree of joints with the frame as root. Raises `DeclarationError` if the joints do not form a tree."""
+    """Return the tree of joints with the frame as root. Raises `DeclarationError` if the joints do not form a tree."""
     declared: list[tuple[Revolute | Slide, Loc]] = [
         *((joint, ("revolutes", at)) for at, joint in enumerate(train.revolutes)),
         *((joint, ("slides", at)) for at, joint in enumerate(train.slides)),

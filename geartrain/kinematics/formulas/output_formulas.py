@@ -417,8 +417,8 @@ def with_counts(train: Train, counts: Mapping[str, int]) -> Train:
     links = dict(train.links)
     for name, count in counts.items():
         if not 0 < count <= MOST_TEETH or count != int(count):
-            what, why = f"wheel '{name}' cannot have {count} teeth", "a tooth count is a positive integer"
-            raise QuestionError(Problem(what, why, "give a whole number from 1 to 10^12"))
+            what, why = f"wheel '{name}' cannot have {count} teeth", "a tooth count is a whole number from 1 to 10^12"
+            raise QuestionError(Problem(what, why, f"give another count, such as `{{'{name}': 20}}`"))
         link, wheel = train.wheels[name]
         value: int | Teeth = int(count)
         if not isinstance(wheel.teeth, int):

@@ -137,7 +137,7 @@ class Gridlock(Result):
     Notes
     -----
     The number of meshes in a smallest set is the frustration index of the gain graph. The set is found by integer
-    programming (docs/theory.md, 7).
+    programming (section 7 of docs/theory.md).
 
     Examples
     --------

@@ -298,7 +298,9 @@ def _wheel(problem: PhaseSystem, mesh: int, node: int) -> str:
 
 
 def _sum_change(problem: PhaseSystem, mesh: int, node: int, row: Mapping[int, int]) -> int:
-    """Return the change of a loop's sum of phase equations if a wheel is rotated on its arbor by one pitch [pitch]."""
+    """Return the change of the sum of a loop's phase equations with the weights `row` if the wheel of a mesh on the
+    link of `node` is rotated on its arbor by one pitch [pitch].
+    """
     return row[mesh] * (1 if problem.ends[mesh][0] == node or problem.circuits[mesh].b > 0 else -1)
 
 

@@ -437,8 +437,8 @@ class PhaseSystem:
     def _tree_nodes(self) -> list[Number]:
         """Angles of nodes relative to their carriers that satisfy the equation of every mesh in the search tree [turn].
 
-        In components with compound wheels, a full turn of one link changes which teeth of other links engage, so the
-        angles are exact fractions.
+        In components with compound wheels, the angles are exact fractions that are not reduced to one turn, because a
+        full turn of one link changes which teeth of other links engage.
         """
         parts = self.parts
         found: list[Number] = [0.0 for _ in parts.node_parent]

@@ -476,8 +476,9 @@ def elimination_budget(reduced: ReducedSystem, budget: int | None) -> int | None
 
 
 def eliminate_within(rows: Sequence[LinearForm], budget: int | None) -> Echelon:
-    """Eliminate exactly with at most `budget` operations. Raises `TooDenseError` if a limited elimination modulo a
-    prime, with short numbers, predicts too much fill-in.
+    """Return the echelon form of the rows, by exact elimination with at most `budget` operations. Raises
+    `TooDenseError` if the budget is exceeded, or if an elimination modulo a prime, which has shorter numbers, predicts
+    it.
     """
     if budget is not None and len(rows) > _FEW:
         eliminate(map(residues, rows), _PREDICTED + 10 * len(rows), PRIME)

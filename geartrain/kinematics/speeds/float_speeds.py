@@ -43,7 +43,7 @@ _LARGEST_EXPONENT = 400  # of two, of a speed: the squares of errors stay within
 @dataclass(frozen=True, slots=True)
 class FloatSpeeds(FrozenFields, Shown):
     """Float64 speeds computed by sparse LU factorisation and iterative refinement, with error estimates
-    (docs/theory.md, 11).
+    (section 11 of docs/theory.md).
 
     `floats[link]` is the speed of a link for the first set of input speeds. Each speed is 0, or its magnitude is
     between 1e-120 and 1e120.
@@ -101,7 +101,7 @@ def solve_floats(system: WillisSystem, inputs: Mapping[str, Sequence[float]] | N
         why = (
             "ratios above 1e308, and differences smaller than the rounding error, make the system numerically singular"
         )
-        raise RangeError(Problem(what, why, "use the exact method")) from None
+        raise RangeError(Problem(what, why, "use `method='exact'`")) from None
     x = _refined(lu, matrix, lu.solve(right), right, remainder)
     rest = matrix.residual(x, right, remainder)
     _check_range(matrix, x, rest, rows)
@@ -249,12 +249,12 @@ def _check_digits(lu: Any, matrix: PaddedRows, speeds: Floats, spread: Floats) -
     at = int(np.argmax(condition.max(axis=1)))
     what = f"no digit of the speed of '{list(matrix.at)[at]}' is correct in float64"
     why = f"rounding errors of the equations are amplified more than {_LARGEST_CONDITION:.0e} times"
-    raise RangeError(Problem(what, why, "use the exact method"))
+    raise RangeError(Problem(what, why, "use `method='exact'`"))
 
 
 def _out_of_range(label: str) -> Problem:
     return Problem(
         f"a speed near '{label}' is too small or too large for floating-point numbers",
         "speeds and ratios must be between 1e-120 and 1e120, so that their rounding errors can be bounded",
-        "use the exact method",
+        "use `method='exact'`",
     )

@@ -235,9 +235,7 @@ class Answer(FrozenFields, Tabular, TrainResult):
         return f"{self.train}{state}: {', '.join([self.verdict.kind, *figures, *more])}"
 
     def _main_links(self, case: Any) -> Iterable[str]:
-        """Return the links whose speeds the outputs report. If there is no output, return all links that are neither
-        inputs nor fixed.
-        """
+        """Return the links that the outputs report; if there are none, all links except inputs and fixed links."""
         if case is None or self._output is not None:
             return self.speeds
         outputs = [output.links(name, self._declaration.frame) for name, output in case.outputs.items()]
@@ -299,8 +297,6 @@ class Answer(FrozenFields, Tabular, TrainResult):
 
     @property
     def optional_keys(self) -> OptionalKeys:
-        """Residuals of float speeds, and one-way clutches with their notes, as written to JSON; keys without data are
-        omitted.
-        """
+        """Residuals of float speeds, and one-way clutches with their notes, by key of the JSON output."""
         found: OptionalKeys = {"residual": self.residual} if self.residual else {}
         return found | {"one_way": self.one_way, "notes": self.notes} if self.one_way else found

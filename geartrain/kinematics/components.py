@@ -80,9 +80,7 @@ class Components:
         return first, second
 
     def loop(self, circuit: int) -> Loop:
-        """Return the loop that is closed by a circuit, which is one of those in `closing` or `breaking`, with its ratio
-        product.
-        """
+        """Return the loop that is closed by a circuit in `closing` or `breaking`, with its ratio product."""
         chord = self.circuits[circuit]
         up, down = self.ends(chord)
         left, right = ways_to_common_ancestor(up, down, self._predecessor)
@@ -252,9 +250,7 @@ class ReducedSystem:
         return (parts.node_group[node], *(() if carrier == parts.frame else (self.own[carrier],)))
 
     def seen_from(self, node: int) -> LinearForm:
-        """Return the speed of a node's link as a linear form: the speed of the node's carrier plus the speed of the
-        link relative to this carrier.
-        """
+        """Return the speed of a node's link as a linear form: the carrier's speed plus the link's relative speed."""
         parts = self.components
         row: LinearForm = {parts.node_group[node]: parts.relative(node)}
         carrier = parts.node_carrier[node]
@@ -265,9 +261,7 @@ class ReducedSystem:
 
 @collector_paused()
 def reduce_components(parts: Components) -> ReducedSystem:
-    """Return the linear system that couples the components of a train, with one unknown speed for each component
-    (section 8 of docs/theory.md).
-    """
+    """Return the system that couples the components, each with one unknown speed (section 8 of docs/theory.md)."""
     groups = len(parts.group_carrier)
     # a component that contains a travel has several carriers
     carriers = dict.fromkeys(each for each in (*parts.group_carrier, *parts.node_carrier) if each != parts.frame)

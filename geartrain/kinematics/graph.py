@@ -65,9 +65,7 @@ this number.
 
 
 def edge_rows(graph: Graph) -> list[tuple[str, str, str, str]]:
-    """Return, for each edge in the order of the declaration, its two links, its kind, and its label (the axis of a
-    joint, or the name of a pair or coupling).
-    """
+    """Return the two links, the kind and the label (name of the axis, pair or coupling) of each edge, in order."""
     return [(first, second, data["kind"], str(data["label"])) for first, second, data in graph.edges(data=True)]
 
 

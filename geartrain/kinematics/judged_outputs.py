@@ -397,9 +397,8 @@ def unit_seconds(train: Train) -> Fraction | None:
 
 
 def in_plain_units(printed: Figure, unit: Fraction | None) -> Figure:
-    """Return a published value or tolerance as a number in the unit of `OutputResult.found`; periods are converted to
-    seconds. `unit` is the time [s] of one turn at a speed of 1, which defines the length of the year in published
-    periods.
+    """Return a published value or tolerance in the unit of `OutputResult.found`, with periods in seconds. `unit` is the
+    time [s] of one turn at a speed of 1, which defines the year of the source.
     """
     return printed.in_seconds(year_seconds(unit)) if isinstance(printed, PrintedPeriod) else printed
 

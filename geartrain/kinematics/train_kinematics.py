@@ -459,9 +459,7 @@ class TrainKinematics(Shown):
         return lambda of, base: relative(of, self.tree.reference(of, base))
 
     def _solved_with(self, circuits: Sequence[Circuit], case: StateCase) -> Relative:
-        """Return a function of two links that returns the speed of the first link relative to the second if `circuits`
-        replace the circuits of the train.
-        """
+        """Return the function for the relative speed of two links if the train has the given circuits."""
         return self._seen(solve(self._solved_part(circuits, tuple(self.declaration.links)), case, self.signs).relative)
 
     def _with_pi(self, case: StateCase, speeds: Mapping[str, SpeedValue], seen: Relative) -> dict[str, bool]:

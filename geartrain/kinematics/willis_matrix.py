@@ -80,9 +80,7 @@ class PaddedRows:
         x[self.columns[single[own], 0]] = right[single[own]]
 
     def size(self, x: Floats) -> Floats:
-        """Return |A| |x|, shape (rows, cases): the sum of the magnitudes of the terms in each row, for each set of
-        input speeds.
-        """
+        """Return |A| |x|, shape (rows, cases), which is the sum of the magnitudes of the terms of each row."""
         total: Floats = np.einsum("rt,rtc->rc", np.abs(self.coefficients), np.abs(x[self.columns]))
         return total
 

@@ -67,9 +67,7 @@ class PlanarPacking:
         self.far = (a, b, gears + self.left[a, b], gears + self.left[b, a])
 
     def _around(self) -> list[list[int]]:
-        """Return the neighbours of every node, counterclockwise. The nodes are first the gears, whose neighbours are
-        the regions around them, and then the regions, whose neighbours are gears.
-        """
+        """Return the regions around each gear, then the gears around each region, all counterclockwise, by node."""
         before = {}
         for walk in self.regions:
             for at, gear in enumerate(walk):
@@ -150,9 +148,7 @@ class PlanarPacking:
         return self._on_sphere(r, centre, lines)
 
     def _directions(self, r: Floats, node: int, first: int, towards: complex) -> list[tuple[int, complex]]:
-        """Return each neighbour of a node with the unit direction to it, counterclockwise. The neighbour `first` is in
-        the direction `towards`.
-        """
+        """Return each neighbour of a node with the unit direction to it, from `first` in the direction `towards`."""
         beside = self.around[node]
         at = beside.index(first)
         beside = beside[at:] + beside[:at]
@@ -162,9 +158,7 @@ class PlanarPacking:
         return [(other, towards * complex(np.exp(1j * turn))) for other, turn in zip(beside, turns, strict=True)]
 
     def _on_sphere(self, r: Floats, centre: dict[int, complex], lines: dict[int, tuple[complex, complex]]) -> Floats:
-        """Return the vectors of all circles on the sphere. The four circles through infinity are lines in the plane
-        that form a rectangle, which is first moved to the origin and scaled.
-        """
+        """Return the vectors of all circles after centring the rectangle of the four lines through infinity."""
         offsets = {node: (m, (m.conjugate() * p).real) for node, (m, p) in lines.items()}
         middle, scale = 0j, 0.0
         # opposite sides of the rectangle of lines

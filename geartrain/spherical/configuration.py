@@ -124,9 +124,7 @@ def require_tooth_numbers(
 
 
 def mesh_kinds(configuration: Configuration) -> tuple[MeshKind, ...]:
-    """Return the kinds of mesh, sorted by the kinds of the gears and then by the angle. Angles within 1e-9 rad are
-    treated as equal.
-    """
+    """Return the kinds of mesh, sorted by the kinds of gears, then by angle; angles within 1e-9 rad are equal."""
     order = {kind: at for at, kind in enumerate(kinds_in_order(configuration))}
     groups: dict[tuple[int, int, int], list[int]] = {}
     angles = mesh_angles(configuration.axes, configuration.meshes)

@@ -158,9 +158,7 @@ def _placed(
     counts: Mapping[str, int],
     exact: bool,
 ) -> Floats:
-    """Return the axes. If `exact` is True, they are moved until all pitches are equal; if not, only gears on edges are
-    moved, if tooth numbers are known for them and their mates.
-    """
+    """Return the axes, moved to equal pitches: all axes if `exact`, else axes on edges with known teeth."""
     teeth = [counts.get(kind, 0) for kind in kinds]
     if exact:
         require_tooth_numbers(
@@ -185,9 +183,7 @@ def _placed(
 
 @dataclass(frozen=True, eq=False)
 class PolyhedronPlaces:
-    """All gears that an arrangement places on a solid, with their axes and meshes, including gears that are omitted
-    later.
-    """
+    """All gears of an arrangement on a solid, including gears that are omitted later."""
 
     axes: Floats
     """Unit vectors of the axes, shape (gears, 3)."""
@@ -269,9 +265,7 @@ TeethByKind = Mapping[str, int] | Mapping[int, int] | int
 
 
 def kinds_of(layout: PolyhedronPlaces) -> list[str]:
-    """Return the kind of each gear: the number of sides of its face, v for a vertex or e for an edge, with an
-    additional letter if gears with this name are in several orbits.
-    """
+    """Return the kind of each gear: its entry in `layout.letters`, and a letter if it is in one of several orbits."""
     orbits = layout.movement.orbits().tolist()
     size = {orbit: orbits.count(orbit) for orbit in set(orbits)}
     rank = np.argsort(from_the_top(layout.axes))
@@ -311,9 +305,7 @@ def _steps(layout: PolyhedronPlaces, start: Iterable[int]) -> dict[int, int]:
 
 
 def in_order(layout: PolyhedronPlaces, kinds: Sequence[str]) -> list[int]:
-    """Return the indices of the gears sorted by position: gears on faces first, starting with the largest faces, then
-    gears on vertices, then gears on edges.
-    """
+    """Return the indices of the gears in order: gears on larger faces first, then on vertices, then on edges."""
     rank = np.argsort(from_the_top(layout.axes))
 
     def key(at: int) -> tuple[int, int, int, str, int]:
@@ -325,9 +317,7 @@ def in_order(layout: PolyhedronPlaces, kinds: Sequence[str]) -> list[int]:
 
 
 def teeth_of(teeth: TeethByKind | None, kinds: Sequence[str]) -> dict[str, int]:
-    """Return the tooth number of each kind. The key in `teeth` is a kind, or the name of several kinds without their
-    additional letters, such as 4 for 4a and 4b.
-    """
+    """Return the tooth number of each kind; keys of `teeth` are kinds, or such as 4 for the kinds 4a and 4b."""
     known = list(dict.fromkeys(kinds))
     given = {str(kind): count for kind, count in teeth.items()} if isinstance(teeth, Mapping) else {}
     if teeth is not None and not isinstance(teeth, Mapping):
@@ -346,9 +336,7 @@ def teeth_of(teeth: TeethByKind | None, kinds: Sequence[str]) -> dict[str, int]:
 
 
 def _matching_kinds(word: str, kinds: Iterable[str]) -> list[str]:
-    """Return the kind with a given name as a list of one kind, or, if there is none, all kinds that consist of this
-    name and an additional letter.
-    """
+    """Return a list of the kind with the given name, or else of all kinds such as 4a and 4b for the name 4."""
     known = list(dict.fromkeys(kinds))
     return [word] if word in known else [kind for kind in known if letter_of(kind) == word]
 

@@ -94,9 +94,7 @@ def _parallel_axes_problem(pair: PitchPair, shape: str, declared: bool) -> Probl
 
 
 def _crossing_axes_problem(pair: PitchPair, shape: str, offset: float | None) -> Problem | None:
-    """Return a problem if the wheels of a pair on non-parallel axes cannot mesh; None if they can. `shape` is the kind
-    of the pair, such as `bevel`, and `offset` the distance between the axes [m].
-    """
+    """Return a problem if a pair of the kind `shape` cannot mesh on axes that are `offset` [m] apart; else None."""
     first, second = pair.axes
     if shape == "spur":
         return Problem(
@@ -174,9 +172,7 @@ def _triangle(
 
 
 def check_clutches(train: Train, tree: Tree) -> Iterator[BuildFinding]:
-    """Yield findings of rules G1 and G2: a clutch connects links on different axes, or a brake acts across several
-    axes.
-    """
+    """Yield findings of rules G1 and G2: a clutch between links on different axes, a brake across several axes."""
     reported = set()
     for case in train.cases:
         for rigid in rigid_across_axes(train, tree, case):
@@ -298,9 +294,7 @@ def check_skew(train: Train, tree: Tree, pairs: Sequence[PitchPair], sizes: Pitc
 def check_build(
     train: Train, tree: Tree, circuits: Sequence[Circuit], outlines: Outlines = dict
 ) -> Iterator[BuildFinding]:
-    """Yield the findings of all buildability rules that require only the declaration (docs/buildability.md). The
-    function `outlines` returns the tooth dimensions of the pairs that declare teeth.
-    """
+    """Yield the findings of all rules that require only the declaration and tooth outlines (docs/buildability.md)."""
     yield from check_mates(train)  # first, because a wheel that a child adds without a pair changes no speed
     pairs = pitch_pairs(train, tree, circuits)
     yield from check_kinds(train, tree, circuits, pairs)

@@ -122,9 +122,7 @@ class Planet:
 
     @property
     def form(self) -> object:
-        """Nested tuples that describe the meshes of this planet and its descendants; equal for planets whose
-        corresponding wheels mesh with the same wheels on the carrier's axis.
-        """
+        """Description of the meshes of this planet and its descendants, equal for planets of equal sets."""
         wheels = self.wheels
         central = tuple((wheels.index(self.own(mesh)), self.mate(mesh)) for mesh in self.central)
         outward = tuple((wheels.index(self.own(mesh)), other.form) for mesh, other in self.outward)
@@ -243,9 +241,7 @@ class TrainAssembly:
 
     @cached_property
     def sets(self) -> tuple[PlanetSet, ...]:
-        """Sets of planets on moving carriers. Sets that are equal to an earlier set are in the field `copies` of the
-        earlier set.
-        """
+        """Sets of planets on moving carriers; the field `copies` of a set contains the later sets that equal it."""
         found: list[PlanetSet] = []
         by_carrier: dict[str, list[AssemblyMesh]] = {}
         for mesh in self.meshes:
@@ -607,9 +603,7 @@ class _EqualPlanets:
         return None if module is None else float(module) * self.train.wheels[wheel][1].slant
 
     def _neighbour_clearance(self, planet: Planet, mesh: AssemblyMesh, number: int) -> float | None:
-        """Return the tip clearance between the equal wheels of neighbouring planets, if `number` planets are evenly
-        spaced or have declared positions [modules]; None if it is unknown.
-        """
+        """Return the tip clearance of equal wheels of `number` neighbouring planets [modules]; None if unknown."""
         tips = self._tip_diameter(planet, mesh)
         # positions are known only for the first planet of each set
         if self.points is not None and planet is self.planet and number == self.number:
@@ -635,9 +629,7 @@ class _EqualPlanets:
         return float(sum(sign * int(part) for sign, part in mesh.terms)) if outline is None else 2 * outline.distance
 
     def _axis_distance(self, planet: Planet, wheel: str = "") -> float | None:
-        """Return twice the distance of a planet's axis from the carrier's axis [modules of `wheel`, or of the planet's
-        wheel if it is empty]; None if it is unknown.
-        """
+        """Return twice the distance from a planet's axis to its carrier's axis [modules of `wheel`], or None."""
         meshes = sorted(planet.central, key=lambda mesh: (planet.own(mesh) != wheel, mesh.ring is not None))
         if not meshes:
             return None
@@ -648,9 +640,8 @@ class _EqualPlanets:
         return None if scale is None else self._mesh_distance(meshes[0]) * float(scale) * slants[0] / slants[1]
 
     def _passing_clearance(self, planet: Planet, other: Planet, mesh: AssemblyMesh) -> float | None:
-        """Return the minimum tip clearance between the wheels of two planets that mesh within a set, but are in
-        different sets [modules]. Return None if it is unknown, for a pair with a ring, and for planets with declared
-        positions.
+        """Return the minimum tip clearance of meshing planets from different sets [modules]; None if it is unknown, for
+        a pair with a ring, and for planets with declared positions.
         """
         A, B = self._axis_distance(planet, planet.own(mesh)), self._axis_distance(other, other.own(mesh))
         if A is None or B is None or mesh.ring is not None or self.points is not None:
@@ -677,9 +668,7 @@ class _EqualPlanets:
         return found
 
     def _maximum_number(self) -> int:
-        """Return the maximum number of evenly spaced planets whose tips do not overlap. If it is unknown, return the
-        declared number.
-        """
+        """Return the maximum number of evenly spaced planets whose tips do not overlap."""
         minimum = max((self._minimum_angle(planet) for planet in self.planet.walk()), default=0.0)
         # 1e-9: rounding must not reduce the number of planets whose tips just touch
         return max(1, int(1 / minimum + 1e-9)) if minimum else self.number

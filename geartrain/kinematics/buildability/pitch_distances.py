@@ -398,9 +398,7 @@ class PitchDistances:
                 self.placed[node] = f"the offset of '{circuit.id}'"
 
     def _record_positions(self, axes: tuple[str, str]) -> None:
-        """Add the distance between two parallel axes to `sizes` and `placed` if the positions of both axes are
-        declared.
-        """
+        """Add the distance between two axes with declared positions, if they are parallel, to `sizes` and `placed`."""
         node = ("axes", *axes)
         if node in self.placed or axes[0] == axes[1]:
             return
@@ -541,9 +539,7 @@ def _needed_shifts(pair: PitchPair, distance: Fraction) -> str:
 
 
 def _backlash_effect(pair: PitchPair, off: Fraction, module: Fraction) -> str:
-    """Return a text on the change of backlash, 2 |off| tan(alpha), with the deviation `off` of the centre distance
-    [modules], the pressure angle alpha and the module [mm].
-    """
+    """Return a text on the change of backlash if a centre distance deviates by `off` [modules]: 2 |off| tan(alpha)."""
     tight = (off < 0) != (pair.ring is not None)
     if abs(off) <= SLACK and tight:
         return f"they are {_mm(abs(off) * module)} closer than teeth without backlash allow"

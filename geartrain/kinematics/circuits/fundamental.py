@@ -241,9 +241,7 @@ class _DeclaredCoupling(NamedTuple):
         return self._travelling(circuit) if circuit.travels else self._rotating(circuit)
 
     def _rotating(self, circuit: Circuit) -> Circuit | Problem:
-        """Return the circuit of two turning links, with the sign of its ratio as it follows from the directions of
-        their axes, or a problem.
-        """
+        """Return the circuit of two turning links, with the sense that follows from their axes, or a problem."""
         axes, coupling = self.axes, self.coupling
         labels = _labels(axes.tree, circuit.carrier, circuit.i, circuit.j)
         sign = 1
@@ -265,9 +263,7 @@ class _DeclaredCoupling(NamedTuple):
         return _turning(axes.tree, circuit._replace(b=sign * circuit.b))
 
     def _travelling(self, circuit: Circuit) -> Circuit | Problem:
-        """Return the circuit of a turning link j and a sliding link i, or a problem if their axes do not suit the
-        coupling.
-        """
+        """Return the circuit of a turning link j and a sliding link i, or a problem of their axes."""
         axes, coupling, carrier, tree = self.axes, self.coupling, circuit.carrier, self.axes.tree
         along, about = _labels(tree, carrier, circuit.i, circuit.j)
         slides = {label: tree.lines[link] for link, (_, label) in tree.parent.items() if link in tree.lines}
@@ -291,9 +287,7 @@ class _DeclaredCoupling(NamedTuple):
         return circuit._replace(i=i, j=j, b=b, bases=(tree.moving(carrier, line), tree.moving(carrier, None)))
 
     def _wrong_angle(self, labels: tuple[str, str]) -> Problem | None:
-        """Return a problem if two axes are perpendicular, or if the angle between them differs from the declared angle;
-        None if they are valid.
-        """
+        """Return a problem if two axes are perpendicular or their angle differs from the declared one; else None."""
         between, declared = self.axes.angle(labels), getattr(self.coupling, "angle", None)
         what = f"coupling '{self.coupling.name}': "
         if between is not None and between > pi / 2 - _SAME_ANGLE:
@@ -320,9 +314,7 @@ def _turning(tree: Tree, circuit: Circuit) -> Circuit:
 
 
 def _shared_axis(tree: Tree, i: str, j: str) -> str | None:
-    """Return the label of the axis on which both links turn, or on which one link turns while the other carries the
-    axis; None if there is none.
-    """
+    """Return the label of the axis that both links are on, or that one is on and the other carries; else None."""
     for link, other in ((i, j), (j, i)):
         axis = tree.axis(link)
         if axis is not None and (tree.axis(other) == axis or tree.top[link] == other):

@@ -61,9 +61,7 @@ class Tree(FrozenFields):
         return link
 
     def borne_by(self, link: str) -> str:
-        """Return the link relative to which the motion in the joint of `link` is measured: `reference` of the parent of
-        `link`.
-        """
+        """Return the link relative to which the joint of `link` is measured: `reference` of its parent."""
         return self.reference(link, self.parent[link][0])
 
     def bearer(self, link: str) -> str:
@@ -395,9 +393,7 @@ class Axes:
 
     @property
     def joint_sums(self) -> frozenset[str]:
-        """Links that are connected to the frame by joints with non-parallel axes, so that their speed is a sum of joint
-        speeds and not the speed of a rotation.
-        """
+        """Links with non-parallel joints up to the frame, whose speed is a sum of joint speeds and not a rotation."""
         if self.plain:
             return frozenset()
         sums: set[str] = set()

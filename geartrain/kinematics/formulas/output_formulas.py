@@ -167,9 +167,7 @@ def _solve_core(rows: Sequence[Row], columns: Sequence[int], width: int) -> tupl
 
 
 def _combined(form: Mapping[int, Laurent], values: Mapping[int, Laurent], determinant: Laurent) -> SymbolicValue:
-    """Return the value of a linear form in unknowns with the numerators `values`, by column, and the common denominator
-    `determinant`.
-    """
+    """Return the value of a linear form in unknowns with the numerators `values` over a common denominator."""
     one, total = Laurent.constant(1, determinant.width), Laurent.constant(0, determinant.width)
     denominator = determinant if any(column in values for column in form) else one
     for column, entry in form.items():
@@ -264,9 +262,7 @@ class SymbolicEquations:
         return -(near * far.inverse())
 
     def _coefficient(self, circuit: Circuit, side: int) -> Laurent:
-        """Return the coefficient a (`side` 0) or b (`side` 1) of a circuit as a polynomial, which is a variable with
-        its sign for a wheel with a variable tooth count, and a constant if not.
-        """
+        """Return the coefficient a (`side` 0) or b (`side` 1) of a circuit: a variable with its sign, or a constant."""
         given = (circuit.a, circuit.b)[side]
         variable = self._free.get(circuit.wheels[side]) if circuit.by_teeth else None
         if variable is None:
@@ -282,9 +278,7 @@ class SymbolicEquations:
         return {own: self._constant(1)} if own is not None else self._relative_form(self.parts.nodes_of[link][0])
 
     def _relative_form(self, node: int) -> Row:
-        """Return the speed of a node's link as a linear form: the speed of the node's carrier plus the speed of the
-        link relative to this carrier.
-        """
+        """Return the speed of a node's link as a linear form: the carrier's speed plus the link's relative speed."""
         parts = self.parts
         row: Row = {parts.node_group[node]: self._ratios[node]}
         carrier = parts.node_carrier[node]
@@ -361,9 +355,7 @@ class Formulas(Mapping[str, Formula], Result):
         return len(self.outputs)
 
     def turns(self, counts: Mapping[str, int]) -> bool:
-        """Return True if the train turns as described by the formulas at the given tooth counts: every function in
-        `conditions` is 0, and no function in `exclusions` is 0.
-        """
+        """Return True if all functions in `conditions` are 0 and none in `exclusions` is 0 at the tooth counts."""
         met = all(condition.value(counts) == 0 for condition in self.conditions)
         return met and all(exclusion.value(counts) != 0 for exclusion in self.exclusions)
 
@@ -436,9 +428,7 @@ def with_counts(train: Train, counts: Mapping[str, int]) -> Train:
 def _equations(
     train: Train, tree: Tree, case: StateCase, wheels: Sequence[str], free: Mapping[str, Counts]
 ) -> SymbolicEquations:
-    """Return the equations that affect the outputs. Variable tooth counts are represented by large random numbers in
-    the circuits, so that no loop closes by coincidence.
-    """
+    """Return the equations that affect the outputs, with large random tooth counts for the variable wheels."""
     representative = with_counts(train, {name: free[name][0] for name in wheels})
     # large and random, so that no loop closes by coincidence of equal counts
     draw = random.Random(0)
@@ -479,9 +469,7 @@ def _collect_formulas(
 
 
 def _loop_conditions(equations: SymbolicEquations, solution: SymbolicSolution) -> Iterator[tuple[str, Laurent]]:
-    """Yield a label and a function for each loop of wheels with variable tooth counts. The function is 0 if the loop
-    can turn: its ratio product is 1, or its wheels are at rest.
-    """
+    """Yield the label of each loop with variable tooth counts, and the function that is 0 if the loop can turn."""
     one = Laurent.constant(1, equations.width)
     for chord in equations.chords:
         rolls = solution.value(equations.unknown(chord.group))
@@ -497,9 +485,7 @@ def _loop_conditions(equations: SymbolicEquations, solution: SymbolicSolution) -
 
 
 def _zero_conditions(stated: Sequence[tuple[str, Laurent]], wheels: Sequence[str]) -> tuple[Formula, ...]:
-    """Return the labelled functions in `stated`, which must be 0, in lowest terms, without duplicates and without
-    factors that are monomials.
-    """
+    """Return the labelled functions, which must be 0, without duplicates and without monomial factors."""
     found: dict[tuple[Term, ...], Formula] = {}
     for label, left in stated:
         _, powers = max((value < 0, exponents) for exponents, value in left.terms.items())

@@ -56,9 +56,7 @@ def find_gridlock(part: SolvedPart, mobility: Mobility) -> Gridlock:
 
 
 def find_locked_networks(parts: Components) -> list[LockedNetwork]:
-    """Return the gain graph of each component with an inconsistent loop. Only meshes that contradict a spanning tree
-    have gains other than 1.
-    """
+    """Return the gain graph of each component with an inconsistent loop; gains along a spanning tree are 1."""
     size = len(parts.links)
     nodes = zip(parts.node_link, parts.node_carrier, strict=True)
     at = {carrier * size + link: node for node, (link, carrier) in enumerate(nodes)}
@@ -131,9 +129,7 @@ def _without(part: SolvedPart, gone: Collection[str]) -> SolvedPart:
 
 
 def _locked_links(part: SolvedPart, gone: Collection[str]) -> tuple[str, ...]:
-    """Return the links at rest after the meshes in `gone` are removed. Links that could move with other speed ratios
-    (random ratios, for which the loops that can turn are the same) are omitted.
-    """
+    """Return the links at rest without the meshes in `gone`, both with the declared and with random speed ratios."""
     less = _without(part, gone)
     still = _stationary_links(less)
     if not still:

@@ -162,9 +162,7 @@ def place_pitch_points(train: Train, tree: Tree, circuits: Sequence[Circuit]) ->
 
 
 def mount_frame_wheels(circuit: Circuit, frame: str) -> Circuit:
-    """Return the circuit of a pair in which a wheel on the frame is a link of its own, because the wheel can be mounted
-    at any angle.
-    """
+    """Return the circuit in which a wheel on the frame is a separate link, because its mounting angle is free."""
     i, j = circuit.i, circuit.j
     if frame not in (i, j):
         return circuit
@@ -288,9 +286,7 @@ def _intersecting_contact(first: _Axis, second: _Axis, facing: Sequence[int]) ->
 
 
 def _norm(vector: IntegerVector) -> Fraction:
-    """Return the length of an integer vector as a Fraction accurate to 64 bits; the components may have any number of
-    digits.
-    """
+    """Return the length of an integer vector as a Fraction accurate to 64 bits."""
     # the root of an integer shifted by 128 bits has 64 bits after the binary point
     return Fraction(math.isqrt(dot(vector, vector) << 128), 1 << 64)
 

@@ -169,9 +169,7 @@ def _howell_form(rows: Sequence[Sequence[int]], power: int) -> list[list[int]]:
 
 
 def _simplest_form(row: Sequence[int], power: int) -> tuple[int, list[int]]:
-    """Return the congruence row · x = 0 (mod power) in reduced form: the modulus, and equivalent weights with the
-    smallest sum of magnitudes.
-    """
+    """Return the modulus and the smallest equivalent weights of the congruence row · x = 0 (mod power)."""
     common = math.gcd(*row, power)
     modulus = power // common
     choices = []
@@ -298,16 +296,12 @@ def _wheel(problem: PhaseSystem, mesh: int, node: int) -> str:
 
 
 def _sum_change(problem: PhaseSystem, mesh: int, node: int, row: Mapping[int, int]) -> int:
-    """Return the change of the sum of a loop's phase equations with the weights `row` if the wheel of a mesh on the
-    link of `node` is rotated on its arbor by one pitch [pitch].
-    """
+    """Return the change of a loop's weighted sum of phase equations if a wheel is rotated by one pitch [pitch]."""
     return row[mesh] * (1 if problem.ends[mesh][0] == node or problem.circuits[mesh].b > 0 else -1)
 
 
 def _inside_angles(problem: PhaseSystem, condition: PhaseCondition) -> dict[str, Fraction | float]:
-    """Return, for each gear of a loop, the angle between its two contacts [turn], multiplied by the gear's weight in
-    the phase condition of the loop.
-    """
+    """Return the angle between the two contacts of each gear in a loop, multiplied by its weight [turn]."""
     contacts, cycle = problem.contacts, condition.cycle
     assert cycle is not None
     exact = isinstance(condition.residue, Fraction)
@@ -390,9 +384,7 @@ class MeshPhasing(Result):
 
     @cached_property
     def loops(self) -> Sequence[LoopPhase]:
-        """Phase conditions of the single loops of a cycle basis of short loops, followed by the other conditions, each
-        of which concerns several loops together.
-        """
+        """Phase conditions of short loops (a cycle basis), then conditions that each concern several loops."""
         return tuple(describe_loop(self.problem, condition) for condition in self.problem.conditions)
 
     @cached_property

@@ -335,9 +335,7 @@ class PhaseSystem:
 
     @cached_property
     def conditions(self) -> list[PhaseCondition]:
-        """Phase conditions of the single loops, followed by the other conditions, each of which concerns several loops
-        together.
-        """
+        """Phase conditions of single loops, followed by conditions that each concern several loops together."""
         cycles = self.cycles
         with collector_paused():
             found = [self._condition(cycle, cycle.row) for cycle in cycles]
@@ -349,16 +347,12 @@ class PhaseSystem:
 
     @cached_property
     def complete(self) -> bool:
-        """True if all conditions were found; False if only the conditions of single loops were found, and not those
-        that concern several loops together.
-        """
+        """False if only the conditions of single loops were found, and not those on several loops together."""
         return self._echelon is not None and self._unequal_size <= _MOST
 
     @cached_property
     def _unequal_rows(self) -> list[dict[int, int]]:
-        """Weights in the conditions of those components in which a weight differs from 1 and -1. Integer combinations
-        of these rows may have common factors.
-        """
+        """Weights of the conditions in components with weights other than 1 and -1, by mesh."""
         if not self.cycles:
             return self.coupled_rows
         group = self.parts.node_group
@@ -405,9 +399,7 @@ class PhaseSystem:
         return values
 
     def _families(self, row: Mapping[int, int]) -> list[int] | None:
-        """Return the family numbers of all contacts in a condition; None if the unknown azimuths of the families do not
-        cancel in the condition.
-        """
+        """Return the family numbers of all contacts in a condition; None if their unknown azimuths do not cancel."""
         total: dict[int, int] = {}
         for mesh, weight in row.items():
             circuit = self.circuits[mesh]
@@ -419,9 +411,7 @@ class PhaseSystem:
 
     @cached_property
     def _whole_pitches(self) -> dict[int, int]:
-        """Integers [pitch], by mesh, that are added to the constants of the meshes so that the residues of loops of
-        compound wheels become small.
-        """
+        """Integers by mesh, added to the constants [pitch], with which loops of compound wheels nearly close."""
         basis, dual, _ = self._saturated
         found: dict[int, int] = {}
         for row, column in zip(basis, dual, strict=True):
@@ -509,9 +499,7 @@ class PhaseSystem:
         return SparseRows(nodes, self._without_rigid_loops(self.contacts.teeth), len(self.parts.node_parent))
 
     def _without_rigid_loops(self, factors: Floats) -> Floats:
-        """Return the coefficients `factors` of the meshes (rows), with zeros for meshes that close loops that cannot
-        turn, because such loops have no phase condition.
-        """
+        """Return the coefficients with zeros in the rows of meshes that close loops that cannot turn."""
         found = factors.copy()
         found[list(self.parts.breaking)] = 0.0
         return found

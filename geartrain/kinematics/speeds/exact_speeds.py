@@ -90,9 +90,7 @@ def resolve_form(row: LinearForm, forms: Mapping[int, LinearForm]) -> LinearForm
 
 
 def held_rows(reduced: ReducedSystem, case: StateCase) -> Iterator[LinearForm]:
-    """Yield the linear forms in the unknowns of `reduced` that must be 0 because a link is fixed to the frame, or
-    because two links are locked together.
-    """
+    """Yield the linear forms that must be 0 because a link is fixed, or because two links are locked together."""
     index = reduced.components.index
     for link in case.fixed:
         yield dict(reduced.form(index[link]))
@@ -476,9 +474,8 @@ def elimination_budget(reduced: ReducedSystem, budget: int | None) -> int | None
 
 
 def eliminate_within(rows: Sequence[LinearForm], budget: int | None) -> Echelon:
-    """Return the echelon form of the rows, by exact elimination with at most `budget` operations. Raises
-    `TooDenseError` if the budget is exceeded, or if an elimination modulo a prime, which has shorter numbers, predicts
-    it.
+    """Return the echelon form of the rows. Raises `TooDenseError` if exact elimination exceeds `budget` operations, or
+    if elimination modulo a prime predicts this.
     """
     if budget is not None and len(rows) > _FEW:
         eliminate(map(residues, rows), _PREDICTED + 10 * len(rows), PRIME)

@@ -129,9 +129,7 @@ def solve_floats(system: WillisSystem, inputs: Mapping[str, Sequence[float]] | N
 
 
 def _refined(lu: Any, matrix: PaddedRows, x: Floats, right: Floats, remainder: Floats) -> Floats:
-    """Return the solution after iterative refinement, equation (23) of docs/theory.md, until corrections are negligible
-    or shrink too slowly.
-    """
+    """Return the solution after iterative refinement by equation (23) of docs/theory.md."""
     last = 1.0
     for _ in range(_STEPS):
         step = lu.solve(matrix.residual(x, right, remainder))

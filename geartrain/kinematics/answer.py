@@ -85,9 +85,7 @@ class Verdict(Result):
     text: str
     """Verdict and its cause as a sentence in plain text."""
     links: tuple[str, ...] = ()
-    """Links whose speeds are undetermined. If no input turns and no link can move, these are all links except the
-    frame.
-    """
+    """Links whose speeds are undetermined; all links except the frame if no input turns and no link can move."""
     fixes: tuple[str, ...] = ()
     """Links whose speeds, if prescribed in addition to the inputs, would determine all other speeds; at most 12."""
     prescriptions: tuple[str, ...] = ()
@@ -208,9 +206,7 @@ class Answer(FrozenFields, Tabular, TrainResult):
     first access.
     """
     expected: str = "determined"
-    """Kind of verdict that is expected, as declared by `expect` of the state or of the train; `determined` if none is
-    declared.
-    """
+    """Kind of verdict that `expect` of the state or of the train declares; `determined` if none is declared."""
     one_way: tuple[OneWayAction, ...] = ()
     """One-way clutches that are active in the state, each with the information whether it holds or overruns."""
     notes: tuple[str, ...] = ()

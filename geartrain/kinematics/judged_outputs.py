@@ -45,9 +45,7 @@ class RatioGoal:
 
 
 def error_against(speed: SpeedValue, wanted: Fraction, signed: bool) -> SpeedValue:
-    """Return the relative error speed / wanted - 1, of magnitudes if `signed` is False; the speed itself if `wanted` is
-    0.
-    """
+    """Return the relative error speed / wanted - 1, of magnitudes unless `signed`; the speed if `wanted` is 0."""
     own = speed if signed else magnitude(speed)
     return own / wanted - 1 if wanted else own
 
@@ -223,9 +221,7 @@ class OutputResult(Result):
 
     @property
     def period(self) -> SpeedValue | None:
-        """Time of one turn [s]; None if the link is at rest or slides, or if its speed or the unit of time is
-        unknown.
-        """
+        """Time of one turn [s]; None if the link is at rest or slides, or if its speed or the time unit is unknown."""
         if self.slides or not self.unit_seconds or not self.speed:
             return None
         return self.unit_seconds / magnitude(self.speed)
@@ -251,9 +247,7 @@ class OutputResult(Result):
 
     @property
     def found_text(self) -> str | None:
-        """Value that is compared with a published period, as text in the units of the source; None if no period is
-        published.
-        """
+        """Value that is compared with a published period, as text in the units of the source, or None."""
         figure = self.output.published
         if figure is None or self.found is None or not isinstance(figure.value, PrintedPeriod):
             return None

@@ -158,9 +158,7 @@ class TrainKinematics(Shown):
 
     @cached_property
     def is_placed(self) -> bool:
-        """True if gear pairs form loops and axes have positions or directions, so that the assembly condition can be
-        checked.
-        """
+        """True if pairs form loops, and axes have positions or directions, which the assembly condition requires."""
         return self.declaration.has_placed_axes and bool(self.mobility.redundant or self.mobility.locked)
 
     @cached_property
@@ -337,9 +335,7 @@ class TrainKinematics(Shown):
     def _answer_in_floats(
         self, part: SolvedPart, case: StateCase, wanted: tuple[str, str] | None, solution: Solution | None
     ) -> Answer:
-        """Return the answer with float speeds and error estimates. If the exact solution is known, the true errors are
-        included.
-        """
+        """Return the answer with float speeds, error estimates and, if the exact solution is known, true errors."""
         from geartrain.kinematics.speeds import solve_floats
 
         truth = solution.speeds if solution is not None else {}

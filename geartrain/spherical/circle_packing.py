@@ -127,9 +127,7 @@ class PlanarPacking:
         return full, tuple(residuals)
 
     def layout(self, u: Floats) -> Floats:
-        """Return the vectors of all circles on the sphere, after placing the circles in the plane by breadth-first
-        search.
-        """
+        """Return the vectors of all circles on the sphere, found by breadth-first layout of the plane packing."""
         r = np.exp(u)
         # the layout starts at the largest finite circle
         start = int(np.argmax(np.where(np.isinf(u), -inf, u)))

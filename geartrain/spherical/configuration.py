@@ -55,9 +55,7 @@ class Configuration(Shown):
     meshes: tuple[tuple[int, int], ...]
     """Pairs of meshing gears, by index."""
     kinds: tuple[str, ...]
-    """Kind of each gear. Gears of the same kind are equivalent under the symmetries of the set, and have the same tooth
-    number.
-    """
+    """Kind of each gear; gears of a kind are equivalent by symmetry and have the same tooth number."""
     regular: tuple[int, ...]
     """Integer p of each gear for which its contacts are exactly at multiples of 1/p of a revolution; 0 if the angles
     are only known as floats.

@@ -314,9 +314,7 @@ class _Search:
 
 @dataclass(frozen=True)
 class NeighbourRatioWindow(Shown):
-    """Range of the ratio of two tooth numbers in which neighbouring gears of the same kind do not overlap. Addenda are
-    neglected.
-    """
+    """Range of the ratio of two tooth numbers in which neighbouring pitch circles of a kind do not overlap."""
 
     a: str
     """Kind of the first gear."""

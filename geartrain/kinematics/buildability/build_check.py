@@ -121,9 +121,7 @@ _EQUAL = Fraction(1, 10**6)  # tolerance relative to the longest side, because t
 
 
 def check_triangles(sizes: PitchDistances) -> Iterator[BuildFinding]:
-    """Yield findings of rule P3: three axes whose distances, as multiples of one length, violate the triangle
-    inequality.
-    """
+    """Yield findings of rule P3: the distances of three axes violate the triangle inequality."""
     sides = {node[1:]: pairs[0] for node, pairs in sizes.between.items()}
     near: dict[str, dict[str, PitchPair]] = {}
     for (first, second), pair in sides.items():

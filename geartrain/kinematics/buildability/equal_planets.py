@@ -23,9 +23,7 @@ if TYPE_CHECKING:
     from geartrain.train import Train
 
 CountRef = str | int
-"""Tooth count as a term of an assembly rule: the name of a wheel whose tooth count is variable, or a fixed
-tooth count.
-"""
+"""Tooth count in an assembly rule: the name of a wheel with a variable tooth count, or a fixed tooth count."""
 
 Measure = Literal["", "plain", "m"]
 """Unit of a declared module: "" if no module is declared, "plain" for a number without a unit, "m" for a length."""
@@ -69,9 +67,7 @@ class AssemblyMesh:
 
     @property
     def terms(self) -> tuple[tuple[int, CountRef], tuple[int, CountRef]]:
-        """Two terms (sign, tooth count z) whose sum is twice the centre distance [modules]: z1 + z2, or z_ring -
-        z_mate.
-        """
+        """Two terms (sign, tooth count z) with the sum z1 + z2 or z_ring - z: twice the centre distance [modules]."""
         first, second = self.parts
         return (-1 if self.ring == 1 else 1, first), (-1 if self.ring == 0 else 1, second)
 
@@ -481,9 +477,7 @@ class _EqualPlanets:
     # -------------------------------------------------------------------------------------------------------- assembly
 
     def assembly(self) -> Iterator[BuildFinding]:
-        """Yield findings of the assembly rules: A1 for simple planets that mesh only with central wheels, A2 for
-        others.
-        """
+        """Yield findings of rules A1 (simple planets that mesh only with central wheels) and A2 (other planets)."""
         if not self.step:
             return
         rule = "A1" if len(self.planet.wheels) == 1 and not self.planet.outward else "A2"

@@ -35,9 +35,7 @@ class Tree(FrozenFields):
 
     frame: str
     parent: Mapping[str, tuple[str, str]]
-    """Parent of each link, which is its neighbour towards the frame, and the declared label of the axis between the two
-    links.
-    """
+    """Parent of each link (its neighbour towards the frame), and the label of the axis between the two links."""
     top: Mapping[str, str]
     """Link that carries the axis of each link: the first link on the path to the frame that is not on that axis."""
     lines: Mapping[str, str] = field(default_factory=dict)
@@ -463,9 +461,7 @@ class Axes:
         return atan2(far, float(dot(first, second))), (side > 0) - (side < 0)
 
     def helix_angles(self, labels: tuple[str, str], wheels: tuple[Wheel, Wheel]) -> tuple[float, float] | None:
-        """Return the helix angles of two wheels on skew axes [rad]; None if the axes are parallel or angles are
-        unknown.
-        """
+        """Return the helix angles of two wheels on skew axes [rad]; None for parallel axes or unknown angles."""
         return None if self.are_parallel(labels) else crossed_helix_angles(wheels, *self.crossing(*labels))
 
     def coefficients(self, i: str, j: str, carrier: str, wheel_i: Wheel, wheel_j: Wheel) -> tuple[int, int, str]:
@@ -535,9 +531,7 @@ def _line(direction: ExactVector) -> ExactVector:
 
 
 JointOnLine = tuple[str, str, tuple[str, ...]]
-"""Joint: the names of its two links, and the labels of its axis. There are several labels if several axes are
-collinear.
-"""
+"""Joint: the names of its two links, and the labels of its axis, or of several collinear axes."""
 
 
 @dataclass(frozen=True, slots=True)

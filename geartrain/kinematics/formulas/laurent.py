@@ -17,9 +17,7 @@ from typing import NamedTuple
 Exponents = tuple[int, ...]
 
 MOST_PRODUCTS = 200_000
-"""Maximum number of products of terms in one operation, which takes seconds. Longer polynomials are of no practical
-use.
-"""
+"""Maximum number of products of terms in one operation, which takes seconds."""
 
 
 class Term(NamedTuple):

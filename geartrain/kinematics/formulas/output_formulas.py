@@ -57,9 +57,7 @@ class SymbolicSolution:
     span: Mapping[int, _Residues]
     """Rows of the core at a random point, reduced to echelon form, by leading column."""
     conditions: Sequence[tuple[int, Laurent]]
-    """Pairs of the index of a row and the function that elimination leaves in this row, which is 0 if the system is
-    consistent.
-    """
+    """Pairs of the index of a row and the function in this row that is 0 if the system is consistent."""
 
     def value(self, form: Mapping[int, Laurent]) -> SymbolicValue | None:
         """Return the value of a linear form of the unknowns; None if the system does not determine it."""

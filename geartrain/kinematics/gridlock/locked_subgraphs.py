@@ -339,9 +339,7 @@ class GainGraph:
     ends: Sequence[tuple[int, int]]
     """Pair of nodes that each mesh connects; several meshes may connect the same two nodes."""
     gains: Mapping[int, Gain]
-    """Gain of each mesh whose gain is not 1, by index: the speed of its second node divided by the speed of its first
-    node.
-    """
+    """Gain of each mesh whose gain is not 1, by index: speed of its second node over speed of its first node."""
     firm: frozenset[int] = frozenset()
     """Indices of the meshes that are couplings, which cannot be disengaged."""
 

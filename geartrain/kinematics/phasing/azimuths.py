@@ -37,24 +37,16 @@ class UnplacedPair:
 
 @dataclass(frozen=True)
 class PitchPoints:
-    """Pitch points of gear pairs with known positions, in arrays with one row for each pair and one column for each
-    wheel.
-    """
+    """Pitch points of gear pairs with known positions; arrays have a row for each pair and a column for each wheel."""
 
     circuits: tuple[Circuit, ...]
-    """Circuits of the pairs. A wheel on the frame is treated as a separate link, because it can be mounted at any
-    angle.
-    """
+    """Circuits of the pairs. A wheel on the frame is a separate link, because its mounting angle is free."""
     azimuth: Floats
-    """Azimuth of the pitch point as seen from the wheel's axis, counterclockwise about the positive sense of the axis
-    [turn].
-    """
+    """Azimuth of the pitch point about the axis of the wheel, counterclockwise about its positive sense [turn]."""
     slack: Floats
     """Maximum error of the azimuth [turn]."""
     family: Sequence[tuple[int, int]]
-    """Family number of each contact. The angles between the contacts of one family are known rational fractions of a
-    turn.
-    """
+    """Family number of each contact; the angles between contacts of a family are known fractions of a turn."""
     part: Sequence[tuple[Fraction, Fraction]]
     """Exact angle of each contact from the first contact of its family [turn]."""
     guessed: frozenset[int] = frozenset()

@@ -203,9 +203,7 @@ class LoopPhase(Result):
     KEYS = ("gears", "meshes", "weights", Key("verdict", "kind"), "residue", "slack", "how", "miss", "inside", "retime")
 
     gears: tuple[str, ...]
-    """Wheels in their order around the loop. Two wheels of one link are joined by `+` if the loop passes from one to
-    the other.
-    """
+    """Wheels in their order around the loop; two wheels of one link that both belong to it are joined by `+`."""
     meshes: tuple[str, ...]
     """Names of the pairs in their order around the loop; the last pair closes it. If `together` is True, these are the
     pairs of several loops, in any order.
@@ -448,9 +446,7 @@ class MeshPhasing(Result):
 
     @cached_property
     def wheels(self) -> Mapping[str, float]:
-        """Angle of the first tooth of every wheel from its reference direction, in [0, angular pitch of the wheel)
-        [rad].
-        """
+        """Angle of the first tooth of every wheel from its reference direction, from 0 to one pitch [rad]."""
         angles, found = self.angles, {}
         for circuit in self.problem.circuits:
             teeth = (circuit.a, abs(circuit.b))
@@ -470,9 +466,7 @@ class MeshPhasing(Result):
 
     @cached_property
     def last_errors(self) -> Mapping[str, float]:
-        """Phase error of every pair [pitch] if the last pair assembled in each loop takes up the loop's entire phase
-        error.
-        """
+        """Phase error of every pair [pitch] if the last pair of each loop takes up the loop's entire phase error."""
         return self._errors(self.problem.tree_angles)
 
     @cached_property

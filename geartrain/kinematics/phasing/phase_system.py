@@ -1,6 +1,4 @@
-"""Phases of all meshes as one linear system modulo a pitch: residues of a cycle basis, angles of links, and distributed
-errors.
-"""
+"""Phases of all meshes as one linear system modulo a pitch: residues of loops, angles and errors."""
 
 from __future__ import annotations
 

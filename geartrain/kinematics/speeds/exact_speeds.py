@@ -258,9 +258,7 @@ def free_verdict(
 
 
 Terms = tuple[tuple[int, int], ...]
-"""Equation as pairs of a link index and an integer coefficient. The sum of coefficient times speed over all
-pairs is 0.
-"""
+"""Equation: pairs of a link index and an integer coefficient; the sum of coefficient times speed is 0."""
 
 
 @collector_paused()
@@ -354,9 +352,7 @@ def _solve(row: Terms, speeds: FactoredRatios) -> int:
 _GIVEN = -1  # column of prescribed speeds
 
 EXACT_BUDGET = 400_000
-"""Maximum number of coefficient operations of exact elimination, which take about 1 s. If more are required, floats are
-used.
-"""
+"""Maximum number of operations of exact elimination, which take about 1 s; floats are used beyond it."""
 
 _PREDICTED = 40_000
 """Maximum number of operations in the elimination modulo a prime for which exact elimination is tried.
@@ -376,9 +372,7 @@ class Solution:
     speeds: Mapping[str, Fraction]
     """Speeds of the determined links, by link, in the order of the declaration."""
     ratios: Mapping[str, Mapping[str, Fraction]]
-    """Speed of each link divided by the speed of one input when all other inputs are at rest, as
-    `ratios[link][input]`.
-    """
+    """Speed of a link divided by the speed of one input if other inputs are at rest, as `ratios[link][input]`."""
     signs: Mapping[str, int]
     """Sign of each link's axis, by link: -1 if it points against the reference direction of the axes parallel to it.
     Links with the sign 1 are omitted.

@@ -247,7 +247,7 @@ class OutputResult(Result):
 
     @property
     def found_text(self) -> str | None:
-        """Value that is compared with a published period, as text in the units of the source, or None."""
+        """Value compared with a published period, as text in the units of the source; None without such a period."""
         figure = self.output.published
         if figure is None or self.found is None or not isinstance(figure.value, PrintedPeriod):
             return None

@@ -265,7 +265,7 @@ TeethByKind = Mapping[str, int] | Mapping[int, int] | int
 
 
 def kinds_of(layout: PolyhedronPlaces) -> list[str]:
-    """Return the kind of each gear: its entry in `layout.letters`, and a letter if it is in one of several orbits."""
+    """Return the kind of each gear: its entry in `layout.letters`, with a letter if several orbits have this entry."""
     orbits = layout.movement.orbits().tolist()
     size = {orbit: orbits.count(orbit) for orbit in set(orbits)}
     rank = np.argsort(from_the_top(layout.axes))
@@ -317,7 +317,7 @@ def in_order(layout: PolyhedronPlaces, kinds: Sequence[str]) -> list[int]:
 
 
 def teeth_of(teeth: TeethByKind | None, kinds: Sequence[str]) -> dict[str, int]:
-    """Return the tooth number of each kind; keys of `teeth` are kinds, or such as 4 for the kinds 4a and 4b."""
+    """Return the tooth number of each kind. In `teeth`, a key such as 4 refers to all kinds such as 4a and 4b."""
     known = list(dict.fromkeys(kinds))
     given = {str(kind): count for kind, count in teeth.items()} if isinstance(teeth, Mapping) else {}
     if teeth is not None and not isinstance(teeth, Mapping):
@@ -336,7 +336,7 @@ def teeth_of(teeth: TeethByKind | None, kinds: Sequence[str]) -> dict[str, int]:
 
 
 def _matching_kinds(word: str, kinds: Iterable[str]) -> list[str]:
-    """Return a list of the kind with the given name, or else of all kinds such as 4a and 4b for the name 4."""
+    """Return the kind with the given name, or else all kinds with a further letter, such as 4a and 4b for 4."""
     known = list(dict.fromkeys(kinds))
     return [word] if word in known else [kind for kind in known if letter_of(kind) == word]
 

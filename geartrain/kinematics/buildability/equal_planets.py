@@ -597,7 +597,7 @@ class _EqualPlanets:
         return None if module is None else float(module) * self.train.wheels[wheel][1].slant
 
     def _neighbour_clearance(self, planet: Planet, mesh: AssemblyMesh, number: int) -> float | None:
-        """Return the tip clearance of equal wheels of `number` neighbouring planets [modules]; None if unknown."""
+        """Return the tip clearance of equal wheels of `number` evenly spaced planets [modules]; None if unknown."""
         tips = self._tip_diameter(planet, mesh)
         # positions are known only for the first planet of each set
         if self.points is not None and planet is self.planet and number == self.number:
@@ -623,7 +623,7 @@ class _EqualPlanets:
         return float(sum(sign * int(part) for sign, part in mesh.terms)) if outline is None else 2 * outline.distance
 
     def _axis_distance(self, planet: Planet, wheel: str = "") -> float | None:
-        """Return twice the distance from a planet's axis to its carrier's axis [modules of `wheel`], or None."""
+        """Return twice the distance of the axes of planet and carrier [modules of `wheel`]; None if it is unknown."""
         meshes = sorted(planet.central, key=lambda mesh: (planet.own(mesh) != wheel, mesh.ring is not None))
         if not meshes:
             return None
@@ -662,7 +662,7 @@ class _EqualPlanets:
         return found
 
     def _maximum_number(self) -> int:
-        """Return the maximum number of evenly spaced planets whose tips do not overlap."""
+        """Return the maximum number of evenly spaced planets without overlap; if it is unknown, the declared number."""
         minimum = max((self._minimum_angle(planet) for planet in self.planet.walk()), default=0.0)
         # 1e-9: rounding must not reduce the number of planets whose tips just touch
         return max(1, int(1 / minimum + 1e-9)) if minimum else self.number

@@ -396,7 +396,7 @@ class PitchDistances:
                 self.placed[node] = f"the offset of '{circuit.id}'"
 
     def _record_positions(self, axes: tuple[str, str]) -> None:
-        """Add the distance between two axes with declared positions, if they are parallel, to `sizes` and `placed`."""
+        """Add the distance between two parallel axes to `sizes` and `placed` if their positions are declared."""
         node = ("axes", *axes)
         if node in self.placed or axes[0] == axes[1]:
             return

@@ -90,7 +90,7 @@ def _involute(angle: float) -> float:
 
 
 def minimum_ring(planet: int) -> int:
-    """Return the minimum tooth count (34 or more) of a ring in which standard planet teeth clear the ring's tips."""
+    """Return the minimum tooth count (34 or more) of a ring without trochoid interference with a planet."""
     # the tip circle of a ring with fewer than 34 teeth lies within its base circle
     first = max(planet + 1, 34)
     return next(z for z in count(first) if tip_margin(planet, z, PRESSURE, 1.0, 1.0) > 0)

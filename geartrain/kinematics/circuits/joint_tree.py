@@ -59,7 +59,7 @@ class Tree(FrozenFields):
         return link
 
     def borne_by(self, link: str) -> str:
-        """Return the link relative to which the joint of `link` is measured: `reference` of its parent."""
+        """Return the link relative to which `link` moves in its joint: `reference` of its parent."""
         return self.reference(link, self.parent[link][0])
 
     def bearer(self, link: str) -> str:

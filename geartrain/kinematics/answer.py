@@ -18,8 +18,8 @@ _MAIN = 3  # maximum number of links in the summary of an answer
 
 
 def abridged_names(names: Sequence[str], mark: str = ", ") -> str:
-    """Join names with `mark`. If there are more than 13 names, the names after the 12th are replaced by the number of
-    these names.
+    """Return the names as text, separated by `mark`. If there are more than 13 names, the names after the 12th are
+    replaced by the number of these names.
 
     >>> abridged_names(["a", "b"], " - "), abridged_names("abcdefghijklmnop")
     ('a - b', 'a, b, c, d, e, f, g, h, i, j, k, l and 4 more')
@@ -31,7 +31,7 @@ def abridged_names(names: Sequence[str], mark: str = ", ") -> str:
 
 @dataclass(frozen=True, slots=True)
 class Loop(Result):
-    """Closed loop of meshing wheels on one carrier, with the product of its speed ratios (docs/theory.md, 7)."""
+    """Closed loop of meshing wheels on one carrier, with its ratio product (section 7 of docs/theory.md)."""
 
     carrier: str
     """Link relative to which the ratios of all pairs of the loop are measured."""
@@ -49,7 +49,7 @@ class Loop(Result):
 
     @property
     def closes(self) -> bool:
-        """True if the product is 1, so that the loop can turn and its last pair is redundant."""
+        """True if the product is 1, so that the loop can turn and one of its pairs is redundant."""
         return self.product == 1
 
     def __str__(self) -> str:
@@ -63,7 +63,7 @@ VerdictKind = Literal["determined", "free", "locked", "contradictory", "refused"
 @dataclass(frozen=True, slots=True)
 class Verdict(Result):
     """Verdict on whether the inputs determine the motion of a train, from the exact rank of its equations. The
-    certificate is equation (22) of docs/theory.md.
+    equations that prove a lock or a contradiction are combined as in equation (22) of docs/theory.md.
 
     A verdict is a result, not an exception. Its truth value is True if its kind is `determined`.
 
@@ -85,9 +85,7 @@ class Verdict(Result):
     text: str
     """Verdict and its cause as a sentence in plain text."""
     links: tuple[str, ...] = ()
-    """Links whose speeds are undetermined. If no input turns and no link can move, these are all links except the
-    frame.
-    """
+    """Links whose speeds are undetermined; all links except the frame if no input turns and no link can move."""
     fixes: tuple[str, ...] = ()
     """Links whose speeds, if prescribed in addition to the inputs, would determine all other speeds; at most 12."""
     prescriptions: tuple[str, ...] = ()
@@ -120,7 +118,7 @@ class SpeedAccuracy:
 
 
 class OptionalKeys(TypedDict, total=False):
-    """Keys that the JSON output contains only for float speeds, or only for a train with one-way clutches."""
+    """Part of the JSON output that is written only for float speeds or only for a train with one-way clutches."""
 
     residual: Mapping[str, float]
     """Relative residual of each row of the Willis system, by row label: magnitude of the residual divided by the sum of
@@ -136,9 +134,9 @@ class OptionalKeys(TypedDict, total=False):
 class Answer(FrozenFields, Tabular, TrainResult):
     """Solution of a train in one state: speeds from the Willis equations (4) and (5) of docs/theory.md.
 
-    The truth value is True if the verdict is as expected (`determined`, unless `expect` names another kind) and all
-    outputs agree with their expectations. `answer[name]` is the speed of an output or a link, and raises `KeyError` if
-    the speed is not determined.
+    The truth value is True if the verdict is as expected (`determined`, unless the train or state declares another kind
+    by `expect`) and all outputs agree with their expectations. `answer[name]` is the speed of an output or a link, and
+    raises `KeyError` if the speed is not determined.
 
     Examples
     --------
@@ -208,9 +206,7 @@ class Answer(FrozenFields, Tabular, TrainResult):
     first access.
     """
     expected: str = "determined"
-    """Kind of verdict that is expected, as declared by `expect` of the state or of the train; `determined` if none is
-    declared.
-    """
+    """Kind of verdict that `expect` of the state or of the train declares; `determined` if none is declared."""
     one_way: tuple[OneWayAction, ...] = ()
     """One-way clutches that are active in the state, each with the information whether it holds or overruns."""
     notes: tuple[str, ...] = ()
@@ -235,7 +231,7 @@ class Answer(FrozenFields, Tabular, TrainResult):
         return f"{self.train}{state}: {', '.join([self.verdict.kind, *figures, *more])}"
 
     def _main_links(self, case: Any) -> Iterable[str]:
-        """Return the links of the outputs; if none are declared, all links that are neither inputs nor fixed."""
+        """Return the links that the outputs report; if there are none, all links except inputs and fixed links."""
         if case is None or self._output is not None:
             return self.speeds
         outputs = [output.links(name, self._declaration.frame) for name, output in case.outputs.items()]
@@ -272,8 +268,8 @@ class Answer(FrozenFields, Tabular, TrainResult):
         return tuple(result for result in results if not result.holds)
 
     def __bool__(self) -> bool:
-        """Return True if the verdict is as expected, `failures` is empty, and all one-way clutches that must hold do
-        hold.
+        """Return True if the verdict is as expected, `failures` is empty, and no one-way clutch overruns that is
+        required to hold.
         """
         return self.as_expected and not self.failures and not any(each.fails for each in self.one_way)
 
@@ -284,7 +280,7 @@ class Answer(FrozenFields, Tabular, TrainResult):
 
     @property
     def speed_figures(self) -> Mapping[str, SpeedFigures]:
-        """Speed of each link and its errors [`unit`], in the form of the JSON output."""
+        """Speed of each link with its error estimates [`unit`], by link, as written to JSON."""
         found = {link: speed_figures(speed, link in self.sliding) for link, speed in self.speeds.items()}
         for link, accuracy in self.accuracy.items():
             found[link]["estimate"] = accuracy.estimate
@@ -297,6 +293,6 @@ class Answer(FrozenFields, Tabular, TrainResult):
 
     @property
     def optional_keys(self) -> OptionalKeys:
-        """Residuals of float speeds, and one-way clutches with notes on them, in the form of the JSON output."""
+        """Residuals of float speeds, and one-way clutches with their notes, by key of the JSON output."""
         found: OptionalKeys = {"residual": self.residual} if self.residual else {}
         return found | {"one_way": self.one_way, "notes": self.notes} if self.one_way else found

@@ -25,8 +25,8 @@ from geartrain.numerics.graphs import chain_to_root, ways_to_common_ancestor
 
 @dataclass(frozen=True, slots=True)
 class Components:
-    """Components (ordinary trains relative to one carrier) as arrays over nodes; a node is a link relative to a
-    carrier.
+    """Components of a train as arrays over nodes. A component is an ordinary train of links that mesh relative to one
+    carrier; a node is a link relative to a carrier.
     """
 
     links: tuple[str, ...]
@@ -80,7 +80,7 @@ class Components:
         return first, second
 
     def loop(self, circuit: int) -> Loop:
-        """Return the loop that a `closing` or `breaking` circuit closes, with its ratio product."""
+        """Return the loop that is closed by a circuit in `closing` or `breaking`, with its ratio product."""
         chord = self.circuits[circuit]
         up, down = self.ends(chord)
         left, right = ways_to_common_ancestor(up, down, self._predecessor)
@@ -124,8 +124,7 @@ class Components:
 def find_components(
     links: Sequence[str], frame: str, circuits: Sequence[Circuit], first: Iterable[str] = ()
 ) -> Components:
-    """Find the ordinary trains relative to every carrier by breadth-first search: equations (18) and (19) of
-    docs/theory.md.
+    """Return the components of a train, found by breadth-first search: equations (18) and (19) of docs/theory.md.
 
     first   links from which the search starts if possible, usually the inputs; the unknown of a component is then the
             speed of an input, which avoids products of fractions with many digits
@@ -216,10 +215,10 @@ def _nodes(
 class ReducedSystem:
     """Linear system that couples the components: unknowns, equations, and the speed of every link as a linear form.
 
-    Unknowns 0 to g - 1 belong to the g components. They are followed by one unknown for each carrier other than the
-    frame, and one for each link that does not mesh. `origin` gives the cause of each equation: ("share", link, node)
-    for a link that occurs relative to two carriers, ("loop", circuit, -1) for a loop that cannot turn, ("hold",
-    circuit, -1) for a coupling with winding number 0.
+    Unknowns 0 to g - 1 are the speeds of the g components. They are followed by one unknown for each carrier other than
+    the frame, and one for each link that does not mesh. `origin` states why each equation holds: ("share", link, node)
+    because a link has only one speed although it meshes relative to two carriers, ("loop", circuit, -1) because a loop
+    cannot turn, ("hold", circuit, -1) because a coupling has the winding number 0.
     """
 
     components: Components
@@ -239,7 +238,7 @@ class ReducedSystem:
         return self.seen_from(parts.nodes_of[link][0])
 
     def unknowns_of(self, link: int) -> tuple[int, ...]:
-        """Return the unknowns on which a link's speed depends, without their coefficients (possibly many digits)."""
+        """Return the indices of the unknowns on which the speed of a link depends."""
         parts = self.components
         if link == parts.frame:
             return ()
@@ -251,7 +250,7 @@ class ReducedSystem:
         return (parts.node_group[node], *(() if carrier == parts.frame else (self.own[carrier],)))
 
     def seen_from(self, node: int) -> LinearForm:
-        """Return the speed of a node's link, the sum of its carrier's and its relative speed, as a linear form."""
+        """Return the speed of a node's link as a linear form: the carrier's speed plus the link's relative speed."""
         parts = self.components
         row: LinearForm = {parts.node_group[node]: parts.relative(node)}
         carrier = parts.node_carrier[node]
@@ -262,7 +261,7 @@ class ReducedSystem:
 
 @collector_paused()
 def reduce_components(parts: Components) -> ReducedSystem:
-    """Reduce every component to one unknown speed, and return the system that couples them; see docs/theory.md, 8."""
+    """Return the system that couples the components, each with one unknown speed (section 8 of docs/theory.md)."""
     groups = len(parts.group_carrier)
     # a component that contains a travel has several carriers
     carriers = dict.fromkeys(each for each in (*parts.group_carrier, *parts.node_carrier) if each != parts.frame)
@@ -310,7 +309,7 @@ class SolvedPart:
 
 def relevant_circuits(circuits: Sequence[Circuit], keep: Iterable[str]) -> list[Circuit]:
     """Return the circuits that can affect the speeds of the links in `keep`, by repeated removal of leaves
-    (docs/theory.md, 10).
+    (section 10 of docs/theory.md).
 
     If a link is not in `keep` and occurs in only one circuit, this circuit only determines the speed of that link and
     is removed. This is repeated until no such circuit remains. Loops have no leaves, so a locked train stays locked.

@@ -65,7 +65,7 @@ this number.
 
 
 def edge_rows(graph: Graph) -> list[tuple[str, str, str, str]]:
-    """Return the two links, the kind, and the axis or pair of each edge, in the order of the declaration."""
+    """Return the two links, the kind and the label (name of the axis, pair or coupling) of each edge, in order."""
     return [(first, second, data["kind"], str(data["label"])) for first, second, data in graph.edges(data=True)]
 
 
@@ -124,8 +124,8 @@ def to_dot(graph: Graph) -> str:
 
 
 def to_graphml(graph: Graph) -> str:
-    """Return the graph as GraphML text. Edges have a kind and a label. Gear pairs also have the names of their wheels;
-    couplings also have the names of the links with pin and slot.
+    """Return the graph as GraphML text. Edges have a kind and a label. Gear pairs also have the names of their wheels,
+    and couplings of two links the names of these links by their roles, such as `pin` and `slot`.
     """
     import networkx as nx
 
@@ -133,9 +133,7 @@ def to_graphml(graph: Graph) -> str:
 
 
 def to_json(graph: Graph) -> str:
-    """Return the graph as node-link JSON. Edges have a kind and a label. Gear pairs also have the names of their
-    wheels; couplings also have the names of the links with pin and slot.
-    """
+    """Return the graph as node-link JSON with the same data as in `to_graphml`."""
     import networkx as nx
 
     data = nx.node_link_data(_plain(graph), edges="edges")

@@ -45,9 +45,7 @@ class RatioGoal:
 
 
 def error_against(speed: SpeedValue, wanted: Fraction, signed: bool) -> SpeedValue:
-    """Return the relative error speed / wanted - 1, of magnitudes if `signed` is False; the speed itself if `wanted` is
-    0.
-    """
+    """Return the relative error speed / wanted - 1, of magnitudes unless `signed`; the speed if `wanted` is 0."""
     own = speed if signed else magnitude(speed)
     return own / wanted - 1 if wanted else own
 
@@ -223,9 +221,7 @@ class OutputResult(Result):
 
     @property
     def period(self) -> SpeedValue | None:
-        """Time of one turn [s]; None if the link is at rest or slides, or if its speed or the unit of time is
-        unknown.
-        """
+        """Time of one turn [s]; None if the link is at rest or slides, or if its speed or the time unit is unknown."""
         if self.slides or not self.unit_seconds or not self.speed:
             return None
         return self.unit_seconds / magnitude(self.speed)
@@ -251,9 +247,7 @@ class OutputResult(Result):
 
     @property
     def found_text(self) -> str | None:
-        """Value that is compared with a published period, as text in the units of the source; None if no period is
-        published.
-        """
+        """Value compared with a published period, as text in the units of the source; None without such a period."""
         figure = self.output.published
         if figure is None or self.found is None or not isinstance(figure.value, PrintedPeriod):
             return None
@@ -325,7 +319,7 @@ def as_plain_product(value: SpeedValue, times: int) -> float | None:
 
 
 def magnitude(value: SpeedValue) -> SpeedValue:
-    """Return the absolute value, of the same type."""
+    """Return the absolute value of a speed or error, of the same type."""
     return value if value >= 0 else -value
 
 
@@ -392,13 +386,13 @@ def _expect_holds(output: Output, speed: SpeedValue | None) -> bool | None:
 
 
 def unit_seconds(train: Train) -> Fraction | None:
-    """Return the time of one turn at a speed of 1 [s]; None if the train has no unit of time."""
+    """Return the time [s] of one turn at a speed of 1 [unit of the train]; None if the train has no unit of time."""
     return 1 / train.unit_speed if train.unit_speed else None
 
 
 def in_plain_units(printed: Figure, unit: Fraction | None) -> Figure:
-    """Return a published value or tolerance as a number in the unit of `OutputResult.found` (periods in seconds);
-    `unit` is the time of one turn at a speed of 1 [s], which is the length of a printed year.
+    """Return a published value or tolerance in the unit of `OutputResult.found`, with periods in seconds. `unit` is the
+    time [s] of one turn at a speed of 1, which defines the year of the source.
     """
     return printed.in_seconds(year_seconds(unit)) if isinstance(printed, PrintedPeriod) else printed
 
@@ -479,7 +473,8 @@ def sensitivity(
     """Yield the relative change of the speed of each affected output [ppm] if an uncertain wheel has one tooth fewer or
     one tooth more.
 
-    solve_with   function that solves the train with the given circuits, and returns the function for relative speeds
+    solve_with   function that solves the train with the given circuits, and returns a function of two links that
+                 returns the speed of the first link relative to the second
     """
     for name, wheel in train.uncertain_wheels():
         teeth = wheel.count

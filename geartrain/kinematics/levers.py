@@ -37,9 +37,7 @@ class Lever(Shown):
 
 
 def find_levers(train: Train, tree: Tree, circuits: Sequence[Circuit]) -> list[Lever]:
-    """Return the lever of each elementary epicyclic set, which consists of coaxial links that mesh relative to one
-    moving carrier.
-    """
+    """Return the lever of each epicyclic set of coaxial links that mesh relative to one moving carrier."""
     parts = find_components(tuple(train.links), train.frame, circuits)
     found = []
     for group, carrier in enumerate(parts.group_carrier):

@@ -120,8 +120,8 @@ class TrainKinematics(Shown):
 
     @cached_property
     def cases(self) -> Mapping[str | None, StateCase]:
-        """Inputs, brakes and locks of each state, by name of the state (None for a train without states). Locks are
-        given joint by joint.
+        """Inputs, brakes and locks of each state, by name of the state (None for a train without states). A brake or
+        lock across several axes is represented by locks of single joints.
         """
         declared = self.declaration.cases
         return {case.state: case for case in close_joints(self.declaration, self.tree, declared)}
@@ -150,7 +150,7 @@ class TrainKinematics(Shown):
 
     @cached_property
     def mobility(self) -> Mobility:
-        """Mobility by counting and by exact rank, with redundant and locking loops (docs/theory.md, 6)."""
+        """Mobility by counting and by exact rank, with redundant and locking loops (section 6 of docs/theory.md)."""
         from geartrain.kinematics.speeds import find_mobility
 
         declared = self.declaration
@@ -158,14 +158,12 @@ class TrainKinematics(Shown):
 
     @cached_property
     def is_placed(self) -> bool:
-        """True if gear pairs form loops and axes have positions or directions, so that the assembly condition can be
-        checked.
-        """
+        """True if pairs form loops, and axes have positions or directions, which the assembly condition requires."""
         return self.declaration.has_placed_axes and bool(self.mobility.redundant or self.mobility.locked)
 
     @cached_property
     def gridlock(self) -> Gridlock:
-        """Locked parts of the train, and the meshes whose removal frees it; fast if no link is locked."""
+        """Locked parts of the train, and the meshes whose removal frees it."""
         from geartrain.kinematics.gridlock import find_gridlock
 
         return find_gridlock(self.whole, self.mobility)
@@ -220,7 +218,7 @@ class TrainKinematics(Shown):
         """Return the Willis equations for the inputs, brakes and locks in `case`, which may differ from the declared
         ones.
 
-        case   state case in which locks are given joint by joint, as in `cases`
+        case   inputs, brakes and locks in the form of `cases`: each lock blocks a single joint
         """
         return self._system(self.whole, case)
 
@@ -337,9 +335,7 @@ class TrainKinematics(Shown):
     def _answer_in_floats(
         self, part: SolvedPart, case: StateCase, wanted: tuple[str, str] | None, solution: Solution | None
     ) -> Answer:
-        """Return the answer with float speeds and error estimates. If the exact solution is known, the true errors are
-        included.
-        """
+        """Return the answer with float speeds, error estimates and, if the exact solution is known, true errors."""
         from geartrain.kinematics.speeds import solve_floats
 
         truth = solution.speeds if solution is not None else {}
@@ -396,8 +392,9 @@ class TrainKinematics(Shown):
         ratios: Mapping[str, Mapping[str, Fraction]] | None,
         accuracy: Mapping[str, SpeedAccuracy] | None = None,
     ) -> Answer:
-        """Return the answer with evaluated outputs. It is restricted to the links in `wanted` unless this is None.
-        `ratios` is None for float speeds.
+        """Return the answer with the outputs compared with their declared expectations. It is restricted to the links
+        in `wanted` unless this is None. `work` is the number of circuits whose equations were solved; `ratios` is None
+        for float speeds.
         """
         declared = self.declaration
         if verdict.kind in ("locked", "contradictory"):
@@ -452,13 +449,13 @@ class TrainKinematics(Shown):
         )
 
     def _seen(self, relative: Relative) -> Relative:
-        """Return a function for relative speeds in which the second link is replaced by the nearest link with a
-        comparable motion (`Tree.reference`). For a turning link, this is the nearest link that turns.
+        """Return the function `relative` of two links with the second link replaced by `Tree.reference`, relative to
+        which the speed of the first link is measured.
         """
         return lambda of, base: relative(of, self.tree.reference(of, base))
 
     def _solved_with(self, circuits: Sequence[Circuit], case: StateCase) -> Relative:
-        """Return the function for relative speeds of the train in which `circuits` replace the declared circuits."""
+        """Return the function for the relative speed of two links if the train has the given circuits."""
         return self._seen(solve(self._solved_part(circuits, tuple(self.declaration.links)), case, self.signs).relative)
 
     def _with_pi(self, case: StateCase, speeds: Mapping[str, SpeedValue], seen: Relative) -> dict[str, bool]:

@@ -80,7 +80,7 @@ class PaddedRows:
         x[self.columns[single[own], 0]] = right[single[own]]
 
     def size(self, x: Floats) -> Floats:
-        """Return |A| |x|, which is the sum of the magnitudes of the terms, for each row and case."""
+        """Return |A| |x|, shape (rows, cases), which is the sum of the magnitudes of the terms of each row."""
         total: Floats = np.einsum("rt,rtc->rc", np.abs(self.coefficients), np.abs(x[self.columns]))
         return total
 
@@ -110,17 +110,13 @@ class WillisMatrix(Shown):
     """
 
     matrix: csc_array
-    """Matrix A, axes (row, link), in compressed sparse column format; its float64 entries are integers, represented
-    exactly.
-    """
+    """Matrix A, axes (row, link), in compressed sparse column format, with integers as float64 numbers."""
     right: Floats
     """Right-hand side b of each row [unit of the train], rounded to float64."""
     rows: tuple[WillisEquation, ...]
     """Equations of the rows, each with its label, kind and exact right-hand side."""
     links: tuple[str, ...]
-    """Links of the columns: all links except the frame, or all links including the frame if the whole system is
-    requested.
-    """
+    """Links of the columns: all links except the frame, which is included if the whole system is requested."""
     omitted: tuple[str, ...]
     """Labels of omitted rows: the row of the frame, and rows that follow from other rows."""
 

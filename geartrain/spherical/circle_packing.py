@@ -67,7 +67,7 @@ class PlanarPacking:
         self.far = (a, b, gears + self.left[a, b], gears + self.left[b, a])
 
     def _around(self) -> list[list[int]]:
-        """Return the nodes around each gear (regions) and each region (gears), counterclockwise; gears come first."""
+        """Return the regions around each gear, then the gears around each region, all counterclockwise, by node."""
         before = {}
         for walk in self.regions:
             for at, gear in enumerate(walk):
@@ -127,9 +127,7 @@ class PlanarPacking:
         return full, tuple(residuals)
 
     def layout(self, u: Floats) -> Floats:
-        """Return the vectors of all circles on the sphere, after placing the circles in the plane by breadth-first
-        search.
-        """
+        """Return the vectors of all circles on the sphere, found by breadth-first layout of the plane packing."""
         r = np.exp(u)
         # the layout starts at the largest finite circle
         start = int(np.argmax(np.where(np.isinf(u), -inf, u)))
@@ -148,7 +146,7 @@ class PlanarPacking:
         return self._on_sphere(r, centre, lines)
 
     def _directions(self, r: Floats, node: int, first: int, towards: complex) -> list[tuple[int, complex]]:
-        """Return the unit directions from a node to its neighbours, counterclockwise from the neighbour `first`."""
+        """Return each neighbour of a node with the unit direction to it, from `first` in the direction `towards`."""
         beside = self.around[node]
         at = beside.index(first)
         beside = beside[at:] + beside[:at]
@@ -158,7 +156,7 @@ class PlanarPacking:
         return [(other, towards * complex(np.exp(1j * turn))) for other, turn in zip(beside, turns, strict=True)]
 
     def _on_sphere(self, r: Floats, centre: dict[int, complex], lines: dict[int, tuple[complex, complex]]) -> Floats:
-        """Return the vectors of all circles, after moving the rectangle of the four lines to the origin."""
+        """Return the vectors of all circles after centring the rectangle of the four lines through infinity."""
         offsets = {node: (m, (m.conjugate() * p).real) for node, (m, p) in lines.items()}
         middle, scale = 0j, 0.0
         # opposite sides of the rectangle of lines
@@ -247,8 +245,9 @@ def _centred(vectors: Floats, meshes: Sequence[tuple[int, int]]) -> Floats:
 
 
 def _descent_fraction(points: Floats, v: Floats) -> float:
-    """Return the fraction of the step v, found by halving, for which the convex function sum log(-<x, (p, 1)>) of the
-    pitch points p decreases; its minimum over x corresponds to the centred frame.
+    """Return the fraction of the step v, found by halving, for which the function sum log(-<x, (p, 1)>) over the pitch
+    points p decreases. The function is convex in the vector x of Minkowski space, and its minimum corresponds to the
+    centred frame.
     """
     share = 1.0
     # backtracking: the function is convex, so a short step always descends

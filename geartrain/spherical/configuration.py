@@ -55,9 +55,7 @@ class Configuration(Shown):
     meshes: tuple[tuple[int, int], ...]
     """Pairs of meshing gears, by index."""
     kinds: tuple[str, ...]
-    """Kind of each gear. Gears of the same kind are equivalent under the symmetries of the set, and have the same tooth
-    number.
-    """
+    """Kind of each gear; gears of a kind are equivalent by symmetry and have the same tooth number."""
     regular: tuple[int, ...]
     """Integer p of each gear for which its contacts are exactly at multiples of 1/p of a revolution; 0 if the angles
     are only known as floats.
@@ -124,7 +122,7 @@ def require_tooth_numbers(
 
 
 def mesh_kinds(configuration: Configuration) -> tuple[MeshKind, ...]:
-    """Return the kinds of mesh in the order of their gears' kinds; angles within 1e-9 rad are treated as equal."""
+    """Return the kinds of mesh, sorted by the kinds of gears, then by angle; angles within 1e-9 rad are equal."""
     order = {kind: at for at, kind in enumerate(kinds_in_order(configuration))}
     groups: dict[tuple[int, int, int], list[int]] = {}
     angles = mesh_angles(configuration.axes, configuration.meshes)

@@ -56,9 +56,7 @@ _THEOREMS = {
     ),
 }
 TIP_ROOM = 2.0
-"""Required distance between the pitch circles of gears that do not mesh [modules]; it is the sum of two addenda of one
-module.
-"""
+"""Required distance of the pitch circles of gears that do not mesh: two addenda of one module [modules]."""
 _SAME = 1e-11
 """Relative difference below which pitches are considered equal, due to the rounding of axes in floats."""
 

@@ -257,7 +257,7 @@ def from_graph(
     from scipy.spatial.transform import Rotation
 
     if aim not in ("pitch", "phases"):
-        what, why = f"unknown aim {aim!r}", "`aim` is 'pitch' or 'phases'"
+        what, why = f"unknown aim {aim!r}", "`aim` names the condition that all meshes or loops must satisfy"
         raise QuestionError(Problem(what, why, "pass aim='pitch' or aim='phases'"))
     named = checked_graph(graph)
     names = list(named)

@@ -448,7 +448,7 @@ def _wythoff(p: int, distances: tuple[int, ...]) -> Floats:
 
 @cache
 def _group(p: int) -> Floats:
-    """Return the matrices of the reflection group [p, 3], shape (24, 48 or 120, 3, 3), correctly rounded."""
+    """Return the matrices of the reflection group [p, 3], shape (order, 3, 3), correctly rounded."""
     entries = np.array([sign * x for x in (0, 0.5, 1, PHI / 2, (PHI - 1) / 2) for sign in (1, -1)])
     mirrors = np.array(_MIRRORS[p], dtype=np.float64)
     reflections = [np.eye(3) - 2 * np.outer(m, m) / (m @ m) for m in mirrors]

@@ -132,8 +132,8 @@ def from_polyhedron(
 
 
 def regular(configuration: Configuration, most: int) -> Configuration:
-    """Return the configuration with the field `regular`: the minimum p up to `most` for which the contacts of a gear
-    are at multiples of 1/p of a revolution.
+    """Return the configuration with its field `regular`: for each gear, the minimum p up to `most` for which its
+    contacts are at multiples of 1/p of a revolution, or 0 if there is none.
 
     Angles within 1e-12 of a revolution of a multiple of 1/p are treated as exact, so coordinates must have this
     accuracy.
@@ -158,7 +158,7 @@ def _placed(
     counts: Mapping[str, int],
     exact: bool,
 ) -> Floats:
-    """Return the axes, moved to equal pitches if `exact` is True; else only gears on edges with teeth are moved."""
+    """Return the axes, moved to equal pitches: all axes if `exact`, else axes on edges with known teeth."""
     teeth = [counts.get(kind, 0) for kind in kinds]
     if exact:
         require_tooth_numbers(
@@ -183,7 +183,7 @@ def _placed(
 
 @dataclass(frozen=True, eq=False)
 class PolyhedronPlaces:
-    """All positions for gears on a solid, before the gears to be omitted are removed."""
+    """All gears of an arrangement on a solid, including gears that are omitted later."""
 
     axes: Floats
     """Unit vectors of the axes, shape (gears, 3)."""
@@ -265,7 +265,7 @@ TeethByKind = Mapping[str, int] | Mapping[int, int] | int
 
 
 def kinds_of(layout: PolyhedronPlaces) -> list[str]:
-    """Return the kind of each gear: the name of its class, and a letter if the class has several orbits."""
+    """Return the kind of each gear: its entry in `layout.letters`, with a letter if several orbits have this entry."""
     orbits = layout.movement.orbits().tolist()
     size = {orbit: orbits.count(orbit) for orbit in set(orbits)}
     rank = np.argsort(from_the_top(layout.axes))
@@ -305,7 +305,7 @@ def _steps(layout: PolyhedronPlaces, start: Iterable[int]) -> dict[int, int]:
 
 
 def in_order(layout: PolyhedronPlaces, kinds: Sequence[str]) -> list[int]:
-    """Return the gears in the order of a configuration: on larger faces first, then on vertices, then on edges."""
+    """Return the indices of the gears in order: gears on larger faces first, then on vertices, then on edges."""
     rank = np.argsort(from_the_top(layout.axes))
 
     def key(at: int) -> tuple[int, int, int, str, int]:
@@ -317,7 +317,7 @@ def in_order(layout: PolyhedronPlaces, kinds: Sequence[str]) -> list[int]:
 
 
 def teeth_of(teeth: TeethByKind | None, kinds: Sequence[str]) -> dict[str, int]:
-    """Return the tooth number of each kind. A number of sides as key refers to all kinds with this number."""
+    """Return the tooth number of each kind. In `teeth`, a key such as 4 refers to all kinds such as 4a and 4b."""
     known = list(dict.fromkeys(kinds))
     given = {str(kind): count for kind, count in teeth.items()} if isinstance(teeth, Mapping) else {}
     if teeth is not None and not isinstance(teeth, Mapping):
@@ -336,7 +336,7 @@ def teeth_of(teeth: TeethByKind | None, kinds: Sequence[str]) -> dict[str, int]:
 
 
 def _matching_kinds(word: str, kinds: Iterable[str]) -> list[str]:
-    """Return the kind with a given name, or else all kinds with this name and an additional letter, as a list."""
+    """Return the kind with the given name, or else all kinds with a further letter, such as 4a and 4b for 4."""
     known = list(dict.fromkeys(kinds))
     return [word] if word in known else [kind for kind in known if letter_of(kind) == word]
 
@@ -362,7 +362,9 @@ def without_gears(
         rest = [(i, j) for i, j in left if not ((i in a and j in b) or (j in a and i in b))]
         if len(rest) == len(left):
             why = f"{first} and {second} do not mesh"
-            raise QuestionError(Problem(f"unknown mesh '{word}'", why, "give the names of two gears that mesh"))
+            fix = "give the names of two gears that mesh"
+            fix += f", such as '{names[left[0][0]]}~{names[left[0][1]]}'" if left else ""
+            raise QuestionError(Problem(f"unknown mesh '{word}'", why, fix))
         left = rest
     kept = set(range(len(names))) - gone
     return kept, [(i, j) for i, j in left if i in kept and j in kept]

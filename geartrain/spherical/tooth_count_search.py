@@ -137,8 +137,8 @@ def _blocks(ranges: Sequence[NDArray[np.int64]]) -> Iterator[list[NDArray[np.int
 
 
 def _sorted(rows: NDArray[np.int64], mismatches: Floats, order: Order) -> NDArray[np.int64]:
-    """Return the sets of tooth numbers (rows) in ascending order of mismatch or total, with ties in order of the other
-    quantity; for "front", only the Pareto-optimal sets.
+    """Return the sets of tooth numbers (rows) in ascending order of mismatch, with ties in order of the total, or vice
+    versa for other orders. For "front", return only the Pareto-optimal sets.
     """
     totals = rows.sum(axis=1)
     # rounding must not decide the order of sets that share one pitch exactly
@@ -314,9 +314,7 @@ class _Search:
 
 @dataclass(frozen=True)
 class NeighbourRatioWindow(Shown):
-    """Range of the ratio of two tooth numbers in which neighbouring gears of the same kind do not overlap. Addenda are
-    neglected.
-    """
+    """Range of the ratio of two tooth numbers in which neighbouring pitch circles of a kind do not overlap."""
 
     a: str
     """Kind of the first gear."""

@@ -33,7 +33,7 @@ class PulleyPair(NamedTuple):
 
     @property
     def length(self) -> float | None:
-        """Length of the belt [mm]; None for more than two pulleys, or for pulleys that overlap."""
+        """Length of the belt [mm]; None if the belt has more than two pulleys, or if the two pulleys overlap."""
         if len(self.belt.ends) > 2 or not self.fits:
             return None
         first, second = map(float, self.diameters)

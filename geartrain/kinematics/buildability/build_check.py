@@ -94,7 +94,7 @@ def _parallel_axes_problem(pair: PitchPair, shape: str, declared: bool) -> Probl
 
 
 def _crossing_axes_problem(pair: PitchPair, shape: str, offset: float | None) -> Problem | None:
-    """Return the problem of a pair on non-parallel axes at the distance `offset` [m]; None if the pair is valid."""
+    """Return a problem if a pair of the kind `shape` cannot mesh on axes that are `offset` [m] apart; else None."""
     first, second = pair.axes
     if shape == "spur":
         return Problem(
@@ -121,9 +121,7 @@ _EQUAL = Fraction(1, 10**6)  # tolerance relative to the longest side, because t
 
 
 def check_triangles(sizes: PitchDistances) -> Iterator[BuildFinding]:
-    """Yield findings of rule P3: three axes whose distances, as multiples of one length, violate the triangle
-    inequality.
-    """
+    """Yield findings of rule P3: the distances of three axes violate the triangle inequality."""
     sides = {node[1:]: pairs[0] for node, pairs in sizes.between.items()}
     near: dict[str, dict[str, PitchPair]] = {}
     for (first, second), pair in sides.items():
@@ -172,7 +170,7 @@ def _triangle(
 
 
 def check_clutches(train: Train, tree: Tree) -> Iterator[BuildFinding]:
-    """Yield findings of rules G1 (clutches) and G2 (brakes): the links are on different axes."""
+    """Yield findings of rules G1 and G2: a clutch between links on different axes, a brake across several axes."""
     reported = set()
     for case in train.cases:
         for rigid in rigid_across_axes(train, tree, case):
@@ -261,8 +259,8 @@ def check_shared_wheels(pairs: Sequence[PitchPair], outlines: Outlines) -> Itera
 
 
 def check_skew(train: Train, tree: Tree, pairs: Sequence[PitchPair], sizes: PitchDistances) -> Iterator[BuildFinding]:
-    """Yield findings of rule K4: skew axes are not at the sum of the pitch radii m z/(2 cos(b)), where m is the normal
-    module, z the tooth count and b the helix angle.
+    """Yield findings of rule K4: the distance of two skew axes differs from the sum of the pitch radii m z/(2 cos(b)),
+    where m is the normal module, z the tooth count and b the helix angle.
     """
     axes = Axes(train, tree)
     for pair in pairs:
@@ -294,7 +292,7 @@ def check_skew(train: Train, tree: Tree, pairs: Sequence[PitchPair], sizes: Pitc
 def check_build(
     train: Train, tree: Tree, circuits: Sequence[Circuit], outlines: Outlines = dict
 ) -> Iterator[BuildFinding]:
-    """Yield the findings of all rules that require only the declaration (docs/buildability.md), rule by rule."""
+    """Yield the findings of all rules that require only the declaration and tooth outlines (docs/buildability.md)."""
     yield from check_mates(train)  # first, because a wheel that a child adds without a pair changes no speed
     pairs = pitch_pairs(train, tree, circuits)
     yield from check_kinds(train, tree, circuits, pairs)

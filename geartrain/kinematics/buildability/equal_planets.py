@@ -23,9 +23,7 @@ if TYPE_CHECKING:
     from geartrain.train import Train
 
 CountRef = str | int
-"""Tooth count as a term of an assembly rule: the name of a wheel whose tooth count is variable, or a fixed
-tooth count.
-"""
+"""Tooth count in an assembly rule: the name of a wheel with a variable tooth count, or a fixed tooth count."""
 
 Measure = Literal["", "plain", "m"]
 """Unit of a declared module: "" if no module is declared, "plain" for a number without a unit, "m" for a length."""
@@ -69,16 +67,14 @@ class AssemblyMesh:
 
     @property
     def terms(self) -> tuple[tuple[int, CountRef], tuple[int, CountRef]]:
-        """Two terms (sign, tooth count z) whose sum is twice the centre distance [modules]: z1 + z2, or z_ring -
-        z_mate.
-        """
+        """Two terms (sign, tooth count z) with the sum z1 + z2 or z_ring - z: twice the centre distance [modules]."""
         first, second = self.parts
         return (-1 if self.ring == 1 else 1, first), (-1 if self.ring == 0 else 1, second)
 
 
 @dataclass(frozen=True, slots=True)
 class Planet:
-    """Planet with its meshes, as a node in the tree of planets that mesh with each other (root: the first planet)."""
+    """Planet with its meshes: a node in a tree of planets that mesh with each other. The root is the first planet."""
 
     link: str
     inward: AssemblyMesh | None
@@ -86,7 +82,7 @@ class Planet:
     central: tuple[AssemblyMesh, ...]
     """Meshes with wheels on the carrier's axis, sorted by the names of those wheels."""
     outward: tuple[tuple[AssemblyMesh, Planet], ...]
-    """Meshes with the child planets in the tree, in an order that is the same for isomorphic sets."""
+    """Meshes with the child planets in the tree; equal sets list corresponding meshes in the same order."""
 
     def walk(self) -> Iterator[Planet]:
         """Yield this planet and all its descendants in the tree."""
@@ -103,18 +99,18 @@ class Planet:
         return mesh.wheels[self.side(mesh)]
 
     def mate(self, mesh: AssemblyMesh) -> str:
-        """Return the name of the wheel with which this planet is in mesh in one of its meshes."""
+        """Return the name of the other wheel in one of this planet's meshes."""
         return mesh.wheels[1 - self.side(mesh)]
 
     @property
     def wheels(self) -> tuple[str, ...]:
-        """Names of the planet's wheels that mesh in the set, in an order that is the same for isomorphic sets."""
+        """Names of this planet's meshing wheels. Equal planets list corresponding wheels in the same order."""
         return tuple(self.mesh_of)
 
     @property
     def mesh_of(self) -> dict[str, AssemblyMesh]:
-        """One mesh of each wheel of the planet that meshes in the set. If a wheel has several meshes, an outward mesh
-        is preferred to a central mesh, and a central mesh to an inward mesh.
+        """One mesh of each wheel of this planet, by wheel. If a wheel has several meshes, a mesh with a child planet is
+        preferred, then a mesh with a wheel on the axis of the carrier, then the mesh with the parent planet.
         """
         inward = [self.inward] if self.inward else []
         meshes = [*inward, *self.central, *(mesh for mesh, _ in self.outward)]
@@ -122,7 +118,7 @@ class Planet:
 
     @property
     def form(self) -> object:
-        """Canonical form of the planet's meshes; equal for planets that mesh alike with the same central wheels."""
+        """Description of the meshes of this planet and its descendants, equal for planets of equal sets."""
         wheels = self.wheels
         central = tuple((wheels.index(self.own(mesh)), self.mate(mesh)) for mesh in self.central)
         outward = tuple((wheels.index(self.own(mesh)), other.form) for mesh, other in self.outward)
@@ -131,7 +127,7 @@ class Planet:
 
 @dataclass(frozen=True, slots=True)
 class PlanetSet:
-    """Planets of one carrier that mesh with each other; usually one planet. Equal planets are compared set by set."""
+    """Planets of one carrier that mesh with each other; usually a set contains a single planet."""
 
     carrier: str
     planets: Planet | None
@@ -154,7 +150,7 @@ _Central = tuple[str, AssemblyMesh]  # central wheel, and its mesh with a planet
 
 @dataclass(frozen=True)
 class TrainAssembly:
-    """Train with the data of the assembly rules of planets: fixed and variable tooth counts, meshes, planet sets."""
+    """Train with the data that the assembly rules of planets require: tooth counts, meshes and sets of planets."""
 
     train: Train
     free: frozenset[str]
@@ -170,7 +166,7 @@ class TrainAssembly:
         return cls(train, frozenset(free), tree, find_circuits(train, tree))
 
     def part(self, wheel: str) -> CountRef:
-        """Return the tooth count of a wheel as a term of an assembly rule: the wheel's name if it is variable."""
+        """Return the tooth count of a wheel, or the wheel's name if its tooth count is variable or undeclared."""
         count = self.train.wheels[wheel][1].count
         return wheel if wheel in self.free or count is None else count
 
@@ -231,8 +227,8 @@ class TrainAssembly:
 
     @cached_property
     def kin(self) -> Mapping[str, int]:
-        """Group number of each wheel. Wheels that are connected by meshes, except meshes of worms, are in the same
-        group and must have the same module.
+        """Group number of each wheel, by wheel. Wheels that are connected by meshes, except meshes of worms, are in the
+        same group and must have the same module.
         """
         worms = {wheel for wheel, (_, kind) in self.train.wheels.items() if kind.kind == "worm"}
         pairs = [circuit.wheels for circuit in self.circuits if circuit.kind == "gear"]
@@ -241,7 +237,7 @@ class TrainAssembly:
 
     @cached_property
     def sets(self) -> tuple[PlanetSet, ...]:
-        """Sets of planets on moving carriers; sets that are isomorphic to an earlier set are its `copies`."""
+        """Sets of planets on moving carriers; the field `copies` of a set contains the later sets that equal it."""
         found: list[PlanetSet] = []
         by_carrier: dict[str, list[AssemblyMesh]] = {}
         for mesh in self.meshes:
@@ -285,7 +281,7 @@ class TrainAssembly:
 
 
 def corresponding(first: PlanetSet, other: PlanetSet) -> Mapping[str, str]:
-    """Return the wheel of the set `other` that corresponds to each wheel of the equal set `first`, by name."""
+    """Return, for each wheel of the set `first`, the corresponding wheel of the equal set `other`, by name."""
     assert first.planets is not None
     assert other.planets is not None
     found: dict[str, str] = {}
@@ -397,6 +393,7 @@ def neighbour_terms(root: Any, reach: Any, tips: Any, chord: Any) -> tuple[Any, 
     """Return two terms whose sum is the tip clearance of n equally spaced planets, 2 a sin(pi/n) - tips [unit of
     `reach`].
 
+    root    square root function, which is not used here; the signature corresponds to that of `passing_terms`
     reach   2 a, twice the distance of a planet's axis from the central axis: m (z_s + z_p), or m (z_r - z_p), with the
             module m and the tooth counts of sun, planet and ring
     tips    m (z_p + 2 h) plus the required clearance, with the addendum h [modules]
@@ -407,12 +404,13 @@ def neighbour_terms(root: Any, reach: Any, tips: Any, chord: Any) -> tuple[Any, 
 
 def passing_terms(root: Any, A: Any, B: Any, D: Any, tips: Any, c: Any, s: Any) -> tuple[Any, ...]:
     """Return the terms whose sum is (2 d)^2 - tips^2, where d is the distance between the axis of a planet and the axis
-    of the mate of the neighbouring planet. The sum is positive if these two wheels clear each other.
+    of a planet in a neighbouring set. The sum is positive if the wheels of these two planets clear each other.
 
+    root   square root function
     A, B   twice the distances of the two planets' axes from the central axis
-    D      twice their centre distance in mesh, D^2 = A^2 + B^2 - 2 A B cos(delta)
+    D      twice the centre distance of two planets in mesh, D^2 = A^2 + B^2 - 2 A B cos(delta)
     tips   sum of the tip diameters, and twice the required clearance
-    c, s   cosine and sine of the angle psi to the neighbour; the angle between the two axes is psi - delta,
+    c, s   cosine and sine of the angle psi between neighbouring sets; the angle between the two axes is psi - delta,
            (2 d)^2 = A^2 + B^2 - 2 A B (c cos(delta) + s sin(delta))
     """
     Q = A * A + B * B - D * D
@@ -479,9 +477,7 @@ class _EqualPlanets:
     # -------------------------------------------------------------------------------------------------------- assembly
 
     def assembly(self) -> Iterator[BuildFinding]:
-        """Yield findings of the assembly rules: A1 for simple planets that mesh only with central wheels, A2 for
-        others.
-        """
+        """Yield findings of rules A1 (simple planets that mesh only with central wheels) and A2 (other planets)."""
         if not self.step:
             return
         rule = "A1" if len(self.planet.wheels) == 1 and not self.planet.outward else "A2"
@@ -601,7 +597,7 @@ class _EqualPlanets:
         return None if module is None else float(module) * self.train.wheels[wheel][1].slant
 
     def _neighbour_clearance(self, planet: Planet, mesh: AssemblyMesh, number: int) -> float | None:
-        """Return the tip clearance of equal wheels of neighbouring planets [modules]; None if it is unknown."""
+        """Return the tip clearance of equal wheels of `number` evenly spaced planets [modules]; None if unknown."""
         tips = self._tip_diameter(planet, mesh)
         # positions are known only for the first planet of each set
         if self.points is not None and planet is self.planet and number == self.number:
@@ -627,7 +623,7 @@ class _EqualPlanets:
         return float(sum(sign * int(part) for sign, part in mesh.terms)) if outline is None else 2 * outline.distance
 
     def _axis_distance(self, planet: Planet, wheel: str = "") -> float | None:
-        """Return twice the distance of a planet's axis from the central axis [modules of `wheel`]; None if unknown."""
+        """Return twice the distance of the axes of planet and carrier [modules of `wheel`]; None if it is unknown."""
         meshes = sorted(planet.central, key=lambda mesh: (planet.own(mesh) != wheel, mesh.ring is not None))
         if not meshes:
             return None
@@ -638,8 +634,8 @@ class _EqualPlanets:
         return None if scale is None else self._mesh_distance(meshes[0]) * float(scale) * slants[0] / slants[1]
 
     def _passing_clearance(self, planet: Planet, other: Planet, mesh: AssemblyMesh) -> float | None:
-        """Return the minimum tip clearance between a planet and the mates of its neighbours [modules]; None if it is
-        unknown, for a pair with a ring, and for planets with declared positions.
+        """Return the minimum tip clearance of meshing planets from different sets [modules]; None if it is unknown, for
+        a pair with a ring, and for planets with declared positions.
         """
         A, B = self._axis_distance(planet, planet.own(mesh)), self._axis_distance(other, other.own(mesh))
         if A is None or B is None or mesh.ring is not None or self.points is not None:
@@ -666,7 +662,7 @@ class _EqualPlanets:
         return found
 
     def _maximum_number(self) -> int:
-        """Return the maximum number of evenly spaced planets whose tips do not overlap; the declared one if unknown."""
+        """Return the maximum number of evenly spaced planets without overlap; if it is unknown, the declared number."""
         minimum = max((self._minimum_angle(planet) for planet in self.planet.walk()), default=0.0)
         # 1e-9: rounding must not reduce the number of planets whose tips just touch
         return max(1, int(1 / minimum + 1e-9)) if minimum else self.number

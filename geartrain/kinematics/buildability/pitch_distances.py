@@ -90,9 +90,7 @@ def _involute(angle: float) -> float:
 
 
 def minimum_ring(planet: int) -> int:
-    """Return the tooth count (34 or more) of the smallest ring in which a planet of standard teeth has no trochoid
-    interference.
-    """
+    """Return the minimum tooth count (34 or more) of a ring without trochoid interference with a planet."""
     # the tip circle of a ring with fewer than 34 teeth lies within its base circle
     first = max(planet + 1, 34)
     return next(z for z in count(first) if tip_margin(planet, z, PRESSURE, 1.0, 1.0) > 0)
@@ -333,14 +331,14 @@ class PitchDistances:
         return self.sizes.ratio(("wheel", wheel), _MM)
 
     def distance(self, axes: tuple[str, str]) -> tuple[Node, Fraction]:
-        """Return a root quantity (a module or a distance), and the distance between two axes as a multiple of the root
-        quantity. Distances with the same root quantity can be compared.
+        """Return a reference quantity (a module or a distance), and the ratio of the distance between two axes to it.
+        Distances with the same reference quantity can be compared.
         """
         return self.sizes.root(("axes", *axes))
 
     def measure(self, pair: PitchPair) -> Callable[[Fraction], str]:
-        """Return a function that formats a multiple of the root quantity of a pair's distance. It is given in mm if the
-        root quantity is known in mm, and in modules if it is not.
+        """Return a function that formats a length as text, given the length as a multiple of the reference quantity of
+        a pair's distance. The text is in mm if the reference quantity is known in mm, and in modules if it is not.
         """
         root, _ = self.distance(pair.axis_pair)
         known, module = self.sizes.ratio(root, _MM), self.sizes.ratio(root, ("wheel", pair.wheels[0])) or Fraction(1)
@@ -370,7 +368,9 @@ class PitchDistances:
     # ------------------------------------------------------------------------------------------------------- distances
 
     def _offsets(self, tree: Tree, circuits: Sequence[Circuit]) -> Iterator[BuildFinding]:
-        """Record axis distances from declared positions and pin offsets, and yield a finding for each contradiction."""
+        """Add the axis distances that follow from declared positions and offsets of pins to `sizes`, and yield a
+        finding for each contradiction.
+        """
         offsets = {each.name: each.offset for each in self.train.pin_couplings if each.offset is not None}
         for pair in self.pairs:
             if pair.parallel:
@@ -387,15 +387,16 @@ class PitchDistances:
             if apart is not None and abs(apart - offset) > _EQUAL * max(apart, offset):
                 what = f"axes {_named(axes)} are {_mm(apart)} apart, but the offset of '{circuit.id}' is {_mm(offset)}"
                 why = "the offset of a pin is the distance between the two axes"
+                fix = f"move an axis, or declare `offset: {_mm(apart)}`"
                 place = self.train.place("couplings", at[circuit.id])
-                yield BuildFinding("P1", "error", Problem(what, why, "move an axis, or correct the offset", place))
+                yield BuildFinding("P1", "error", Problem(what, why, fix, place))
             # the offset determines the distance if no positions are declared
             elif apart is None:
                 self.sizes.join(_MM, node, offset)
                 self.placed[node] = f"the offset of '{circuit.id}'"
 
     def _record_positions(self, axes: tuple[str, str]) -> None:
-        """Record the distance between two parallel axes if the positions of both axes are declared."""
+        """Add the distance between two parallel axes to `sizes` and `placed` if their positions are declared."""
         node = ("axes", *axes)
         if node in self.placed or axes[0] == axes[1]:
             return
@@ -502,9 +503,12 @@ _COMPENSATE = "shift profiles, give the pairs different modules, or change a too
 
 
 def _needed_shifts(pair: PitchPair, distance: Fraction) -> str:
-    """Return the text of a fix with the profile shifts x for which involute teeth have no backlash at a distance
-    [modules]: inv a_w = inv a_t + 2 tan a_n (x1 + x2)/(z1 + z2), cos a_w = cos a_t touching/distance, tan a_t = tan a_n
-    / cos(helix). In a pair with a ring, z and x of the mate are negative. The text is "" if no sum in `_SHIFTS` fits.
+    """Return advice to declare profile shifts for which involute teeth have no backlash at a distance [modules].
+
+    The shifts x satisfy inv a_w = inv a_t + 2 tan a_n (x1 + x2)/(z1 + z2), with the tooth counts z, the normal pressure
+    angle a_n, the transverse pressure angle a_t, tan a_t = tan a_n / cos(helix), and the operating pressure angle a_w,
+    cos a_w = cos a_t touching/distance. In a pair with a ring, z and x of the mate are negative. The advice is "" if
+    the required sum of the shifts is outside the limits `_SHIFTS`.
     """
     from geartrain.teeth.conjugate.involute_geometry import inv
 
@@ -533,7 +537,7 @@ def _needed_shifts(pair: PitchPair, distance: Fraction) -> str:
 
 
 def _backlash_effect(pair: PitchPair, off: Fraction, module: Fraction) -> str:
-    """Describe the change of backlash, 2 off tan(alpha), due to a deviation `off` of the centre distance [modules]."""
+    """Return a text on the change of backlash if a centre distance deviates by `off` [modules]: 2 |off| tan(alpha)."""
     tight = (off < 0) != (pair.ring is not None)
     if abs(off) <= SLACK and tight:
         return f"they are {_mm(abs(off) * module)} closer than teeth without backlash allow"

@@ -97,8 +97,8 @@ class Circuit(NamedTuple):
         """Links and their non-zero coefficients in the Willis equation a w_i + b w_j - (a + b) w_k = 0.
 
         Speeds are positive about the reference direction of parallel axes. The transposed row gives the torques of a
-        pair without losses. Applied to the link angles, the row gives the phase of the mesh, modulo one pitch. If a
-        sliding carrier is involved, the coefficients -a and -b belong to the two `bases`.
+        pair without losses. Applied to the link angles, the row gives the phase of the mesh, modulo one pitch. If
+        `bases` contains two links, the coefficients -a and -b belong to these links instead of the carrier.
         """
         if self.bases:
             row: dict[str, int] = {}
@@ -241,7 +241,7 @@ class _DeclaredCoupling(NamedTuple):
         return self._travelling(circuit) if circuit.travels else self._rotating(circuit)
 
     def _rotating(self, circuit: Circuit) -> Circuit | Problem:
-        """Return the circuit of two turning links, with the sign that follows from their axes, or a problem."""
+        """Return the circuit of two turning links, with the sense that follows from their axes, or a problem."""
         axes, coupling = self.axes, self.coupling
         labels = _labels(axes.tree, circuit.carrier, circuit.i, circuit.j)
         sign = 1
@@ -263,7 +263,7 @@ class _DeclaredCoupling(NamedTuple):
         return _turning(axes.tree, circuit._replace(b=sign * circuit.b))
 
     def _travelling(self, circuit: Circuit) -> Circuit | Problem:
-        """Return the circuit of a turning link j and a sliding link i, or a problem of its declaration."""
+        """Return the circuit of a turning link j and a sliding link i, or a problem of their axes."""
         axes, coupling, carrier, tree = self.axes, self.coupling, circuit.carrier, self.axes.tree
         along, about = _labels(tree, carrier, circuit.i, circuit.j)
         slides = {label: tree.lines[link] for link, (_, label) in tree.parent.items() if link in tree.lines}
@@ -287,7 +287,7 @@ class _DeclaredCoupling(NamedTuple):
         return circuit._replace(i=i, j=j, b=b, bases=(tree.moving(carrier, line), tree.moving(carrier, None)))
 
     def _wrong_angle(self, labels: tuple[str, str]) -> Problem | None:
-        """Return a problem if two axes are perpendicular or not at the declared angle; None if they are valid."""
+        """Return a problem if two axes are perpendicular or their angle differs from the declared one; else None."""
         between, declared = self.axes.angle(labels), getattr(self.coupling, "angle", None)
         what = f"coupling '{self.coupling.name}': "
         if between is not None and between > pi / 2 - _SAME_ANGLE:
@@ -296,7 +296,7 @@ class _DeclaredCoupling(NamedTuple):
         if between is not None and declared is not None and abs(declared.si - between) > _SAME_ANGLE:
             what += f"its angle is {declared.text}, but its axes are at {degrees(between):.6g} deg"
             fix = "omit `angle`, which follows from `axes`, or correct a direction"
-            return self._problem(what, "both declare the same angle", fix)
+            return self._problem(what, "`angle` and `axes` both declare the same angle", fix)
         return None
 
     def _problem(self, what: str, why: str, fix: str, *key: str) -> Problem:
@@ -314,7 +314,7 @@ def _turning(tree: Tree, circuit: Circuit) -> Circuit:
 
 
 def _shared_axis(tree: Tree, i: str, j: str) -> str | None:
-    """Return the label of the axis on which links i and j turn, or which one of them carries; None if there is none."""
+    """Return the label of the axis that both links are on, or that one is on and the other carries; else None."""
     for link, other in ((i, j), (j, i)):
         axis = tree.axis(link)
         if axis is not None and (tree.axis(other) == axis or tree.top[link] == other):
@@ -323,8 +323,8 @@ def _shared_axis(tree: Tree, i: str, j: str) -> str | None:
 
 
 def _coaxial_carrier(tree: Tree, i: str, j: str, declared: str | None) -> str | None:
-    """Return the carrier of a coaxial pair: the declared carrier, or by default the link that carries the axis. Return
-    None if the pair is not coaxial, or if the carrier is not a third link on its axis.
+    """Return the carrier of a coaxial pair: the declared carrier, or by default the link that carries the axis of the
+    pair. Return None if the pair is not coaxial, or if the carrier is a member of the pair or is not on its axis.
     """
     axis = _shared_axis(tree, i, j)
     if axis is None:
@@ -354,8 +354,9 @@ def _labels(tree: Tree, carrier: str, i: str, j: str) -> tuple[str, str]:
 
 
 def _carrier(tree: Tree, i: str, j: str) -> str | None:
-    """Return the carrier of the pair i, j: the link of the tree path at which the axis label changes, if all links of
-    an axis are attached to the link that carries it; None if the label does not change exactly once.
+    """Return the carrier of the pair i, j: the link on the tree path from i to j at which the label of the joint axis
+    changes; None if the label does not change exactly once. If several links are on one axis, their joints count as
+    joints to the link that carries the axis.
     """
     parent, top = tree.parent, tree.top
     axis_i = parent[i][1] if i in parent else None

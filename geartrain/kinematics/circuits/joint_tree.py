@@ -35,17 +35,15 @@ class Tree(FrozenFields):
 
     frame: str
     parent: Mapping[str, tuple[str, str]]
-    """Parent of each link, which is its neighbour towards the frame, and the declared label of the axis between the two
-    links.
-    """
+    """Parent of each link (its neighbour towards the frame), and the label of the axis between the two links."""
     top: Mapping[str, str]
     """Link that carries the axis of each link: the first link on the path to the frame that is not on that axis."""
     lines: Mapping[str, str] = field(default_factory=dict)
     """Direction of travel of each sliding link, as the label of the first declared axis that is parallel to it."""
 
     def reference(self, link: str, base: str) -> str:
-        """Return the nearest link at or above `base` whose motion is comparable with the motion of `link`; the frame if
-        there is none.
+        """Return the first link on the path from `base` to the frame whose motion is of the same kind as the motion of
+        `link`; the frame if there is none.
 
         For a turning link, it is the nearest link that turns, because a sliding link does not turn relative to the link
         that carries it. For a sliding link, it is the nearest link that slides in the same direction.
@@ -53,23 +51,19 @@ class Tree(FrozenFields):
         return self.moving(base, self.lines.get(link)) if self.lines else base
 
     def moving(self, link: str, line: str | None) -> str:
-        """Return the nearest link that slides along `line`, or that turns if `line` is None, among `link` and the links
-        that carry it; return the frame if there is none.
+        """Return the first link on the path from `link` to the frame, including `link`, that slides along the axis
+        label `line`, or that turns if `line` is None; the frame if there is none.
         """
         while link != self.frame and self.lines.get(link) != line:
             link = self.parent[link][0]
         return link
 
     def borne_by(self, link: str) -> str:
-        """Return the link relative to which the motion in the joint of `link` is measured: its parent, or the nearest
-        link above the parent whose motion is comparable with the motion of `link`.
-        """
+        """Return the link relative to which `link` moves in its joint: `reference` of its parent."""
         return self.reference(link, self.parent[link][0])
 
     def bearer(self, link: str) -> str:
-        """Return the link relative to which `link` moves on its axis: the link that carries the axis, or the nearest
-        link above it whose motion is comparable with the motion of `link`.
-        """
+        """Return the link relative to which `link` moves on its axis: `reference` of the link that carries the axis."""
         return self.reference(link, self.top[link])
 
     def axis(self, link: str) -> str | None:
@@ -87,8 +81,8 @@ class Tree(FrozenFields):
     def axis_seen_from(self, carrier: str, link: str) -> str:
         """Return the label of the axis about which a link of a circuit turns relative to the circuit's carrier.
 
-        It is the link's own axis if the carrier carries this axis. If not, the link is coaxial with the carrier or
-        carries the carrier's axis; the axis is the axis of the carrier.
+        This is the axis of the link if the carrier carries it, and the axis of the carrier if not, because the link is
+        then coaxial with the carrier or carries the carrier's axis.
         """
         return self.parent[link if self.bears(carrier, link) else carrier][1]
 
@@ -116,12 +110,13 @@ def check_pallets(train: Train, tree: Tree) -> None:
         what = f"pallets on '{on}' do not stay beside the escape wheel '{link}'"
         fix = f"write `on: {bearer}`, or a link that turns about the axis of '{link}'"
         place = train.place("escapement", "on")
-        raise DeclarationError([Problem(what, f"'{bearer}' carries the axis of '{link}'", fix, place)])
+        why = f"the pallets must keep their distance from the axis of the escape wheel, which '{bearer}' carries"
+        raise DeclarationError([Problem(what, why, fix, place)])
 
 
 @collector_paused()
 def find_tree(train: Train) -> Tree:
-    """Build the tree of joints with the frame as root. Raises `DeclarationError` if the joints do not form a tree."""
+    """Return the tree of joints with the frame as root. Raises `DeclarationError` if the joints do not form a tree."""
     declared: list[tuple[Revolute | Slide, Loc]] = [
         *((joint, ("revolutes", at)) for at, joint in enumerate(train.revolutes)),
         *((joint, ("slides", at)) for at, joint in enumerate(train.slides)),
@@ -167,8 +162,9 @@ def find_tree(train: Train) -> Tree:
 
 
 def _lines(train: Train, parent: Mapping[str, tuple[str, str]], sliding: Mapping[str, str]) -> dict[str, str]:
-    """Return the direction of travel of each sliding link, as the first axis label with that direction. Two labels have
-    the same direction if it is parallel and constant: all links between them turn about it.
+    """Return the direction in which each sliding link travels, as the label of the first axis with this direction. Two
+    axes have the same direction if they remain parallel, because every link between them turns about an axis parallel
+    to them.
     """
     labels = dict.fromkeys(sliding.values())
     lines = {label: label for label in labels}
@@ -356,7 +352,7 @@ class Axes:
     """Directions of the axes of a train, and the signs of speeds and meshes that follow from them.
 
     Speeds about parallel axes are added with their signs. Speeds about non-parallel axes are also added, because the
-    equation is scalar (Freudenstein, Longman and Chen 1984).
+    Willis equation of a pair is scalar (Freudenstein, Longman and Chen 1984).
     """
 
     def __init__(self, train: Train, tree: Tree) -> None:
@@ -395,7 +391,7 @@ class Axes:
 
     @property
     def joint_sums(self) -> frozenset[str]:
-        """Links with non-parallel joints up to the frame; their speed is a sum of joint speeds, not of a rotation."""
+        """Links with non-parallel joints up to the frame, whose speed is a sum of joint speeds and not a rotation."""
         if self.plain:
             return frozenset()
         sums: set[str] = set()
@@ -441,8 +437,8 @@ class Axes:
         return parallel(self.direction(one), minus(_vector(there), _vector(here)))
 
     def screw(self, label: str) -> dict[int, Fraction] | None:
-        """Return the non-zero components of the screw of an axis by index: the direction of the axis, and the velocity
-        of the origin. Return None if no position is declared.
+        """Return the non-zero components of the screw of an axis, by index 0 to 5: the direction of the axis, and the
+        velocity of the origin in a rotation about the axis at a speed of 1. Return None if no position is declared.
         """
         here = self.positions.get(label)
         if here is None:
@@ -465,9 +461,7 @@ class Axes:
         return atan2(far, float(dot(first, second))), (side > 0) - (side < 0)
 
     def helix_angles(self, labels: tuple[str, str], wheels: tuple[Wheel, Wheel]) -> tuple[float, float] | None:
-        """Return the helix angles of two wheels on skew axes [rad]; None if the axes are parallel or angles are
-        unknown.
-        """
+        """Return the helix angles of two wheels on skew axes [rad]; None for parallel axes or unknown angles."""
         return None if self.are_parallel(labels) else crossed_helix_angles(wheels, *self.crossing(*labels))
 
     def coefficients(self, i: str, j: str, carrier: str, wheel_i: Wheel, wheel_j: Wheel) -> tuple[int, int, str]:
@@ -537,9 +531,7 @@ def _line(direction: ExactVector) -> ExactVector:
 
 
 JointOnLine = tuple[str, str, tuple[str, ...]]
-"""Joint: the names of its two links, and the labels of its axis. There are several labels if several axes are
-collinear.
-"""
+"""Joint: the names of its two links, and the labels of its axis, or of several collinear axes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -552,7 +544,7 @@ class Rigid:
 
     @property
     def labels(self) -> list[str]:
-        """Labels of the axes of all joints on the path."""
+        """Labels of the axes of all joints on the path between the links."""
         return [label for _, _, labels in self.joints for label in labels]
 
 
@@ -560,9 +552,9 @@ def close_joints(train: Train, tree: Tree, cases: Sequence[StateCase]) -> list[S
     """Return the case of each state, in which every brake and lock is expressed by brakes on links that turn on the
     frame and by locks between coaxial links.
 
-    A brake or lock across several axes is replaced by locks of the joints on the path, each with its cause. The
-    `problems` of a case are set if a lock forms a linkage, or if an input link has no fixed axis in the frame. Raises
-    `DeclarationError` if every case has problems.
+    A brake or lock across several axes is replaced by locks of the joints on the path between its links. The `problems`
+    of a case are set if the joints of a lock form a movable linkage, or if an input link has no fixed axis in the
+    frame. Raises `DeclarationError` if every case has problems.
     """
     axes = Axes(train, tree)
     sums = axes.joint_sums
@@ -594,8 +586,8 @@ def _closed_case(train: Train, axes: Axes, sums: frozenset[str], case: StateCase
 
 
 def _in_coordinates(tree: Tree, case: StateCase) -> StateCase:
-    """Return the case in which each lock of a link to the link that carries it refers to the nearest link with a
-    comparable motion (`Tree.reference`). A lock to the frame becomes a brake.
+    """Return the case in which each lock of a link to the link that carries it refers to `Tree.reference`, relative to
+    which the speed of the locked link is measured. A lock to the frame becomes a brake.
     """
     fixed, locks, causes = list(case.fixed), [], dict(case.causes)
     for a, b in case.locks:
@@ -635,8 +627,8 @@ class _Bodies:
                 self._bodies.join(*rigid.joints[0][:2])
 
     def close(self, across: Sequence[Rigid]) -> tuple[list[tuple[Rigid, JointOnLine]], list[Rigid]]:
-        """Lock the joints of the brakes and locks across several axes. Return these joints with the brake or lock that
-        causes each of them, and the brakes and locks that form linkages.
+        """Lock the joints of those brakes and locks across several axes that cannot move. Return each locked joint with
+        the brake or lock that causes the lock, and the other brakes and locks, whose joints form movable linkages.
         """
         closed: list[tuple[Rigid, JointOnLine]] = []
         waiting = list(across)
@@ -668,7 +660,7 @@ class _Bodies:
         return tuple(found)
 
     def _is_immobile(self, joints: Sequence[JointOnLine]) -> bool:
-        """Return True if a closed chain of the given joints certainly has no mobility, False if it may be movable."""
+        """Return True if a closed chain of the given joints certainly cannot move; False if it may be movable."""
         labels = [labels[0] for _, _, labels in joints]
         # up to three different lines have independent screws in every pose; for more, the rank in this pose decides
         if len(labels) <= 3 and not any(self._axes.are_one_line(*two) for two in combinations(labels, 2)):

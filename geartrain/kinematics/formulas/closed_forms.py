@@ -295,7 +295,9 @@ class ClosedForm(Result):
         return sign + (above if below == "1" else style.over(above, below))
 
     def _format_split(self, style: _Style, top: FactoredPolynomial, bottom: FactoredPolynomial) -> str:
-        """Return a quotient in the form 1 + z_r/z_s if its denominator is a term of its short numerator, else ""."""
+        """Return a quotient in the form 1 + z_r/z_s as text. Return "" if the numerator is not a short sum (at most
+        `_MOST_SPLIT` terms) with a term that equals the denominator up to a factor.
+        """
         # only a short sum over a monomial that is one of its terms
         if bottom.sums or len(top.sums) != 1 or any(top.powers) or len(top.sums[0]) > _MOST_SPLIT:
             return ""

@@ -17,9 +17,7 @@ from typing import NamedTuple
 Exponents = tuple[int, ...]
 
 MOST_PRODUCTS = 200_000
-"""Maximum number of products of terms in one operation, which takes seconds. Longer polynomials are of no practical
-use.
-"""
+"""Maximum number of products of terms in one operation, which takes seconds."""
 
 
 class Term(NamedTuple):
@@ -136,12 +134,12 @@ class Laurent:
         return Fraction(math.gcd(*(v.numerator for v in values)), math.lcm(*(v.denominator for v in values)))
 
     def lowered(self) -> Laurent:
-        """Return the product with the monomial for which the minimum exponent of each variable is 0."""
+        """Return this polynomial times the monomial for which the minimum exponent of each variable is 0."""
         return self.shifted(tuple(-power for power in self.lowest()))
 
     def primitive(self) -> Laurent:
-        """Return the primitive part, which is the product with a unit for which the minimum exponents are 0 and the
-        coefficients are coprime integers.
+        """Return the primitive part: this polynomial multiplied by a number and a monomial for which the minimum
+        exponents become 0 and the coefficients become coprime integers.
         """
         return self.lowered().scaled(1 / self.content()) if self.terms else self
 
@@ -247,7 +245,7 @@ def common_divisor(p: Laurent, q: Laurent) -> Laurent:
 
 
 def _remainders(p: Laurent, q: Laurent, at: int) -> Laurent:
-    """Return the greatest common divisor by Euclid's algorithm in the variable `at`, with the contents split off."""
+    """Return the greatest common divisor: that of the contents times that of the primitive parts in `at`."""
     content_p, content_q = _content(p, at), _content(q, at)
     content = common_divisor(content_p, content_q)
     p, q = divide_exactly(p, content_p), divide_exactly(q, content_q)

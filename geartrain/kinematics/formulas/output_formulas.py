@@ -57,9 +57,7 @@ class SymbolicSolution:
     span: Mapping[int, _Residues]
     """Rows of the core at a random point, reduced to echelon form, by leading column."""
     conditions: Sequence[tuple[int, Laurent]]
-    """Pairs of the index of a row and the function that elimination leaves in this row, which is 0 if the system is
-    consistent.
-    """
+    """Pairs of the index of a row and the function in this row that is 0 if the system is consistent."""
 
     def value(self, form: Mapping[int, Laurent]) -> SymbolicValue | None:
         """Return the value of a linear form of the unknowns; None if the system does not determine it."""
@@ -76,8 +74,8 @@ class SymbolicSolution:
 
 
 def solve_rows(rows: Sequence[Row], width: int, preferred: Sequence[int] | None = None) -> SymbolicSolution:
-    """Solve the linear system in which every row must be 0. The rows that determine the unknowns are selected at a
-    random point.
+    """Solve the linear system in which the linear form of every row is 0, with coefficients that are polynomials in
+    tooth counts. Independent rows are selected by their values at a random point modulo a prime.
 
     preferred   intended tooth counts. If there are more coupled rows than unknowns, rows that are independent at these
                 tooth counts are selected. If it is None, rows with prescribed values are preferred
@@ -152,8 +150,8 @@ def _reduced_row(row: Mapping[int, int], span: Mapping[int, _Residues]) -> _Resi
 
 
 def _solve_core(rows: Sequence[Row], columns: Sequence[int], width: int) -> tuple[dict[int, Laurent], Laurent]:
-    """Return the numerators of the unknowns of a square core and its determinant, by Cramer's rule; unknowns of other
-    columns are 0.
+    """Return the solution of as many equations (`rows`) as unknowns (`columns`) by Cramer's rule: the numerator of each
+    unknown, by column, and the determinant. Unknowns of other columns are 0.
     """
     place, size = {column: at for at, column in enumerate(columns)}, len(columns)
     zero = Laurent.constant(0, width)
@@ -167,9 +165,7 @@ def _solve_core(rows: Sequence[Row], columns: Sequence[int], width: int) -> tupl
 
 
 def _combined(form: Mapping[int, Laurent], values: Mapping[int, Laurent], determinant: Laurent) -> SymbolicValue:
-    """Return the value of a linear form in the unknowns of the core, whose numerators are `values` by column and whose
-    common denominator is `determinant`.
-    """
+    """Return the value of a linear form in unknowns with the numerators `values` over a common denominator."""
     one, total = Laurent.constant(1, determinant.width), Laurent.constant(0, determinant.width)
     denominator = determinant if any(column in values for column in form) else one
     for column, entry in form.items():
@@ -264,7 +260,7 @@ class SymbolicEquations:
         return -(near * far.inverse())
 
     def _coefficient(self, circuit: Circuit, side: int) -> Laurent:
-        """Return the coefficient a (`side` 0) or b (`side` 1) of a circuit; a variable tooth count is a variable."""
+        """Return the coefficient a (`side` 0) or b (`side` 1) of a circuit: a variable with its sign, or a constant."""
         given = (circuit.a, circuit.b)[side]
         variable = self._free.get(circuit.wheels[side]) if circuit.by_teeth else None
         if variable is None:
@@ -280,7 +276,7 @@ class SymbolicEquations:
         return {own: self._constant(1)} if own is not None else self._relative_form(self.parts.nodes_of[link][0])
 
     def _relative_form(self, node: int) -> Row:
-        """Return the speed of a node's link, the sum of its carrier's and its relative speed, as a linear form."""
+        """Return the speed of a node's link as a linear form: the carrier's speed plus the link's relative speed."""
         parts = self.parts
         row: Row = {parts.node_group[node]: self._ratios[node]}
         carrier = parts.node_carrier[node]
@@ -357,7 +353,7 @@ class Formulas(Mapping[str, Formula], Result):
         return len(self.outputs)
 
     def turns(self, counts: Mapping[str, int]) -> bool:
-        """Return True if every condition is 0 and every exclusion differs from 0 at the given tooth counts."""
+        """Return True if all functions in `conditions` are 0 and none in `exclusions` is 0 at the tooth counts."""
         met = all(condition.value(counts) == 0 for condition in self.conditions)
         return met and all(exclusion.value(counts) != 0 for exclusion in self.exclusions)
 
@@ -411,8 +407,8 @@ def with_counts(train: Train, counts: Mapping[str, int]) -> Train:
     links = dict(train.links)
     for name, count in counts.items():
         if not 0 < count <= MOST_TEETH or count != int(count):
-            what, why = f"wheel '{name}' cannot have {count} teeth", "a tooth count is a positive integer"
-            raise QuestionError(Problem(what, why, "give a whole number from 1 to 10^12"))
+            what, why = f"wheel '{name}' cannot have {count} teeth", "a tooth count is a whole number from 1 to 10^12"
+            raise QuestionError(Problem(what, why, f"give another count, such as `{{'{name}': 20}}`"))
         link, wheel = train.wheels[name]
         value: int | Teeth = int(count)
         if not isinstance(wheel.teeth, int):
@@ -430,7 +426,7 @@ def with_counts(train: Train, counts: Mapping[str, int]) -> Train:
 def _equations(
     train: Train, tree: Tree, case: StateCase, wheels: Sequence[str], free: Mapping[str, Counts]
 ) -> SymbolicEquations:
-    """Return the equations that affect the outputs; circuits have large random numbers for variable tooth counts."""
+    """Return the equations that affect the outputs, with large random tooth counts for the variable wheels."""
     representative = with_counts(train, {name: free[name][0] for name in wheels})
     # large and random, so that no loop closes by coincidence of equal counts
     draw = random.Random(0)
@@ -471,7 +467,7 @@ def _collect_formulas(
 
 
 def _loop_conditions(equations: SymbolicEquations, solution: SymbolicSolution) -> Iterator[tuple[str, Laurent]]:
-    """Yield the condition of each loop of variable tooth counts: its ratio product is 1, or its wheels are at rest."""
+    """Yield the label of each loop with variable tooth counts, and the function that is 0 if the loop can turn."""
     one = Laurent.constant(1, equations.width)
     for chord in equations.chords:
         rolls = solution.value(equations.unknown(chord.group))
@@ -487,7 +483,7 @@ def _loop_conditions(equations: SymbolicEquations, solution: SymbolicSolution) -
 
 
 def _zero_conditions(stated: Sequence[tuple[str, Laurent]], wheels: Sequence[str]) -> tuple[Formula, ...]:
-    """Return functions that are 0 if the conditions are satisfied, without duplicates and monomial factors."""
+    """Return the labelled functions, which must be 0, without duplicates and without monomial factors."""
     found: dict[tuple[Term, ...], Formula] = {}
     for label, left in stated:
         _, powers = max((value < 0, exponents) for exponents, value in left.terms.items())

@@ -136,7 +136,7 @@ def _times(ratio: str, speed: str, style: str) -> str:
 def speed_formulas(train: Train, state: str | None, outputs: Sequence[str] = ()) -> Iterator[OutputFormula]:
     """Yield the formulas of all outputs of a state, or only of the given `outputs`, in the order of declaration.
 
-    Undetermined outputs are omitted. All declared tooth counts are variables. Errors are raised by `find_formulas`.
+    Undetermined outputs are omitted. All declared tooth counts are variables.
     """
     case = train.case(state)
     for name in outputs:

@@ -56,7 +56,7 @@ def find_gridlock(part: SolvedPart, mobility: Mobility) -> Gridlock:
 
 
 def find_locked_networks(parts: Components) -> list[LockedNetwork]:
-    """Return the gain graph of each component with an inconsistent loop, with gains of 1 along a spanning tree."""
+    """Return the gain graph of each component with an inconsistent loop; gains along a spanning tree are 1."""
     size = len(parts.links)
     nodes = zip(parts.node_link, parts.node_carrier, strict=True)
     at = {carrier * size + link: node for node, (link, carrier) in enumerate(nodes)}
@@ -129,7 +129,7 @@ def _without(part: SolvedPart, gone: Collection[str]) -> SolvedPart:
 
 
 def _locked_links(part: SolvedPart, gone: Collection[str]) -> tuple[str, ...]:
-    """Return the links at rest after the meshes in `gone` are removed, for these and for random speed ratios."""
+    """Return the links at rest without the meshes in `gone`, both with the declared and with random speed ratios."""
     less = _without(part, gone)
     still = _stationary_links(less)
     if not still:
@@ -171,8 +171,9 @@ def _frees_train(part: SolvedPart, gone: Collection[str]) -> bool:
 
 
 def _coupled_removal(part: SolvedPart, gone: Collection[str], at_least: int) -> MeshRemoval | None:
-    """Return a set of meshes, of any carriers, whose removal frees the train: a smallest set if there are few meshes,
-    else a set in which every mesh is necessary; None if no such set exists, or if there are too many meshes to try.
+    """Return a set of meshes of one or several carriers whose removal frees the train. It is a smallest set if there
+    are few meshes; if not, every mesh in it is necessary. Return None if no such set exists, or if there are too many
+    meshes to try.
     """
     toothed = _without(part, ())
     bound = {
@@ -292,8 +293,9 @@ def choose_removal(network: GainGraph) -> RemovalChoice:
 
 
 def _solve(network: GainGraph, loops: Sequence[GainLoop], sharing: int) -> Any:
-    """Return the solution of one of two dual binary integer programs: the smallest set that contains a mesh of every
-    loop if `sharing` is 1, or the largest set of loops in which every mesh belongs to at most s loops if it is -s.
+    """Return the solution of a binary integer program. If `sharing` is 1, it is the smallest set that contains a mesh
+    of every loop. If `sharing` is -1 or -2, it is the largest set of loops in which every mesh belongs to at most one
+    or two loops.
     """
     import numpy as np
     from scipy.optimize import Bounds, LinearConstraint, milp
@@ -309,8 +311,9 @@ def _solve(network: GainGraph, loops: Sequence[GainLoop], sharing: int) -> Any:
 
 
 def _completed(network: GainGraph, gone: Sequence[int]) -> list[int]:
-    """Return a minimal set of meshes whose removal frees a connected network, most of them from `gone`: the meshes that
-    contradict the speeds of a spanning tree that avoids `gone` and prefers firm meshes.
+    """Return a minimal set of meshes whose removal frees a connected network, most of them from `gone`. They are the
+    meshes that contradict a spanning tree, which contains meshes that cannot be removed (`firm`) if possible, and
+    meshes in `gone` only if necessary.
     """
     tree: DisjointSets[int] = DisjointSets()
     out = set(gone)
@@ -336,9 +339,7 @@ class GainGraph:
     ends: Sequence[tuple[int, int]]
     """Pair of nodes that each mesh connects; several meshes may connect the same two nodes."""
     gains: Mapping[int, Gain]
-    """Gain of each mesh whose gain is not 1, by index: the speed of its second node divided by the speed of its first
-    node.
-    """
+    """Gain of each mesh whose gain is not 1, by index: speed of its second node over speed of its first node."""
     firm: frozenset[int] = frozenset()
     """Indices of the meshes that are couplings, which cannot be disengaged."""
 
@@ -380,8 +381,8 @@ class GainWalk(NamedTuple):
 
 
 def walk_gain_graph(network: GainGraph, without: Collection[int] = ()) -> GainWalk:
-    """Search all nodes breadth first along meshes that are not in `without`. Meshes in `without` may be listed in
-    `breaking` of the result.
+    """Return the speeds of all nodes along a spanning forest of meshes that are not in `without`, found by
+    breadth-first search, and all meshes that contradict these speeds.
     """
     gone = bytearray(len(network.ends))
     for mesh in without:

@@ -110,9 +110,7 @@ class LockedSubgraph(Result):
     meshes: int
     """Number of gear pairs in the component. Couplings are not counted, because they cannot be disengaged."""
     by: Literal["sign", "ratio"]
-    """Cause of the lock: "sign" if all inconsistent loops have the ratio product -1, "ratio" if another product
-    occurs.
-    """
+    """Cause of the lock: "sign" if the ratio products of all inconsistent loops are -1, "ratio" if not."""
     release: MeshRemoval
     """Meshes whose removal frees this component."""
 
@@ -137,7 +135,7 @@ class Gridlock(Result):
     Notes
     -----
     The number of meshes in a smallest set is the frustration index of the gain graph. The set is found by integer
-    programming (docs/theory.md, 7).
+    programming (section 7 of docs/theory.md).
 
     Examples
     --------

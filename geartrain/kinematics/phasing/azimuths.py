@@ -37,24 +37,16 @@ class UnplacedPair:
 
 @dataclass(frozen=True)
 class PitchPoints:
-    """Pitch points of gear pairs with known positions, in arrays with one row for each pair and one column for each
-    wheel.
-    """
+    """Pitch points of gear pairs with known positions; arrays have a row for each pair and a column for each wheel."""
 
     circuits: tuple[Circuit, ...]
-    """Circuits of the pairs. A wheel on the frame is treated as a separate link, because it can be mounted at any
-    angle.
-    """
+    """Circuits of the pairs. A wheel on the frame is a separate link, because its mounting angle is free."""
     azimuth: Floats
-    """Azimuth of the pitch point as seen from the wheel's axis, counterclockwise about the positive sense of the axis
-    [turn].
-    """
+    """Azimuth of the pitch point about the axis of the wheel, counterclockwise about its positive sense [turn]."""
     slack: Floats
     """Maximum error of the azimuth [turn]."""
     family: Sequence[tuple[int, int]]
-    """Family number of each contact. The angles between the contacts of one family are known rational fractions of a
-    turn.
-    """
+    """Family number of each contact; the angles between contacts of a family are known fractions of a turn."""
     part: Sequence[tuple[Fraction, Fraction]]
     """Exact angle of each contact from the first contact of its family [turn]."""
     guessed: frozenset[int] = frozenset()
@@ -83,15 +75,15 @@ class PitchPoints:
 
     @cached_property
     def scale(self) -> int:
-        """Common denominator of 1/2 and of all exact angles in `part`."""
+        """Common denominator of 1/2 and of the exact angles of all contacts."""
         found = {part.denominator for parts in self.part for part in parts}
         # dtype object, because the common denominator may exceed 64 bits
         return int(np.lcm.reduce(np.array([2, *found], dtype=object)))
 
     @cached_property
     def exact_constant(self) -> list[int]:
-        """Constant c of each pair as an integer multiple of 1/`scale` [pitch]. Azimuths are measured from the first
-        contact of each family.
+        """Constant c of each pair as an integer multiple of 1/`scale` [pitch], if the azimuth of each contact is
+        measured from the first contact of its family.
         """
         scale, found = self.scale, []
         for circuit, (p, q) in zip(self.circuits, self.part, strict=True):
@@ -101,8 +93,8 @@ class PitchPoints:
 
 
 def contact_families(keys: Sequence[tuple[object, object]]) -> tuple[list[tuple[int, int]], Mapping[object, int]]:
-    """Return the family numbers of the two contacts of every pair, and of each key; contacts with equal keys are a
-    family.
+    """Return the number of the family to which each of the two contacts of every pair belongs, and the family numbers
+    by key. Contacts with equal keys are in the same family.
     """
     number: dict[object, int] = {}
     for pair in keys:
@@ -162,7 +154,7 @@ def place_pitch_points(train: Train, tree: Tree, circuits: Sequence[Circuit]) ->
 
 
 def mount_frame_wheels(circuit: Circuit, frame: str) -> Circuit:
-    """Return the circuit with a wheel of the frame as a separate link, because its mounting angle is arbitrary."""
+    """Return the circuit in which a wheel on the frame is a separate link, because its mounting angle is free."""
     i, j = circuit.i, circuit.j
     if frame not in (i, j):
         return circuit
@@ -286,7 +278,7 @@ def _intersecting_contact(first: _Axis, second: _Axis, facing: Sequence[int]) ->
 
 
 def _norm(vector: IntegerVector) -> Fraction:
-    """Return the length of an integer vector, whose components may be long, as a Fraction accurate to 64 bits."""
+    """Return the length of an integer vector as a Fraction accurate to 64 bits."""
     # the root of an integer shifted by 128 bits has 64 bits after the binary point
     return Fraction(math.isqrt(dot(vector, vector) << 128), 1 << 64)
 
@@ -318,8 +310,9 @@ def _floats(vector: IntegerVector) -> tuple[float, float, float]:
 def _families(
     circuits: Sequence[Circuit], contacts: Sequence[_Contact], turns: Sequence[tuple[float, float]]
 ) -> tuple[list[tuple[int, int]], list[tuple[Fraction, Fraction]], frozenset[int]]:
-    """Return the families of the contacts of each pair, the angles of the contacts from the first contact of their
-    family [turn], and the families in which angles were recognised as fractions from rounded positions.
+    """Return, for all pairs, the family numbers of the two contacts and the angles of the contacts from the first
+    contact of their family [turn]. Also return the families in which an angle was recognised as a fraction from rounded
+    positions.
     """
     heads: dict[tuple[str, str], list[tuple[int, IntegerVector, float, int]]] = {}
     guessed: set[int] = set()

@@ -100,7 +100,10 @@ def find_divisibility_rule(forms: Iterable[Mapping[str, Fraction]]) -> Divisibil
 
 
 def _join(found: list[tuple[int, Row]], modulus: int, terms: Row) -> None:
-    """Add a divisibility condition, merged with one on a coprime modulus if one sum expresses both conditions."""
+    """Add the condition that `modulus` divides the sum with the weights `terms`. If its modulus and that of an earlier
+    condition are coprime and one sum expresses both conditions, they are replaced by one condition on the product of
+    the moduli.
+    """
     for at, (other, known) in enumerate(found):
         kinds = {*known, *terms}
         for says, to in ((terms, other), (known, modulus)):
@@ -126,7 +129,7 @@ def _prime_powers(number: int) -> Iterable[int]:
 
 
 def _independent_generators(rows: Sequence[Sequence[int]], power: int) -> list[list[int]]:
-    """Return a smallest part of the Howell form of the rows that generates the same group modulo a prime power."""
+    """Return a smallest subset of the rows of the Howell form that generates the same group modulo a prime power."""
 
     def group_order(some: Sequence[Sequence[int]]) -> int:
         firsts = (next(value for value in row if value) for row in _howell_form(some, power))
@@ -166,7 +169,7 @@ def _howell_form(rows: Sequence[Sequence[int]], power: int) -> list[list[int]]:
 
 
 def _simplest_form(row: Sequence[int], power: int) -> tuple[int, list[int]]:
-    """Return the congruence row · x = 0 (mod power) in reduced form: the modulus and the simplest weights."""
+    """Return the modulus and the smallest equivalent weights of the congruence row · x = 0 (mod power)."""
     common = math.gcd(*row, power)
     modulus = power // common
     choices = []
@@ -200,9 +203,7 @@ class LoopPhase(Result):
     KEYS = ("gears", "meshes", "weights", Key("verdict", "kind"), "residue", "slack", "how", "miss", "inside", "retime")
 
     gears: tuple[str, ...]
-    """Wheels in their order around the loop. Two wheels of one link are joined by `+` if the loop passes from one to
-    the other.
-    """
+    """Wheels in their order around the loop; two wheels of one link that both belong to it are joined by `+`."""
     meshes: tuple[str, ...]
     """Names of the pairs in their order around the loop; the last pair closes it. If `together` is True, these are the
     pairs of several loops, in any order.
@@ -293,12 +294,12 @@ def _wheel(problem: PhaseSystem, mesh: int, node: int) -> str:
 
 
 def _sum_change(problem: PhaseSystem, mesh: int, node: int, row: Mapping[int, int]) -> int:
-    """Return the change of a loop's sum of phase equations if a wheel is rotated on its arbor by one pitch [pitch]."""
+    """Return the change of a loop's weighted sum of phase equations if a wheel is rotated by one pitch [pitch]."""
     return row[mesh] * (1 if problem.ends[mesh][0] == node or problem.circuits[mesh].b > 0 else -1)
 
 
 def _inside_angles(problem: PhaseSystem, condition: PhaseCondition) -> dict[str, Fraction | float]:
-    """Return, for each gear of a loop, the angle between its two contacts, multiplied by its sign and weight [turn]."""
+    """Return the angle between the two contacts of each gear in a loop, multiplied by its weight [turn]."""
     contacts, cycle = problem.contacts, condition.cycle
     assert cycle is not None
     exact = isinstance(condition.residue, Fraction)
@@ -381,7 +382,7 @@ class MeshPhasing(Result):
 
     @cached_property
     def loops(self) -> Sequence[LoopPhase]:
-        """Phase conditions of a cycle basis of short loops, followed by the conditions on several loops together."""
+        """Phase conditions of short loops (a cycle basis), then conditions that each concern several loops."""
         return tuple(describe_loop(self.problem, condition) for condition in self.problem.conditions)
 
     @cached_property
@@ -445,9 +446,7 @@ class MeshPhasing(Result):
 
     @cached_property
     def wheels(self) -> Mapping[str, float]:
-        """Angle of the first tooth of every wheel from its reference direction, in [0, angular pitch of the wheel)
-        [rad].
-        """
+        """Angle of the first tooth of every wheel from its reference direction, from 0 to one pitch [rad]."""
         angles, found = self.angles, {}
         for circuit in self.problem.circuits:
             teeth = (circuit.a, abs(circuit.b))
@@ -467,9 +466,7 @@ class MeshPhasing(Result):
 
     @cached_property
     def last_errors(self) -> Mapping[str, float]:
-        """Phase error of every pair [pitch] if the last pair assembled in each loop takes up the loop's entire phase
-        error.
-        """
+        """Phase error of every pair [pitch] if the last pair of each loop takes up the loop's entire phase error."""
         return self._errors(self.problem.tree_angles)
 
     @cached_property
@@ -571,7 +568,7 @@ def _name(link: str) -> str:
 def find_phasing(
     train: Train, tree: Tree, circuits: Sequence[Circuit], backlashes: Mapping[str, float] | None = None
 ) -> MeshPhasing:
-    """Check the assembly condition of a declared train, in the pose in which its moving axes are declared.
+    """Return the mesh phases of a declared train around its loops, in the pose in which its moving axes are declared.
 
     backlashes   circumferential backlash [pitch] of each pair for which it is known, by pair
     """

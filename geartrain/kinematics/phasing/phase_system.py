@@ -1,6 +1,4 @@
-"""Phases of all meshes as one linear system modulo a pitch: residues of a cycle basis, angles of links, and distributed
-errors.
-"""
+"""Phases of all meshes as one linear system modulo a pitch: residues of loops, angles and errors."""
 
 from __future__ import annotations
 
@@ -40,7 +38,7 @@ class SparseRows:
     width: int
 
     def small(self, height: int) -> bool:
-        """Return True if a matrix of this kind with `height` rows is small enough for a fast solution."""
+        """Return True if a matrix with `height` rows is small enough for a dense solution."""
         return height * self.width <= _DENSE
 
     def least_squares(self, right: Floats) -> Floats:
@@ -185,8 +183,8 @@ _SAME = 1e-6  # pitch: tolerance at which no tooth changes its gap
 
 @dataclass(frozen=True)
 class PhaseCondition:
-    """Condition on meshes for which the weighted left-hand sides of the phase equations add up to 0. The weighted sum
-    of their constants must then be an integer [pitch].
+    """Condition of one or several loops of meshes. With suitable integer weights, the left-hand sides of the phase
+    equations of the meshes add up to 0, so the weighted sum of the constants must be an integer [pitch].
     """
 
     cycle: PhaseCycle | None
@@ -219,8 +217,8 @@ class PhaseCondition:
 
 
 def judge_residue(residue: Fraction | float, slack: float) -> PhaseKind:
-    """Return "misses" if the residue [pitch] exceeds its maximum error `slack`, "unclear" if it does not but `slack` is
-    too large, and "closes" in all other cases.
+    """Return "misses" if the residue [pitch] exceeds its maximum error `slack`. If it does not, return "unclear" if
+    `slack` exceeds `_UNCLEAR`, and "closes" if not.
     """
     if abs(float(residue)) > slack:
         return "misses"
@@ -257,8 +255,8 @@ class PhaseSystem:
             return [self._cycle(*loop) for loop in find_cycle_basis(self.parts, self.ends)]
 
     def _cycle(self, nodes: Sequence[int], meshes: Sequence[int]) -> PhaseCycle:
-        """Return a loop with weights for which the coefficients of the mesh equations cancel at every node. The weight
-        of the last mesh is positive.
+        """Return the loop with the given nodes and meshes, and with weights of its mesh equations for which the
+        coefficients cancel at every node. The weight of the last mesh is positive.
         """
         weights: list[Fraction | int] = [1]
         for node, before, mesh in zip(nodes[1:], meshes, meshes[1:], strict=False):
@@ -279,13 +277,14 @@ class PhaseSystem:
 
     @cached_property
     def _reduced(self) -> ReducedSystem:
-        """Reduced equations that couple the components through links that turn relative to several carriers."""
+        """Linear system that couples the components through the links that turn relative to several carriers."""
         return reduce_components(self.parts)
 
     @cached_property
     def _echelon(self) -> tuple[Echelon, Mapping[int, LinearForm]] | None:
-        """Reduced equations in echelon form, and the unknowns of the components as linear forms of the angles at which
-        the components meet. The angle of equation n has the column -1 - n. None if elimination exceeds its budget.
+        """Equations that couple the components, in echelon form, and the unknowns of the components as linear forms of
+        the right-hand sides. The right-hand side of equation n has the column -1 - n. None if elimination exceeds its
+        budget.
         """
         equations = ({**row, -at - 1: Fraction(-1)} for at, row in enumerate(self._reduced.equations))
         try:
@@ -296,8 +295,8 @@ class PhaseSystem:
 
     @cached_property
     def coupled_rows(self) -> list[dict[int, int]]:
-        """Weights of the equations of meshes of several carriers with which the left-hand sides of the equations
-        cancel.
+        """Integer weights of the equations of meshes, by mesh. In each row, the left-hand sides of the weighted
+        equations cancel in sum, although the meshes have several carriers.
         """
         rows = []
         for condition in self._echelon[0].conditions if self._echelon else ():
@@ -334,7 +333,7 @@ class PhaseSystem:
 
     @cached_property
     def conditions(self) -> list[PhaseCondition]:
-        """Conditions of all loops, followed by conditions on several loops together."""
+        """Phase conditions of single loops, followed by conditions that each concern several loops together."""
         cycles = self.cycles
         with collector_paused():
             found = [self._condition(cycle, cycle.row) for cycle in cycles]
@@ -346,12 +345,12 @@ class PhaseSystem:
 
     @cached_property
     def complete(self) -> bool:
-        """False if loops were only checked one by one, without the conditions on several loops together."""
+        """False if only the conditions of single loops were found, and not those on several loops together."""
         return self._echelon is not None and self._unequal_size <= _MOST
 
     @cached_property
     def _unequal_rows(self) -> list[dict[int, int]]:
-        """Rows of components with weights other than 1 and -1, whose integer combinations may have common factors."""
+        """Weights of the conditions in components with weights other than 1 and -1, by mesh."""
         if not self.cycles:
             return self.coupled_rows
         group = self.parts.node_group
@@ -398,7 +397,7 @@ class PhaseSystem:
         return values
 
     def _families(self, row: Mapping[int, int]) -> list[int] | None:
-        """Return the family numbers of all contacts of a condition if their unknown angles cancel, else None."""
+        """Return the family numbers of all contacts in a condition; None if their unknown azimuths do not cancel."""
         total: dict[int, int] = {}
         for mesh, weight in row.items():
             circuit = self.circuits[mesh]
@@ -410,7 +409,7 @@ class PhaseSystem:
 
     @cached_property
     def _whole_pitches(self) -> dict[int, int]:
-        """Integers added to the constants of meshes [pitch], by mesh, so that loops of compound wheels nearly close."""
+        """Integers by mesh, added to the constants [pitch], with which loops of compound wheels nearly close."""
         basis, dual, _ = self._saturated
         found: dict[int, int] = {}
         for row, column in zip(basis, dual, strict=True):
@@ -426,8 +425,8 @@ class PhaseSystem:
     def _tree_nodes(self) -> list[Number]:
         """Angles of nodes relative to their carriers that satisfy the equation of every mesh in the search tree [turn].
 
-        In components with compound wheels, a full turn of one link changes which teeth of other links engage, so the
-        angles are exact fractions.
+        In components with compound wheels, the angles are exact fractions that are not reduced to one turn, because a
+        full turn of one link changes which teeth of other links engage.
         """
         parts = self.parts
         found: list[Number] = [0.0 for _ in parts.node_parent]
@@ -472,8 +471,9 @@ class PhaseSystem:
         return [float(angle % 1) for angle in found]
 
     def _angle_difference(self, kind: str, first: int, node: int, nodes: Sequence[Number]) -> Number:
-        """Return the difference between a link's angles relative to two carriers, or, for a loop that cannot turn, the
-        angle of its component that satisfies the equation of the closing mesh [turn].
+        """Return the right-hand side of an equation that couples components [turn]. For the kind `share`, it is the
+        difference between the angles of the link `first` relative to two carriers. For other kinds, it is the angle of
+        a component that satisfies the equation of the mesh `first`, which closes a loop that cannot turn.
         """
         parts = self.parts
         if kind == "share":
@@ -497,7 +497,7 @@ class PhaseSystem:
         return SparseRows(nodes, self._without_rigid_loops(self.contacts.teeth), len(self.parts.node_parent))
 
     def _without_rigid_loops(self, factors: Floats) -> Floats:
-        """Return the coefficients with zero rows for meshes in loops that cannot turn (no phase condition)."""
+        """Return the coefficients with zeros in the rows of meshes that close loops that cannot turn."""
         found = factors.copy()
         found[list(self.parts.breaking)] = 0.0
         return found

@@ -90,7 +90,7 @@ def resolve_form(row: LinearForm, forms: Mapping[int, LinearForm]) -> LinearForm
 
 
 def held_rows(reduced: ReducedSystem, case: StateCase) -> Iterator[LinearForm]:
-    """Yield one row for each link that is fixed to the frame, and one for each pair of locked links."""
+    """Yield the linear forms that must be 0 because a link is fixed, or because two links are locked together."""
     index = reduced.components.index
     for link in case.fixed:
         yield dict(reduced.form(index[link]))
@@ -130,8 +130,9 @@ def _locked_inputs(reduced: ReducedSystem, case: StateCase) -> list[str]:
 def _tagged(
     reduced: ReducedSystem, case: StateCase, signs: Mapping[str, int]
 ) -> tuple[list[LinearForm], list[PrescriptionStatement]]:
-    """Return all equations, each with its own symbol in column -1 - t, and the statements of brakes, locks and inputs.
-    The index t counts the structural equations first, then brakes, locks and inputs.
+    """Return all equations and the statements of brakes, locks and inputs. Equation t contains a symbol of its own as
+    an additional unknown in column -1 - t, which shows from which equations a contradiction is combined. The index t
+    counts the structural equations first, then brakes, locks and inputs.
     """
     index = reduced.components.index
     rows: list[LinearForm] = [dict(row) for row in (*reduced.equations, *held_rows(reduced, case))]
@@ -190,7 +191,10 @@ def _describe_contradiction(
 
 
 def _pairs(reduced: ReducedSystem, given: Mapping[int, Fraction], structural: int) -> list[str]:
-    """Return the names of the pairs on the paths between the links that the equations of a contradiction share."""
+    """Return the names of the pairs that transmit the contradictory speeds: in each component, the pairs on the paths
+    between those links that also belong to another component. `given` contains the factors of the equations in the
+    contradictory sum; the first `structural` equations couple components.
+    """
     parts = reduced.components
     touched: dict[int, set[int]] = {}
     for tag in given:
@@ -254,9 +258,7 @@ def free_verdict(
 
 
 Terms = tuple[tuple[int, int], ...]
-"""Equation as pairs of a link index and an integer coefficient. The sum of coefficient times speed over all
-pairs is 0.
-"""
+"""Equation: pairs of a link index and an integer coefficient; the sum of coefficient times speed is 0."""
 
 
 @collector_paused()
@@ -350,9 +352,7 @@ def _solve(row: Terms, speeds: FactoredRatios) -> int:
 _GIVEN = -1  # column of prescribed speeds
 
 EXACT_BUDGET = 400_000
-"""Maximum number of coefficient operations of exact elimination, which take about 1 s. If more are required, floats are
-used.
-"""
+"""Maximum number of operations of exact elimination, which take about 1 s; floats are used beyond it."""
 
 _PREDICTED = 40_000
 """Maximum number of operations in the elimination modulo a prime for which exact elimination is tried.
@@ -372,9 +372,7 @@ class Solution:
     speeds: Mapping[str, Fraction]
     """Speeds of the determined links, by link, in the order of the declaration."""
     ratios: Mapping[str, Mapping[str, Fraction]]
-    """Speed of each link divided by the speed of one input when all other inputs are at rest, as
-    `ratios[link][input]`.
-    """
+    """Speed of a link divided by the speed of one input if other inputs are at rest, as `ratios[link][input]`."""
     signs: Mapping[str, int]
     """Sign of each link's axis, by link: -1 if it points against the reference direction of the axes parallel to it.
     Links with the sign 1 are omitted.
@@ -386,7 +384,7 @@ class Solution:
 
     def relative(self, of: str, base: str) -> Fraction | None:
         """Return the speed of the link `of` relative to the link `base`, about the axis of `of`; None if it is not
-        determined. It can be determined although both links are free, if the difference of their speeds is.
+        determined. The difference of two speeds can be determined although neither of them is.
         """
         found = relative_speed(of, base, self.speeds.get, self.signs)
         if found is not None or self.difference is None:
@@ -470,8 +468,8 @@ def elimination_budget(reduced: ReducedSystem, budget: int | None) -> int | None
 
 
 def eliminate_within(rows: Sequence[LinearForm], budget: int | None) -> Echelon:
-    """Eliminate exactly with at most `budget` operations. Raises `TooDenseError` if a limited elimination modulo a
-    prime, with short numbers, predicts too much fill-in.
+    """Return the echelon form of the rows. Raises `TooDenseError` if exact elimination exceeds `budget` operations, or
+    if elimination modulo a prime predicts this.
     """
     if budget is not None and len(rows) > _FEW:
         eliminate(map(residues, rows), _PREDICTED + 10 * len(rows), PRIME)

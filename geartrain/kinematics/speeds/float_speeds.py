@@ -43,10 +43,10 @@ _LARGEST_EXPONENT = 400  # of two, of a speed: the squares of errors stay within
 @dataclass(frozen=True, slots=True)
 class FloatSpeeds(FrozenFields, Shown):
     """Float64 speeds computed by sparse LU factorisation and iterative refinement, with error estimates
-    (docs/theory.md, 11).
+    (section 11 of docs/theory.md).
 
-    `floats[link]` returns the speed of a link in the first case. Each speed is 0, or its magnitude is between 1e-120
-    and 1e120.
+    `floats[link]` is the speed of a link for the first set of input speeds. Each speed is 0, or its magnitude is
+    between 1e-120 and 1e120.
 
     Notes
     -----
@@ -88,7 +88,7 @@ class FloatSpeeds(FrozenFields, Shown):
 def solve_floats(system: WillisSystem, inputs: Mapping[str, Sequence[float]] | None = None) -> FloatSpeeds:
     """Solve a determined Willis system in float64 by factorisation of its `matrix()`.
 
-    inputs   speeds of every input, one for each case, by input link; all cases use the same factorisation
+    inputs   speeds by input link, with one number for each set of input speeds; the matrix is factorised only once
 
     Raises `RangeError` if the system is not square and regular, or if a speed is not between 1e-120 and 1e120.
     """
@@ -101,7 +101,7 @@ def solve_floats(system: WillisSystem, inputs: Mapping[str, Sequence[float]] | N
         why = (
             "ratios above 1e308, and differences smaller than the rounding error, make the system numerically singular"
         )
-        raise RangeError(Problem(what, why, "use the exact method")) from None
+        raise RangeError(Problem(what, why, "use `method='exact'`")) from None
     x = _refined(lu, matrix, lu.solve(right), right, remainder)
     rest = matrix.residual(x, right, remainder)
     _check_range(matrix, x, rest, rows)
@@ -129,7 +129,7 @@ def solve_floats(system: WillisSystem, inputs: Mapping[str, Sequence[float]] | N
 
 
 def _refined(lu: Any, matrix: PaddedRows, x: Floats, right: Floats, remainder: Floats) -> Floats:
-    """Return the solution after iterative refinement (23), until corrections are negligible or shrink too slowly."""
+    """Return the solution after iterative refinement by equation (23) of docs/theory.md."""
     last = 1.0
     for _ in range(_STEPS):
         step = lu.solve(matrix.residual(x, right, remainder))
@@ -165,8 +165,8 @@ def _error_bound(lu: Any, error: Floats) -> Floats:
 
 
 def prepare(system: WillisSystem) -> tuple[PaddedRows, list[WillisEquation]]:
-    """Return the matrix for factorisation and the equations of its rows, as many as moving links. Raises `RangeError`
-    if the system is not square.
+    """Return the matrix for factorisation, which has one row for each moving link, and the equations of its rows.
+    Raises `RangeError` if the system is not square.
     """
     links, rows = independent_rows(system.links, system.equations, system.redundant)
     if len(rows) > len(links):
@@ -247,12 +247,12 @@ def _check_digits(lu: Any, matrix: PaddedRows, speeds: Floats, spread: Floats) -
     at = int(np.argmax(condition.max(axis=1)))
     what = f"no digit of the speed of '{list(matrix.at)[at]}' is correct in float64"
     why = f"rounding errors of the equations are amplified more than {_LARGEST_CONDITION:.0e} times"
-    raise RangeError(Problem(what, why, "use the exact method"))
+    raise RangeError(Problem(what, why, "use `method='exact'`"))
 
 
 def _out_of_range(label: str) -> Problem:
     return Problem(
         f"a speed near '{label}' is too small or too large for floating-point numbers",
         "speeds and ratios must be between 1e-120 and 1e120, so that their rounding errors can be bounded",
-        "use the exact method",
+        "use `method='exact'`",
     )

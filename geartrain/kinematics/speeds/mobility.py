@@ -104,9 +104,7 @@ def _stationary_links(reduced: ReducedSystem, forms: Mapping[int, LinearForm]) -
 
 @collector_paused()
 def find_mobility(reduced: ReducedSystem, turning_pairs: int, sliding_pairs: int = 0) -> Mobility:
-    """Return the mobility from the exact rank of the equations without prescribed speeds, (16) and (17) of
-    docs/theory.md.
-    """
+    """Return the mobility from the exact rank without prescribed speeds, (16) and (17) of docs/theory.md."""
     parts = reduced.components
     gears = sum(circuit.kind == "gear" for circuit in parts.circuits)
     shared: list[str] = []

@@ -118,8 +118,8 @@ class Timekeeping(Result):
 
 
 def find_timekeeping(setting: LoadCase) -> Timekeeping | None:
-    """Return the energy, amplitude and rate errors of a clock. Return None if there is no escapement, or no drive or
-    load with a unit from which the torque at the escape wheel follows.
+    """Return the energy, amplitude and rate errors of a clock; None if no escapement is declared, or if the torque or
+    the speed at the escape wheel is unknown.
     """
     escapement, case = setting.train.escapement, setting.case
     found = None if escapement is None else escapement_torques(setting)

@@ -119,10 +119,10 @@ class TrainMechanics(Shown):
 
     @cached_property
     def driven_ways(self) -> DrivenWays:
-        """Driving directions of every pair with a declared tooth form, with the names of the states in which they
-        occur.
+        """Pairs with a declared tooth form, by name: for each wheel that drives in some state, the mesh and the names
+        of these states.
 
-        If the driver of a pair is undetermined, both directions are included.
+        If the driver of a pair is undetermined, both wheels are included.
         """
         found: dict[str, dict[str, tuple[GearMesh, tuple[str, ...]]]] = {mesh.name: {} for mesh in self.teeth}
         for state in self.kinematics.usable_states:

@@ -62,7 +62,7 @@ class PairErrorSource:
 
     @property
     def start(self) -> float:
-        """Angle of the driver at position 0 of the input without link errors, positive in its mean sense [rad]."""
+        """Driver angle at input position 0 without errors of other pairs, positive in the driver's mean sense [rad]."""
         return self.phase - self.set_back
 
     @property
@@ -86,7 +86,7 @@ def common_period(sources: Sequence[PairErrorSource]) -> Fraction | None:
 
 
 class CompositionStep(NamedTuple):
-    """Error sources that are solved together, given by index, because their drivers depend on each other."""
+    """Group of pairs whose transmission errors depend on one another and are computed together, or a single pair."""
 
     sources: tuple[int, ...]
     known: tuple[int, ...]
@@ -99,7 +99,7 @@ class CompositionStep(NamedTuple):
 
     @property
     def coupled(self) -> bool:
-        """True if the errors of these sources change the driver angles of the same sources."""
+        """True if errors of the pairs in the group change driver angles of pairs in the group."""
         return bool(self.own.any())
 
 
@@ -115,8 +115,8 @@ class SeenLink(NamedTuple):
     scale: float = 1.0
 
     def difference(self, values: Floats) -> float:
-        """Return the value of the link minus the value of its reference link, where `values` has a value for each link
-        about the link's own axis.
+        """Return a quantity of the link minus the same quantity of its reference link. `values` contains the quantity
+        for every link about the link's own axis.
         """
         return float(self.scale * (values[self.of] - self.sense * values[self.base]))
 
@@ -152,7 +152,9 @@ class ErrorSamples(NamedTuple):
 
 
 def evaluate(sampler: ErrorComposition | ErrorDifference, turns: Floats) -> ErrorSamples:
-    """Return the errors [rad] and rates [1] of the outputs at input positions [revolutions], in chunks."""
+    """Return the errors of the outputs [rad] and their speed deviations divided by the input speed [1] at input
+    positions `turns` [revolutions].
+    """
     parts = [sampler.at(turns[start : start + sampler.chunk]) for start in range(0, len(turns), sampler.chunk)]
     error, rate = (np.concatenate([part[column] for part in parts], axis=1) for column in (1, 2))
     return ErrorSamples(turns, error, rate, frozenset().union(*(part.reversing_drivers for part in parts)))
@@ -171,7 +173,9 @@ class ErrorDifference:
         return min(self.one.chunk, self.other.chunk)
 
     def at(self, turns: Floats) -> ErrorSamples:
-        """Return the differences of errors and rates at up to `chunk` input positions `turns` [revolutions]."""
+        """Return the difference between the two compositions in the errors of the outputs [rad] and in their speed
+        deviations divided by the input speed [1], at no more than `chunk` input positions `turns` [revolutions].
+        """
         one, other = self.one.at(turns), self.other.at(turns)
         both = one.reversing_drivers | other.reversing_drivers
         return ErrorSamples(turns, one.error - other.error, one.rate - other.rate, both)
@@ -205,7 +209,7 @@ class ErrorComposition:
 
     @cached_property
     def steps(self) -> tuple[CompositionStep, ...]:
-        """Steps in the order of solution, for the error sources on which an output depends."""
+        """Groups of the pairs on whose errors an output depends, in the order in which they are computed."""
         gains = self.gains[:, [source.pair for source in self.sources]]
         drivers = [np.flatnonzero(row).tolist() for row in gains]
         needed: set[int] = set()
@@ -230,8 +234,8 @@ class ErrorComposition:
         return tuple(self.sources[at] for step in self.steps for at in step.sources)
 
     def driver_shift(self, source: PairErrorSource, error: Floats) -> float:
-        """Return the change of a source's driver angle in its mean sense of rotation [rad] that is caused by the errors
-        of links in `error` [rad].
+        """Return the change of a source's driver angle that is caused by the link errors `error` [rad], shape (links,).
+        It is positive in the driver's mean sense of rotation [rad].
         """
         return float(sum(sign * error[link] for link, sign in self.turned_by(source)))
 
@@ -245,8 +249,8 @@ class ErrorComposition:
         return S
 
     def turned_by(self, source: PairErrorSource) -> tuple[tuple[int, int], tuple[int, int]]:
-        """Return the indices of the driver and of the carrier of an error source, each with the sign with which its
-        error changes the driver angle, equation (3) of docs/motion.md.
+        """Return the index of a source's driver and the index of its carrier, each with the sign (1 or -1) with which
+        the error of this link changes the driver angle, equation (3) of docs/motion.md.
         """
         joint = self.spread.joints[source.pair]
         return (
@@ -262,7 +266,9 @@ class ErrorComposition:
         return max(64, min(_CHUNK, _NUMBERS // (4 * (len(self.sources) + widest) + 1)))
 
     def at(self, turns: Floats) -> ErrorSamples:
-        """Return the errors [rad] and rates [1] of the outputs at up to `chunk` input positions [revolutions]."""
+        """Return the errors of the outputs [rad] and their speed deviations divided by the input speed [1] at no more
+        than `chunk` input positions `turns` [revolutions].
+        """
         phase = InputPhase(turns)
         error = np.zeros((len(self.sources), len(turns)))
         rate = np.zeros_like(error)
@@ -277,8 +283,8 @@ class ErrorComposition:
         return ErrorSamples(turns, found[0], found[1], reversing_drivers)
 
     def _take(self, step: CompositionStep, phase: InputPhase, error: Floats, rate: Floats) -> Iterator[str]:
-        """Compute the errors and speed deviations of the links driven by one group of sources, in place. Yield the
-        names of pairs whose driver turns against the sense of its mean speed.
+        """Compute the errors and speed deviations of the pairs in one group, and store them in the rows of `error` and
+        `rate`. Yield the names of the pairs whose driver turns against the sense of its mean speed.
         """
         own, known = list(step.sources), list(step.known)
         sources = [self.sources[at] for at in own]
@@ -313,8 +319,8 @@ class InputPhase:
         return split(self.turns)
 
     def cycles(self, ratio: Fraction) -> Floats:
-        """Return the positions multiplied by `ratio`, an exact number of periods per revolution [periods]. The result
-        is taken modulo 1 if it may exceed `PLAIN` periods.
+        """Return the input positions as numbers of periods, if there are `ratio` periods per revolution. The numbers
+        are taken modulo 1 if they may exceed `PLAIN`, beyond which a product of floats is too inaccurate.
 
         Dekker's product keeps the rounding error at the level of one period, even after 1e12 revolutions.
         """

@@ -32,8 +32,8 @@ _ROUNDS = 6  # rounds of subdivision: each narrows the interval by 4
 
 
 class _Candidates(NamedTuple):
-    """Intervals of the input positions in which an error or speed may exceed the maximum found so far: index of the
-    quantity, estimated maximum, and both ends of each interval.
+    """Intervals from `low` to `high` [revolutions] in which quantity number `sought` may exceed the maximum found so
+    far, because its estimated maximum in the interval is `promise`.
     """
 
     sought: Indices
@@ -46,7 +46,7 @@ class _Candidates(NamedTuple):
         return _Candidates(self.sought[which], self.promise[which], self.low[which], self.high[which])
 
     def exceeding(self, maxima: Floats) -> _Candidates:
-        """Return the intervals with an estimate above the maximum found so far, one of several equal estimates."""
+        """Return the intervals whose estimated maximum exceeds the value in `maxima` for the same quantity."""
         return self.chosen(self.promise > (maxima + _tolerance(maxima))[self.sought])
 
 
@@ -111,7 +111,7 @@ def pieces(searches: Sequence[KinkSearch], low: float, high: float, size: int) -
 
 
 def _promise(first: Floats, middle: Floats, last: Floats) -> Floats:
-    """Return an estimated upper bound on a smooth function in each interval, from its values at three positions."""
+    """Return an estimate of the maximum of a smooth function in each interval, from its values at three positions."""
     highest, lowest = (each.reduce([first, middle, last]) for each in (np.maximum, np.minimum))
     bend, rise = 2 * middle - first - last, np.abs(last - first)
     # vertex of the parabola through the three values, if it is between the ends
@@ -131,7 +131,7 @@ def _tolerance(maxima: Floats) -> Floats:
 
 
 def _locate(sampler: ErrorComposition | ErrorDifference, maxima: Floats, given: _Candidates) -> None:
-    """Replace each value in `maxima` by the maximum inside the candidate intervals if that is larger."""
+    """Replace each value in `maxima` by the maximum of its quantity inside the intervals `given`, if that is larger."""
     for _ in range(_ROUNDS):
         given = given.exceeding(maxima)
         rows = np.arange(len(given.sought))

@@ -68,7 +68,9 @@ class InputSteps(NamedTuple):
 
 @dataclass(frozen=True)
 class PairKinks:
-    """Kinks of the transmission function of the pair `source`, whose driver is the only output of `drivers`."""
+    """Kinks in the transmission function of one pair, `source`. The only output of `drivers` is the driver of this
+    pair.
+    """
 
     source: PairErrorSource
     drivers: ErrorComposition
@@ -92,10 +94,10 @@ class PairKinks:
         return way * found.error[0], self.source.mean + way * found.rate[0]
 
     def between(self, steps: InputSteps) -> Floats:
-        """Return the positions of kinks within the given steps [revolutions] and the indices of the kinks, shape (2,
-        n), in any order.
+        """Return an array of shape (2, n): the positions within `steps` at which the driver passes a kink
+        [revolutions], and the index of the kink that it passes. The columns are in any order.
 
-        A kink at the end of a step may be listed twice.
+        A kink at the end of an interval may be listed twice.
         """
         if not len(self.kinks) or not len(steps.low):
             return np.zeros((2, 0))
@@ -106,8 +108,8 @@ class PairKinks:
         return self._crossings(steps, low, high)
 
     def _cut_where_it_turns(self, steps: InputSteps, slowest: Floats) -> InputSteps:
-        """Return the intervals of the input, divided at the positions at which the driver of the pair reverses, which
-        are found by bisection.
+        """Return the intervals divided at the positions at which the pair's driver reverses, found by bisection.
+        `slowest` is the lower speed of the driver at both ends of each interval; only slow intervals are searched.
         """
         slow = slowest < _SLOW * self.source.mean
         ends = steps.low[slow, None] + (steps.high - steps.low)[slow, None] * (np.arange(_PARTS + 1) / _PARTS)

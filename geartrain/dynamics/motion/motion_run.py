@@ -92,8 +92,8 @@ def find_spectrum(
 
 
 def _harmonics(superposed: Superposition, at: int) -> Complex:
-    """Return the complex amplitudes of the error of pair number `at` at harmonics 1, 2, ... of its period [rad]. The
-    phases refer to position 0 of the input.
+    """Return the complex amplitudes [rad] of harmonics 1, 2, ... of the periodic error of pair number `at`, with phases
+    that refer to position 0 of the input.
     """
     source = superposed.sources[at]
     pitches = source.transmission.pitch_count
@@ -166,8 +166,7 @@ MOST_TURNS = 10**12
 
 @dataclass
 class MotionRun(Tabular, Pictured):
-    """Evaluation of a motion at input positions from 0 to `turns`; each result is computed when its method
-    is called.
+    """Evaluation of a motion at input positions from 0 to `turns` revolutions.
 
     The methods `run`, `run_random_phases` and `find_spectra` compute the results.
 
@@ -343,8 +342,9 @@ class MotionRun(Tabular, Pictured):
         return ["turns", *(f"{name} {what}" for name, heads in units for what in heads)]
 
     def _values(self, passage: ErrorSamples) -> list[Floats]:
-        """Return the columns of a table of positions: revolutions of the input, then the angle [rad], the error [rad]
-        and the relative speed [1] of each output; for a sliding output its travel [mm], error [mm] and speed [mm/turn].
+        """Return the columns of a table of positions: revolutions of the input, and, for each output, its angle [rad],
+        error [rad] and speed divided by the input speed [1], or its travel [mm], error [mm] and speed [mm/turn] if it
+        slides.
         """
         found = [passage.turns]
         for at, (tally, start) in enumerate(zip(self.motion._statistics(), self.motion._start_angles, strict=True)):

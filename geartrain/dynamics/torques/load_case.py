@@ -36,7 +36,8 @@ class VirtualMotion:
 
 
 def speed_forms(links: Iterable[str], rows: Iterable[WillisEquation]) -> dict[str, LinearForm]:
-    """Return the speed of every link as a linear form in the free speeds and the column `PRESCRIBED`.
+    """Return the speed of each link, by name, as a linear form in undetermined speeds and the constant 1 (column
+    `PRESCRIBED`).
 
     rows   equations of the Willis system to be satisfied
     """
@@ -109,8 +110,8 @@ class MeanEfficiencies:
         return self.driver != self.load
 
     def given(self, side: int, driving: bool) -> tuple[Fraction, Fraction]:
-        """Return the efficiency if the first link drives and the efficiency if the second link drives, for the given
-        constant torque.
+        """Return the efficiency if the first link drives and the efficiency if the second link drives. Both depend on
+        which torque of the pair is constant over a turn.
 
         side      1 if the torque of the first link is constant, -1 if the torque of the second link is, 0 if neither is
         driving   True if loads supply power to the train; only used if neither torque is constant
@@ -223,7 +224,9 @@ class LoadCase:
         return friction is not None and friction.has_friction
 
     def bearer(self, link: str) -> str:
-        """Return the link that carries the axis of `link`, in whatever order coaxial joints are declared."""
+        """Return the link that carries the axis of `link`. The order in which coaxial joints are declared does not
+        matter.
+        """
         return self.tree.top.get(link, link)
 
     def reacts_on(self, link: str) -> str:
@@ -235,8 +238,8 @@ class LoadCase:
         return self.train.frame if escapement is None or link != escapement.link else pallet_link(escapement, self.tree)
 
     def turn(self, circuit: Circuit) -> Fraction | None:
-        """Return the speed of a circuit's first link relative to its carrier, or None if it is undetermined. If it is
-        0, no power flows.
+        """Return the speed of the first link of a circuit relative to its carrier; None if the speed is undetermined.
+        Power flows through the circuit only if this speed is not 0.
         """
         return self._difference(circuit.i, circuit.subtracted[0])
 
@@ -261,8 +264,8 @@ class LoadCase:
         return tuple(found)
 
     def friction_senses(self, link: str, carrier: str | None = None) -> Iterator[tuple[str, int]]:
-        """Yield a link and the link that carries it, unless it is the frame. Each has the sense, about its own axis, of
-        a unit friction torque in the bearing between them, which opposes the relative speed.
+        """Yield the link, and its carrier unless this is the frame, each with the sign (1, -1 or 0) of the torque that
+        friction in the bearing between them exerts on it about its own axis.
         """
         carrier = self.tree.borne_by(link) if carrier is None else carrier
         relative = self.relative(link, carrier) or Fraction(0)

@@ -90,7 +90,7 @@ class RecirculatingPower(Result):
 def find_circulation(
     streams: Sequence[PowerStream], power_in: Fraction
 ) -> tuple[list[PowerStream], list[RecirculatingPower]]:
-    """Return the streams with their recirculating parts, and the loops in which power recirculates.
+    """Return the streams, each with the part of its power that recirculates, and the loops in which power recirculates.
 
     Cycles are removed in descending order of their bottleneck power.
     """

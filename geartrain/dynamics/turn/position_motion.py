@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 
 class LinkMotion(NamedTuple):
-    """Motion of the links at the given positions of the input."""
+    """Speeds of the links and angles of the drivers at n positions of the input."""
 
     turns: Floats
     """Positions of the input [revolutions], shape (n,)."""
@@ -39,7 +39,7 @@ class LinkMotion(NamedTuple):
 
 
 class PositionMotion:
-    """Motion of the links that transmit torque, for any choice of the flanks in contact.
+    """Speeds of the links that transmit torque, and angles of drivers, with either flank of each pair in contact.
 
     motion  motion of these links relative to the frame
     pairs   names of the pairs whose ratio or losses depend on position
@@ -60,6 +60,9 @@ class PositionMotion:
     @cached_property
     def _columns(self) -> list[int]:
         at = {link: number for number, link in enumerate(self.motion._propagation.links)}
+        """Return the link speeds and driver angles at positions of the input [revolutions]. The number of positions may
+        not exceed `composition.chunk`.|KEEP|
+        """
         return [at[link] for link in self.links]
 
     @property

@@ -39,9 +39,10 @@ class PlaceInRun(NamedTuple):
 
 @dataclass(frozen=True)
 class CycleEnergy(Result):
-    """Energies over a run [J, or rad if torques are numbers without a unit].
+    """Energies that a train receives, delivers and loses over several revolutions of the input [J, or rad if torques
+    are numbers without a unit].
 
-    Energy is conserved: put_in - returned = taken_out - loads_put_in + mesh + pin + bearing.
+    Energy is conserved: `put_in` + `loads_put_in` = `returned` + `taken_out` + `mesh` + `pin` + `bearing`.
     """
 
     KEYS = (

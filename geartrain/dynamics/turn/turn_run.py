@@ -45,7 +45,9 @@ FAINT = 1e-9
 
 @dataclass(frozen=True)
 class RunCells:
-    """Cells of a run from `low` to `high` [revolutions], shape (cells,). Torques are smooth in each cell."""
+    """Intervals (cells) from `low` to `high` [revolutions], shape (cells,), into which the evaluated range of the input
+    is divided. Torques are smooth within each cell.
+    """
 
     low: Floats
     high: Floats
@@ -54,7 +56,7 @@ class RunCells:
 
     @property
     def turns(self) -> Floats:
-        """Positions in all cells as reported [revolutions], shape (cells times `NODES`,)."""
+        """Input positions in all cells, including both ends of each cell [revolutions], shape (cells times `NODES`,)."""
         share = np.arange(NODES) / (NODES - 1)
         found = self.low[:, None] + (self.high - self.low)[:, None] * share
         found[:, -1] = self.high
@@ -146,7 +148,7 @@ class TurnRun:
 
     @cached_property
     def kinks(self) -> Floats:
-        """Positions of kinks [revolutions] for the most frequent combinations of coast flanks in contact."""
+        """Positions of kinks [revolutions] for the sets of pairs that most often touch on their coast flanks together."""
         train = self.train
         # flanks in contact at a few positions: their functions' kinks are searched exactly
         even = train.at(np.linspace(0.0, self.span, min(self.samples, _PROBES)))
@@ -194,8 +196,12 @@ class TurnRun:
     def _cuts(
         self, cells: RunCells, found: PositionTorques, scales: RunScales, total: float, depth: int
     ) -> tuple[Indices, Floats]:
-        """Return the indices of the cells to be divided, and the positions at which they are divided: kinks, and
-        middles of cells that are too wide.
+        """Return the indices of the cells to be divided, and the positions at which they are divided: kinks, and the
+        middles of cells in which the integrals are inaccurate.
+
+        found   torques at the positions of the cells
+        total   energy with which the errors of the integrals are compared
+        depth   number of previous divisions
         """
         if depth == _DEPTH:
             return _NONE
@@ -253,7 +259,9 @@ class TurnRun:
 
 @dataclass(frozen=True)
 class RunScales:
-    """Torque scale (maximum torque of any pair) and power scale (maximum external power) of a run."""
+    """Maximum torque of any pair (`pressed`) and maximum external power (`power`), to which rounding errors are
+    relative.
+    """
 
     pressed: float
     power: float

@@ -39,7 +39,7 @@ class BearingForces:
 
     @cached_property
     def pairs(self) -> Mapping[str, str]:
-        """Mapping from each gear pair with separate planets to the corresponding pair of the simulated train.
+        """Pair of the simulated train, in which equal planets are one, by pair of the train with separate planets.
 
         Redundant pairs, whose shares of the torque are unknown, are omitted.
         """
@@ -97,6 +97,9 @@ class BearingForces:
         rows = [row for row, link in enumerate(links) if self._declared(link) in of_link]
         found = [of_link[self._declared(links[row])] for row in rows]
         constant = self.constant[rows]
+        """Constant force on each support [N], from weights of links and the cord of a driving weight, shape (supports,
+        3).
+        """
         ways = loads.ways(links[row] for row in rows)[:, :, 0]
         return LoadedBearings(
             np.array([contact[self.pairs[force.name]] for force in forces], dtype=np.int64),

@@ -190,7 +190,9 @@ class _Bodies:
         return find_cut_teeth(self.train).wheels
 
     def _orbit(self, carrier: str, planet: str) -> float | None:
-        """Return the distance of a planet's axis from its carrier's axis [m], a centre distance; None if unknown."""
+        """Return the distance from a carrier's axis to a planet's axis [m], which is the centre distance of a gear pair
+        on this carrier; None if it is unknown.
+        """
         from geartrain.dynamics.gear_meshes import find_sizes
 
         tree = self.train.tree

@@ -50,7 +50,9 @@ class PairTables(NamedTuple):
 
 
 class TabledFunction(NamedTuple):
-    """Function slope S + p(S) of a driver angle S [rad], with a table of p, which is periodic, and its minimum jump."""
+    """Function of a driver angle S [rad]: the sum of `slope` S and a periodic function, which is given by a table.
+    `jump` is the minimum size of the jumps of its derivative.
+    """
 
     slope: float
     table: CellTable

@@ -25,9 +25,7 @@ if TYPE_CHECKING:
     from geartrain.train import StateCase, Train
 
 DrivenWays = Mapping[str, Sequence[tuple["GearMesh", tuple[str, ...]]]]
-"""Driving directions of each pair, by name of the pair. Each is a mesh with the names of the states in which it
-occurs.
-"""
+"""Mesh for each wheel that drives a pair in some state, with the names of these states, by name of the pair."""
 
 
 @final

@@ -78,9 +78,7 @@ class TrainTeeth:
     """Teeth of each wheel that has teeth, by name. `problems` contains the reasons why other wheels have no teeth."""
     problems: Mapping[str, tuple[Problem, ...]]
     approximations: Mapping[str, WheelTeeth]
-    """Approximate teeth of each wheel whose pairs require different teeth, by name. They are cut to suit the first pair
-    of the wheel.
-    """
+    """Teeth, cut to suit its first pair, of each wheel whose pairs require different teeth, by name."""
     flat: frozenset[str]
     """Names of the wheels whose teeth are straight and in one plane."""
     backlashes: tuple[PairBacklash, ...]

@@ -56,9 +56,7 @@ class PairErrorSource:
     sense: int
     """Sense of the driven link's mean motion relative to the carrier, 1 or -1."""
     set_back: float = 0.0
-    """Angle of the driver at position 0 that is due to the errors of other pairs [rad]. The positions of the driver's
-    teeth are measured from this angle.
-    """
+    """Advance of the driver at position 0 due to errors of other pairs [rad], which its tooth positions include."""
 
     @property
     def start(self) -> float:
@@ -90,12 +88,12 @@ class CompositionStep(NamedTuple):
 
     sources: tuple[int, ...]
     known: tuple[int, ...]
-    """Indices of the earlier sources on which the drivers of this step depend; `from_known` contains the coefficients,
+    """Indices of the earlier sources on which the drivers of this group depend; `from_known` contains the coefficients,
     shape (sources, known).
     """
     from_known: Floats
     own: Floats
-    """Change of each driver's angle per unit error of each source of the step [rad/rad], shape (sources, sources)."""
+    """Change of each driver's angle per unit error of each pair of the group [rad/rad], shape (sources, sources)."""
 
     @property
     def coupled(self) -> bool:
@@ -183,7 +181,7 @@ class ErrorDifference:
 
 @dataclass
 class ErrorComposition:
-    """Composition of the error sources of a train, which gives the errors of the outputs at any input position."""
+    """Computation of the errors of the outputs at any input position from the error sources of a train."""
 
     spread: ErrorPropagation
     sources: tuple[PairErrorSource, ...]

@@ -72,8 +72,8 @@ class CoupledErrors:
 
 
 def solve_coupled_errors(pairs: CoupledErrors, base: Floats, turning: Floats) -> tuple[Floats, Floats, Floats]:
-    """Return the errors [rad], rates [1] and driver speeds [1] of coupled pairs, each of shape (pairs, n), given the
-    driver angles and speeds without these errors.
+    """Return the errors [rad], the speed deviations [1] and the driver speeds [1] of coupled pairs, each of shape
+    (pairs, n), given the driver angles and speeds without these errors. Speeds are divided by the speed of the input.
 
     base      driver angles [rad], shape (pairs, n)
     turning   driver speeds divided by the speed of the input [1], shape (pairs, n)
@@ -158,7 +158,9 @@ def _stepped(matrices: Floats, right: Floats) -> Floats:
 
 
 def _solve_coupled(matrices: Floats, right: Floats) -> Floats:
-    """Return the solutions of n small systems of linear equations, as an array of shape (pairs, n)."""
+    """Return the solutions x of n small systems A x = b, with `matrices` (A) of shape (n, pairs, pairs); x and `right`
+    (b) have the shape (pairs, n).
+    """
     if len(right) == 1:  # the usual case; LAPACK would take half of the time of the motion
         return np.asarray(right / matrices[:, 0, 0])
     return np.ascontiguousarray(np.linalg.solve(matrices, right.T[:, :, None])[:, :, 0].T)
@@ -187,9 +189,7 @@ class ErrorPath(NamedTuple):
     driver: int
     driven: int
     carrier: int
-    """Index of the link whose angle is subtracted from the driver's angle, which is usually the carrier of both
-    links.
-    """
+    """Index of the link whose angle is subtracted from the driver's angle; usually the carrier of both links."""
     coefficient: int
     driven_carrier: int
     """Index of the link whose angle is subtracted from the angle of the driven link."""
@@ -197,16 +197,12 @@ class ErrorPath(NamedTuple):
 
 @dataclass(frozen=True)
 class ErrorPropagation:
-    """Errors of the links as linear combinations of the errors of the pairs. Indices of links and pairs refer to
-    `links` and `pairs`.
-    """
+    """Errors of the links as linear combinations of the errors of the pairs. Indices refer to `links` and `pairs`."""
 
     links: tuple[str, ...]
     pairs: tuple[str, ...]
     joints: Mapping[int, ErrorPath]
-    """Links through which the error of each pair propagates, by index of the pair. They are determined on first
-    access.
-    """
+    """Links that determine the error of each pair, by index of the pair; they are determined on first access."""
     forms: Sequence[Mapping[int, Fraction]]
     """Error of each link per unit of the right-hand side c delta of each pair's equation (2), by index of the pair."""
     reached: frozenset[int]

@@ -42,7 +42,7 @@ class _Candidates(NamedTuple):
     high: Floats
 
     def chosen(self, which: Bools | Indices | slice) -> _Candidates:
-        """Return the selected candidates as a new object."""
+        """Return the intervals that a mask, an array of indices or a slice selects."""
         return _Candidates(self.sought[which], self.promise[which], self.low[which], self.high[which])
 
     def exceeding(self, maxima: Floats) -> _Candidates:
@@ -98,7 +98,9 @@ def count_extremes(
 
 
 def pieces(searches: Sequence[KinkSearch], low: float, high: float, size: int) -> Iterator[tuple[Floats, Floats]]:
-    """Yield the ends of smooth pieces of the run [revolutions], moved slightly inwards, `size` pieces at a time."""
+    """Yield the two ends of each interval between kinks from `low` to `high` [revolutions], moved slightly inwards, in
+    arrays of `size` intervals.
+    """
     narrowest = min(searches, key=lambda each: each.step)
     for steps in narrowest.steps(low, high):
         kinks = [search.between(steps).turns for search in searches]

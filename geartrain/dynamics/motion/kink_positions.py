@@ -60,7 +60,7 @@ class KinkPositions(NamedTuple):
 
 
 class InputSteps(NamedTuple):
-    """Steps of the input, from `low` to `high` [revolutions], both of shape (n,)."""
+    """Intervals of the input position, from `low` to `high` [revolutions], both of shape (n,)."""
 
     low: Floats
     high: Floats
@@ -156,7 +156,9 @@ class PairKinks:
         return np.stack([steps.low[step] + share * width[step], kink])
 
     def unique(self, found: Floats) -> Floats:
-        """Return the positions from `between` in ascending order; kinks that were found twice are merged."""
+        """Return the result of `between` with the positions in ascending order and with kinks that were found twice
+        merged.
+        """
         turns, kink = found[:, np.lexsort(found)]
         same = _SAME / float(self.source.cycles) if self.source.cycles else 0.0
         again = (np.diff(turns, prepend=-np.inf) <= same) & (np.diff(kink, prepend=-1) == 0)
@@ -194,7 +196,9 @@ class KinkSearch:
         return 1 / (_STEPS * fastest) if fastest else np.inf
 
     def steps(self, start: float, end: float) -> Iterator[InputSteps]:
-        """Yield equal steps of the input between two positions [revolutions], no wider than `step`, in chunks."""
+        """Yield equal intervals between two positions of the input [revolutions], no wider than `step`, in groups that
+        fit in memory.
+        """
         number = max(_FEWEST, int(np.ceil((end - start) / self.step)))
         for first in range(0, number, self.composition.chunk):
             at = np.arange(first, min(first + self.composition.chunk, number) + 1)

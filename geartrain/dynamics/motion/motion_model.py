@@ -176,7 +176,7 @@ class Motion(Shown):
         return self._errors.spread
 
     def _path(self, pair: str) -> ErrorPath:
-        """Return the links through which a pair's error propagates. Raise `QuestionError` for a redundant pair."""
+        """Return the links of a pair that determine its error. Raise `QuestionError` for a redundant pair."""
         if pair in self._propagation.pairs:
             return self._propagation.joints[self._propagation.pairs.index(pair)]
         why = (
@@ -192,7 +192,7 @@ class Motion(Shown):
         return self._composed(1)
 
     def _with_sources(self, pairs: Collection[str]) -> ErrorComposition:
-        """Return the error composition for the declared sense of the input in which the given pairs are also evaluated."""
+        """Return the error composition for the declared sense of the input that also evaluates the given pairs."""
         return self._composed(1, pairs)
 
     @cached_property
@@ -226,7 +226,7 @@ class Motion(Shown):
         for step in found.steps:
             jumping = [found.sources[at].id for at in step.sources if found.sources[at].transmission.at_once]
             if step.coupled and jumping:
-                what = f"the step of '{jumping[0]}' turns its own driver"
+                what = f"the instantaneous step of '{jumping[0]}' turns its own driver"
                 why = "an instantaneous step does not define the position of the driver during the step"
                 raise GearTrainError(Problem(what, why, "give `over`, or let the driver of the coupling be the input"))
         sources = tuple(
@@ -483,8 +483,8 @@ class Motion(Shown):
         return self._of((output,)).transmission_errors(turns, samples)[output]
 
     def run(self, turns: float = 20.0, samples: int = 200_000) -> Any:
-        """Compute the motion over a number of revolutions of the input, and the peak values and moments of each
-        output's error and speed.
+        """Compute the motion over a number of revolutions of the input, with the extremes, mean and root mean square of
+        each output's error, and the extremes of its speed.
 
         Parameters
         ----------

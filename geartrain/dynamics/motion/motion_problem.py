@@ -202,10 +202,11 @@ def find_motion_problem(
 
 
 def find_shared_wheels(circuits: Sequence[Circuit], tree: Tree) -> dict[tuple[str, str], list[tuple[str, bool]]]:
-    """Return, for each pair of a wheel that has several coaxial mates, the other pairs that share its line of centres.
+    """Return the other pairs that share the line of centres of a pair at one of its wheels, by names of the pair and
+    the wheel.
 
-    An example is a planet between a sun and a ring. The flag is True if the two contacts are on opposite sides of the
-    wheel, which is the case if one mate is a ring.
+    Examples are the pairs of a planet with a sun and with a ring. The flag of another pair is True if the two contacts
+    are on opposite sides of the wheel, which is the case if one mate is a ring.
     """
     of_wheel: dict[str, list[tuple[Circuit, str]]] = {}
     for circuit in circuits:

@@ -214,9 +214,9 @@ class MotionRun(Tabular, Pictured):
     samples: int
     """Number of positions, 2 or more, including both ends of the run."""
     statistics: list[RunningStatistics] = field(default_factory=list)
-    """Peak values and moments of each output's error and speed."""
+    """Extremes, mean and root mean square of each output's error, and extremes of its speed."""
     phase_statistics: list[list[RunningStatistics]] = field(default_factory=list)
-    """Peak values and moments of each output's error and speed, for each set of random phases."""
+    """Extremes, mean and root mean square of each output's error for each set of random phases."""
     seed: int | None = None
     """Random seed for the phases; None if no random phases were used."""
     spectra: dict[str, list[SpectrumLine]] = field(default_factory=dict)
@@ -224,9 +224,7 @@ class MotionRun(Tabular, Pictured):
     done: int = 0
     """Number of positions evaluated so far; it is less than `samples` after an interrupted run."""
     reversing_drivers: set[str] = field(default_factory=set)
-    """Names of pairs whose driver temporarily turned against its mean sense of rotation; the backlash of these
-    pairs is not modelled.
-    """
+    """Names of pairs whose driver temporarily turned against its mean sense; their backlash is not modelled."""
 
     def __post_init__(self) -> None:
         if not abs(self.turns) <= MOST_TURNS:

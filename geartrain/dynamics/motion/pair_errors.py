@@ -48,7 +48,7 @@ class PairErrors:
 
     @cached_property
     def spread(self) -> ErrorPropagation:
-        """Propagation of the errors of pairs to the requested links."""
+        """Errors of the requested links as linear combinations of the errors of pairs."""
         held = {row.label for row in self.train.system.equations}
         circuits = {circuit.id: circuit for circuit in self.train.circuits if circuit.id in held}
         ends = {

@@ -86,7 +86,7 @@ class RunningStatistics(Result):
     """True for a link that slides, whose deviations are in mm."""
 
     def add(self, error: Floats, rate: Floats) -> None:
-        """Include the errors and speeds at further positions in the peak values and moments.
+        """Include the errors and speeds at further positions in the extremes, mean and root mean square.
 
         Parameters
         ----------

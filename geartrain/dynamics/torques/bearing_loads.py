@@ -59,7 +59,7 @@ class AxisForce(NamedTuple):
     """
 
     name: str
-    """Name of the pair, or of the link on which the line of a weight acts."""
+    """Name of the pair, or of the link on which the cord of a weight acts."""
     links: tuple[str | None, str]
     """First link (None for a force on a single link) and second link."""
     carrier: str
@@ -215,7 +215,7 @@ class BearingLoads:
         return found[:, None]
 
     def ways(self, links: Iterable[str]) -> Floats:
-        """Return the unit vectors along the axes of the given links in their reference directions, shape (links, 3, 1)."""
+        """Return the unit vectors along the axes of the given links in reference direction, shape (links, 3, 1)."""
         labels, axes = [self.setting.tree.axis(link) or "" for link in links], self.setting.axes
         ways = [scaled(self.setting.train.axes.get(label, Axis()).way, axes.sign(label)) for label in labels]
         return np.array(ways).reshape(-1, 3, 1)

@@ -55,8 +55,8 @@ def speed_forms(links: Iterable[str], rows: Iterable[WillisEquation]) -> dict[st
 def unbalanced_motions(
     system: WillisSystem, loads: Mapping[str, Fraction], still: Collection[str]
 ) -> list[VirtualMotion]:
-    """Return a basis of the virtual motions if the loads do work in at least one of them, equation (15); empty if the
-    loads are in equilibrium.
+    """Return a basis of the virtual motions if the loads do work in at least one of them, equation (15) of
+    docs/torques.md; empty if the loads are in equilibrium.
 
     still   links with unknown torques; the links are at rest in all these motions, so that their torques do no work
     """
@@ -72,7 +72,9 @@ def unbalanced_motions(
 
 
 def balancing_torque(motions: Sequence[VirtualMotion], link: str) -> Fraction | None:
-    """Return the torque on `link` that balances the loads in every motion, equation (16); None if no torque does."""
+    """Return the torque on `link` that balances the loads in every motion, equation (16) of docs/torques.md; None if no
+    torque does.
+    """
     found: Fraction | None = None
     for motion in motions:
         speed = motion.speeds.get(link, Fraction(0))
@@ -245,7 +247,7 @@ class LoadCase:
 
     def bearings(self, loaded: Mapping[str, tuple[float, float]], steady: bool = True) -> tuple[BearingTorque, ...]:
         """Return the friction torque of every bearing with friction, which opposes the rotation of its link, equation
-        (10). The torque includes the mean torque of jumpers that act on the link.
+        (10) of docs/torques.md.
 
         The torque is 0 if the relative speed in the bearing is 0 or undetermined.
 

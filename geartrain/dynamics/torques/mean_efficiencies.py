@@ -36,7 +36,7 @@ def find_mean_efficiencies(setting: LoadCase, circuit: Circuit) -> MeanEfficienc
 
 
 def _of_circuit(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
-    """Return the mean efficiencies of a gear pair or coupling; 1 if no loss is declared, or if data for it are missing."""
+    """Return the mean efficiencies of a gear pair or coupling; 1 if no loss is declared, or if data are missing."""
     if circuit.kind != "gear":
         return _of_coupling(setting, circuit)
     gear = setting.gears[circuit.id]

@@ -147,7 +147,9 @@ class _Decision:
         return [each for each in self._patterns.values() if each.moves]
 
     def _contradictory(self) -> ClutchPattern:
-        """Return a set of holding clutches with contradictory speeds, if possible those that would slip wrongly."""
+        """Return a set of holding clutches whose speeds are contradictory, if possible one in which no clutch slips in
+        the wrong sense.
+        """
         pattern = self._patterns[()]
         while pattern.setting is not None and pattern.stopped:
             held = {*pattern.holding, *pattern.stopped}
@@ -250,7 +252,7 @@ class _Decision:
     def _torque(
         self, pattern: ClutchPattern, name: str, deciding: Mapping[str, Torques | None]
     ) -> tuple[Fraction | None, str]:
-        """Return the torque of a clutch on its second link, None if it depends on the load, and its unit."""
+        """Return the torque of a clutch on its second link, which is None if it depends on the load, and its unit."""
         clutch, _, _, sense = self._clutch(name)
         links, found, unit = clutch.links, set[Fraction | None](), ""
         source = power_inputs(pattern.setting)[:1] if pattern.setting is not None else ()
@@ -301,7 +303,7 @@ class _Decision:
         return replace(case, problems=(*case.problems, Problem(what, why, fix, place)))
 
     def _undecided(self, chosen: Sequence[tuple[str, ...]]) -> StateCase:
-        """Return the case of the state with a problem: which clutches hold depends on the loads."""
+        """Return the prescriptions of the state with the problem that the loads decide which clutches hold."""
         common = set(chosen[0]).intersection(*chosen[1:])
         open_ = [name for name in self.names if any(name in each for each in chosen) and name not in common]
         ways = {
@@ -376,7 +378,7 @@ class _Decision:
             what = f"{len(self.names)} one-way clutches are active"
             why = f"at most {MOST_CLUTCHES} are supported, because all combinations of holding clutches are tried"
             raise DeclarationError(
-                [Problem(what, why, "disable some: list them under `free`", declared.place("clutches"))]
+                [Problem(what, why, "disable some of them: list them under `free`", declared.place("clutches"))]
             )
         base = replace(declared.case(self.state, ()), inputs={}, fixed=(), locks=())
         for name in self.names:

@@ -116,7 +116,7 @@ def find_circulation(
 
 
 def _widest(streams: Sequence[PowerStream], left: Sequence[Fraction]) -> list[int]:
-    """Return the streams of the cycle with the largest minimum of the powers `left`; empty without a cycle."""
+    """Return the indices of the streams in the cycle with the largest minimum of `left`; empty without a cycle."""
     best = _closed(streams, [at for at, power in enumerate(left) if power])
     if not best:
         return []
@@ -131,7 +131,7 @@ def _widest(streams: Sequence[PowerStream], left: Sequence[Fraction]) -> list[in
 
 
 def _closed(streams: Sequence[PowerStream], open_: Iterable[int]) -> list[int]:
-    """Return the streams of one cycle among those with the indices `open_`, as indices; empty without a cycle."""
+    """Return the indices of the streams in one cycle of the streams with the indices `open_`; empty without a cycle."""
     stream_of: dict[tuple[PowerNode, PowerNode], int] = {}
     before: dict[PowerNode, list[PowerNode]] = {}
     for at in open_:

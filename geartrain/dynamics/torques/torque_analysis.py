@@ -422,7 +422,7 @@ def torques_unknown(state: str | None) -> Torques:
 
 
 def resist(setting: LoadCase, drag: Mapping[str, Fraction]) -> Torques:
-    """Compute the torques for power input at the inputs under the torques `drag`, without friction of bearings."""
+    """Compute the torques if the inputs drive the train against the torques `drag`, without friction of bearings."""
     if (verdict := _without_axis(setting, drag)) is not None:
         return Torques(setting.case.state, verdict)
     links = power_inputs(setting)
@@ -492,7 +492,7 @@ def drive(setting: LoadCase, load: str, source: str) -> Torques:
 
 
 def _requested(setting: LoadCase, loads: Mapping[str, Fraction], solve_for: str | None) -> TorqueQuestion:
-    """Return the loads and the links of unknown torque: as many links as inputs, or fewer if their choice is ambiguous."""
+    """Return the loads and the links of unknown torque: as many links as inputs, or fewer if the choice is unclear."""
     inputs, enter = setting.case.inputs, power_inputs(setting)
     free = tuple(link for link in enter if link not in loads)
     needed = len(inputs)

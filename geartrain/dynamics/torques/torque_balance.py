@@ -18,9 +18,7 @@ from geartrain.numerics.block_triangular import Block, dulmage_mendelsohn_blocks
 from geartrain.numerics.elimination import LinearForm
 
 DrivingSides = Mapping[str, int]
-"""Driving side of each mesh relative to the carrier: 1 for the first link, -1 for the second link, 0 for a mesh without
-losses.
-"""
+"""Driving side of each mesh: 1 for the first link, -1 for the second link, 0 for a mesh without losses."""
 
 LoadShares = tuple[str, Mapping[str, Fraction]]
 """A link, and the meshes of one of its wheels, each with the fraction of the wheel's torque that it transmits."""
@@ -33,9 +31,7 @@ class LoadedPair:
 
     id: str
     links: tuple[str, ...]
-    """Names of the links i, j and k (first, second, carrier); four links if the two members react on different
-    links.
-    """
+    """Names of the links i, j and k (first, second, carrier), or four if both members react on different links."""
     senses: tuple[int, ...]
     """Senses of the axes of `links` relative to the reference direction, 1 or -1."""
     a: int

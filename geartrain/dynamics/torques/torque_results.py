@@ -82,9 +82,7 @@ class BearingTorque(Result):
     carrier: str
     """Link that carries the bearing."""
     torque: Fraction
-    """Torque on the link about its own axis [N m, or a number without a unit]; 0 if the bearing is at rest or its speed
-    is undetermined.
-    """
+    """Torque on the link about its own axis [N m, or a number without a unit]; 0 at rest or for unknown speed."""
     reaction: Fraction
     """Torque on the carrier about its own axis [N m, or a number without a unit]; 0 if the carrier is the frame."""
     loss: Fraction

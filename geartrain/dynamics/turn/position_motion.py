@@ -31,9 +31,7 @@ class LinkMotion(NamedTuple):
     turns: Floats
     """Positions of the input [revolutions], shape (n,)."""
     speeds: Floats
-    """Speeds of links about the reference direction of parallel axes, divided by the magnitude of the input speed [1],
-    shape (links, n).
-    """
+    """Speeds of links about the reference direction, divided by the size of the input speed [1], shape (links, n)."""
     angles: Mapping[str, Floats]
     """Angle of the driver of each evaluated pair in its mean sense of rotation [rad], shape (n,), by pair."""
 
@@ -60,9 +58,6 @@ class PositionMotion:
     @cached_property
     def _columns(self) -> list[int]:
         at = {link: number for number, link in enumerate(self.motion._propagation.links)}
-        """Return the link speeds and driver angles at positions of the input [revolutions]. The number of positions may
-        not exceed `composition.chunk`.|KEEP|
-        """
         return [at[link] for link in self.links]
 
     @property
@@ -86,8 +81,8 @@ class PositionMotion:
         return np.array([float(self.motion._problem.ratio(link)) for link in self.links])
 
     def at(self, turns: Floats, coasting: Mapping[str, Bools]) -> LinkMotion:
-        """Return the link speeds and driver angles at positions of the input [revolutions], at most one chunk of
-        positions.
+        """Return the link speeds and driver angles at positions of the input [revolutions]. The number of positions may
+        not exceed `composition.chunk`.
 
         coasting   boolean mask of the positions at which the coast flanks of a pair are in contact, by pair
         """

@@ -231,9 +231,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     locked_share: float = 0.0
     """Fraction of the run in which no torque balances the loads, so that the train is locked."""
     held_share: float = 0.0
-    """Fraction of the run in which the loads and the requested link both supply power, all of which is lost to
-    friction.
-    """
+    """Fraction of the run in which loads and the requested link supply power, all of which is lost to friction."""
     ambiguous_share: float = 0.0
     """Fraction of the run in which several patterns of power flow balance the loads."""
     locked: tuple[tuple[PlaceInRun, PlaceInRun], ...] = ()

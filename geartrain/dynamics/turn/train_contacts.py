@@ -64,9 +64,7 @@ class DriverState(NamedTuple):
     S: Floats
     """Angle of the driver in its mean sense of rotation [rad]; empty if no property of the pair depends on it."""
     turning: Floats
-    """Speed of the driver relative to the carrier, in its mean sense of rotation, divided by the speed of the input
-    [1].
-    """
+    """Speed of the driver relative to its carrier in its mean sense of rotation, divided by the input speed [1]."""
 
 
 class ContactLosses:
@@ -175,8 +173,8 @@ class ToothFriction(SlidingFriction):
     def torques(
         self, tau: Floats, transmission: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
     ) -> ContactTorques:
-        """Return the torques on the driven link and from the driver. The tooth pairs in contact share the torque of the
-        driving side equally.
+        """Return the torque on the driven link and the torque supplied by the driver. The tooth pairs in contact share
+        the torque of the driving side equally.
         """
         assert transmission is not None
         sliding, into, out = transmission.rubbing(at.S)
@@ -207,7 +205,9 @@ class PinFriction(SlidingFriction):
     def torques(
         self, tau: Floats, transmission: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
     ) -> ContactTorques:
-        """Return the torques on driven link and from driver, from lever arms that are finite even at dead points."""
+        """Return the torque on the driven link and the torque supplied by the driver, from lever arms that are finite
+        even at dead points.
+        """
         del transmission
         # by the law of sines sin d = e sin S / rho, so the arm is r e |sin S| / rho^2
         arm = self.transmission.r * self.transmission.e * np.abs(np.sin(at.S)) / self.transmission._reach(at.S)[1]
@@ -234,9 +234,7 @@ class PairContact:
     """
     sense: int
     ratio: float
-    """Magnitude of the constant speed ratio (driven speed divided by driver speed), which is used if `source`
-    is None.
-    """
+    """Magnitude of the constant speed ratio (driven to driver speed), which is used if `source` is None."""
     losses: ContactLosses
     source: PairErrorSource | None = None
     """Source of the transmission error; None for a pair with constant ratio, which is not evaluated at positions."""

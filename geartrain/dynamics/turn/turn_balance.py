@@ -45,9 +45,7 @@ class ColumnPieces:
     """Coefficients of one unknown torque in the rows of the balance at n positions, for each sign of the torque."""
 
     pieces: Mapping[int, Mapping[int, Floats]]
-    """Coefficients of shape (n,), by side and row. The side is the sign of the torque, 1 or -1, or 0 if the sign has no
-    effect.
-    """
+    """Coefficients of shape (n,), by side and row. The side is the sign of the torque, or 0 if it has no effect."""
     barred: Mapping[int, Bools]
     """Boolean mask of the positions at which the torque must be 0, by side."""
 
@@ -191,7 +189,7 @@ def _eliminated(
 
 
 def _iterated(own: Sequence[ColumnPieces], block: Block, layer: BalanceLayer) -> list[_Trial]:
-    """Return solutions of one block, found by iteration: the signs of the torques in one round are assumed in the next."""
+    """Return solutions of one block, found by iteration: each round assumes the signs of the torques of the last."""
     patterns = {tuple(each.sides[0] for each in own): None}
     found: list[_Trial] = []
     left = layer.valid.copy()
@@ -260,9 +258,7 @@ class PositionTorques(NamedTuple):
     valid: Bools
     """Boolean mask of the positions at which a solution balances the loads. `layers` is the number of solutions."""
     unresolved: Bools
-    """Boolean mask of the positions at which a link rests within its backlash, or at which no choice of flanks is
-    consistent with the torques.
-    """
+    """Boolean mask of positions at which a link rests within its backlash, or no flanks agree with the torques."""
     layers: Floats
     torque: Floats
     """Unknown torque on each requested link in the solution with minimum loss, shape (requested, n)."""
@@ -282,9 +278,7 @@ class PositionTorques(NamedTuple):
     pressed: Floats
     """Multiplier of each pair, shape (pairs, n); it is positive if the drive flanks are in contact."""
     turning: Floats
-    """Speed of each pair's driver in its mean sense of rotation, divided by the speed of the input, shape
-    (pairs, n).
-    """
+    """Speed of each pair's driver in its mean sense, divided by the input speed, shape (pairs, n)."""
     slipping: Floats
     """Speed of each bearing divided by the speed of the input, shape (bearings, n)."""
     kinks: Floats
@@ -576,7 +570,7 @@ class TurnBalance:
         return found
 
     def _for_planet(self, name: str, force: PairForce) -> tuple[Floats, Floats]:
-        """Return the torques on both links of pair `name`, given those of the first pair with the same unknown torque."""
+        """Return the torques on both links of pair `name`, given those of the first pair with the same unknown."""
         alike, signs = self.relation_to_first[name]
         first, second = (force.first, force.second) if alike else (force.second, force.first)
         return signs[0] * first, signs[1] * second

@@ -56,7 +56,7 @@ class RunCells:
 
     @property
     def turns(self) -> Floats:
-        """Input positions in all cells, including both ends of each cell [revolutions], shape (cells times `NODES`,)."""
+        """Input positions in all cells, including both ends of a cell [revolutions], shape (cells times `NODES`,)."""
         share = np.arange(NODES) / (NODES - 1)
         found = self.low[:, None] + (self.high - self.low)[:, None] * share
         found[:, -1] = self.high
@@ -148,7 +148,7 @@ class TurnRun:
 
     @cached_property
     def kinks(self) -> Floats:
-        """Positions of kinks [revolutions] for the sets of pairs that most often touch on their coast flanks together."""
+        """Positions of kinks [revolutions] for the most frequent sets of pairs that touch on their coast flanks."""
         train = self.train
         # flanks in contact at a few positions: their functions' kinks are searched exactly
         even = train.at(np.linspace(0.0, self.span, min(self.samples, _PROBES)))
@@ -268,7 +268,7 @@ class RunScales:
 
     @classmethod
     def of(cls, found: PositionTorques) -> RunScales:
-        """Return the scales that follow from the torques and powers at some positions."""
+        """Return the maximum torque of a pair and the maximum external power at some positions."""
         pressed = np.where(found.valid, np.abs(found.pressed), 0.0)
         return cls(float(np.max(pressed, initial=0.0)), float(np.nanmax(np.abs(found.powers), initial=0.0)))
 

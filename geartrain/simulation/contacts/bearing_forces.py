@@ -97,9 +97,6 @@ class BearingForces:
         rows = [row for row, link in enumerate(links) if self._declared(link) in of_link]
         found = [of_link[self._declared(links[row])] for row in rows]
         constant = self.constant[rows]
-        """Constant force on each support [N], from weights of links and the cord of a driving weight, shape (supports,
-        3).
-        """
         ways = loads.ways(links[row] for row in rows)[:, :, 0]
         return LoadedBearings(
             np.array([contact[self.pairs[force.name]] for force in forces], dtype=np.int64),
@@ -127,7 +124,9 @@ class BearingForces:
 
     @cached_property
     def constant(self) -> Floats:
-        """Weights on each support plus the pull of the line of a driving weight [N], shape (supports, 3)."""
+        """Constant force on each support [N], from weights of links and the cord of a driving weight, shape (supports,
+        3).
+        """
         found = self.loads.weights[:, :, 0].copy()
         for at, force in enumerate(self.loads.forces):
             if force.links[0] is None and self.drive.kind == "torque":

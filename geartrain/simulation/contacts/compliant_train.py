@@ -29,9 +29,7 @@ if TYPE_CHECKING:
 
 
 DAMPING_RATIO = 0.05
-"""Damping ratio [1] of a pair for which neither damping nor restitution is declared. It is typical of measurements on
-spur gears.
-"""
+"""Damping ratio [1] of a pair without declared damping and restitution, typical of tests on spur gears."""
 
 # minimum restitution: at large damping it falls with the square of the damping ratio and never reaches 0
 _MINIMUM = 0.05

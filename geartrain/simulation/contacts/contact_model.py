@@ -60,7 +60,9 @@ class ContactPair:
         return self.front is self.back
 
     def opening_row(self, n: int, ratio: float) -> Floats:
-        """Return the coefficients of the n coordinate speeds in the pair's opening speed, at a speed ratio."""
+        """Return the coefficients by which n coordinate speeds give the separation speed of the pair's flanks, for one
+        speed ratio.
+        """
         return _dense(self.driven, n) - ratio * _dense(self.driver, n)
 
 

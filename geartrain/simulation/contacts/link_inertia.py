@@ -33,9 +33,7 @@ class LinkInertia(Result):
     For a sliding link, it gives the same kinetic energy if a travel of 1 mm is treated as one turn.
     """
     source: Literal["declared", "outlines", "unknown"]
-    """Source of the moment of inertia of the link without its planets: declaration, outlines of its wheels,
-    or unknown.
-    """
+    """Source of the moment of inertia without the planets: declaration, outlines of the wheels, or unknown."""
     carried: float = 0.0
     """Part of `value` that is due to the masses of carried planets [kg m2]."""
     missing: tuple[str, ...] = ()

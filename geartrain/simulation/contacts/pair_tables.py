@@ -29,9 +29,7 @@ class PairTables(NamedTuple):
     period: Floats
     """Period of each function in the driver angle [rad]."""
     slope: Floats
-    """Mean slope of each function, which is the factor of the driver angle in its linear part; 0 if the function is not
-    an angle.
-    """
+    """Mean slope of each function (factor of the driver angle); 0 if the function is not an angle."""
     cells: Ints
     """Number of uniform cells in the period of each function. `start` contains the index in `first` of its
     first cell.

@@ -28,9 +28,7 @@ if TYPE_CHECKING:
 
 _ROUGH = 1e-4  # relative tolerance of friction terms that are interpolated between nodes
 Arms = tuple[TabledFunction, TabledFunction, TabledFunction, TabledFunction]
-"""Tables of the friction terms: drive flank in forward and in backward rotation, then coast flank in forward and in
-backward rotation.
-"""
+"""Tables of the friction terms: drive flank in forward and backward rotation, then coast flank likewise."""
 
 
 def tooth_arms(mesh: GearMesh) -> Arms | None:

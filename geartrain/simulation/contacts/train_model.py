@@ -170,7 +170,7 @@ class TrainModel:
 
     @cached_property
     def _efficiencies(self) -> Mapping[str, Any]:
-        """Declared efficiency of each gear pair and of each Willis equation of a coupling, by name; None if undeclared."""
+        """Declared efficiency of each gear pair and of each Willis equation of a coupling, by name; else None."""
         gears = {gear.name: gear.efficiency for gear in self.train.gears}
         return gears | {name: each.efficiency for each in self.train.couplings for name in each.row_names}
 

@@ -352,7 +352,7 @@ def find_shift(system: ContactSystem, here: StepEquations, minimum: float) -> fl
 
 @kernel
 def find_stop_bounds(system: ContactSystem, state: ContactState, here: StepEquations, step: float) -> None:
-    """Compute the maximum speed [rad/s] at which each stopped link can reach its stop or rebounds from it."""
+    """Compute the maximum speed [rad/s] of each link with stops, at which it just reaches its stop or rebounds."""
     for stop in range(len(system.stop_pitch)):
         m = len(system.tables) + stop
         beats = floor((state.clock[0] + step / 2) / system.stop_beat[stop])

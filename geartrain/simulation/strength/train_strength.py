@@ -190,7 +190,7 @@ class StrengthQuestion:
 
     @cached_property
     def swings(self) -> Mapping[str, float]:
-        """Maximum torque of each pair, divided by its mean torque, in the requested revolutions, at least 1; by pair."""
+        """Maximum torque of each pair divided by its mean torque in the requested revolutions, 1 or more, by pair."""
         found = {}
         for circuit in self.setting.circuits:
             pair, maximum = self.torques.pairs.get(circuit.id), self.maximum.get(circuit.id)

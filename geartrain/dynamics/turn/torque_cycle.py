@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class TorqueExtreme(NamedTuple):
-    """Extreme value of the torque, and its position in the run."""
+    """Extreme value of the torque, and the position of the input at which it occurs."""
 
     torque: float
     """Torque at the requested link [N m, or a number without a unit]. It is positive if it drives the link in its mean
@@ -29,7 +29,7 @@ class TorqueExtreme(NamedTuple):
 
 
 class PlaceInRun(NamedTuple):
-    """Position in a run, in revolutions of the input and in days."""
+    """Position of the input since the start of the evaluated range, in revolutions and in days."""
 
     turns: float
     """Revolutions of the input since the beginning of the run."""
@@ -103,7 +103,7 @@ class CycleEnergy(Result):
 
 @dataclass(frozen=True)
 class PairCycle(Result):
-    """Energy loss, energy input and maximum torque of one gear pair, coupling or bearing over a run."""
+    """Energy loss, energy input and maximum torque of one gear pair, coupling or bearing over several revolutions."""
 
     kind: str
     """Kind of the pair: `mesh`, `pin` or `bearing`."""

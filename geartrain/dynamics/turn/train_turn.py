@@ -310,7 +310,7 @@ class _RunResults:
         return None if extreme is None else TorqueExtreme(extreme[1], *self._place(extreme[0]))
 
     def _energy(self, parts: Mapping[str, PairCycle]) -> CycleEnergy:
-        """Return the energies over the run [J, or rad if torques are numbers without a unit]."""
+        """Return the energies over the evaluated revolutions [J, or rad if torques are numbers without a unit]."""
         found, requested = self.run.found, len(self.run.train.requested)
         # powers are divided by the speed of the input, so the integral is over its angle in radians
         weights = self.run.cells.weights * 2 * np.pi
@@ -345,12 +345,12 @@ class _RunResults:
 
     @property
     def _closes(self) -> bool:
-        """True if the length of the run is an integer number of periods."""
+        """True if the evaluated revolutions of the input are an integer number of periods."""
         period = self.run.train.motion.period
         return period is None or (self.run.span / float(period)) % 1 == 0
 
     def _held(self) -> float:
-        """Return the fraction of the run in which loads and unknown torques both supply power."""
+        """Return the fraction of the revolutions in which loads and unknown torques both supply power."""
         found, requested = self.run.found, len(self.run.train.requested)
         driving, loading = found.powers[:requested].sum(axis=0), found.powers[requested:].sum(axis=0)
         minimum = FAINT * np.nanmax(np.abs(found.powers), initial=0.0)

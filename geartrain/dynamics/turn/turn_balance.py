@@ -251,7 +251,7 @@ _CHUNK = 8192  # positions evaluated at once, to bound the memory
 
 
 class PositionTorques(NamedTuple):
-    """Torques at n positions, the last axis of all arrays; powers are divided by the speed of the input."""
+    """Torques and powers at n positions of the input. Powers are divided by the speed of the input."""
 
     turns: Floats
     """Positions of the input [revolutions], shape (n,)."""

@@ -140,7 +140,7 @@ def find_kinks(signs_at: Callable[[Floats], Ints], cells: RunCells, signs: Ints)
 
 @dataclass
 class TurnRun:
-    """Run of `train` over `span` revolutions of the input, with at least `samples` positions."""
+    """Torques of `train` at no fewer than `samples` positions over `span` revolutions of the input."""
 
     train: TurnBalance
     span: float
@@ -171,7 +171,7 @@ class TurnRun:
 
     @cached_property
     def _refined(self) -> tuple[RunCells, PositionTorques]:
-        """Refined cells of the run in order, with kinks at their ends, and the torques at their positions."""
+        """Refined cells in ascending order, with kinks at their ends, and the torques at their positions."""
         cells = run_cells(self.span, max(1, self.samples // NODES), self.kinks, self.narrowest)
         found = self.train.at(cells.requested)
         # signs and tolerances refer to the scales of the initial cells, so that refinement does not change them
@@ -222,7 +222,7 @@ class TurnRun:
 
     @property
     def cells(self) -> RunCells:
-        """Refined cells of the run."""
+        """Cells of the evaluated revolutions after refinement."""
         return self._refined[0]
 
     @property
@@ -248,12 +248,12 @@ class TurnRun:
         ).astype(np.int64)
 
     def share(self, where: Bools) -> float:
-        """Return the fraction of the run that the selected positions represent."""
+        """Return the fraction of the evaluated revolutions that the selected positions represent."""
         return float(self.cells.weights @ where) / self.span
 
     @cached_property
     def standing(self) -> PositionTorques:
-        """Torques at the positions of the run if static friction acts."""
+        """Torques at the positions of the refined cells if static friction acts."""
         return self.train.at(self.cells.requested, static=True) if self.train.starts_harder else self.found
 
 

@@ -96,7 +96,7 @@ class BearingLoads:
 
     @property
     def missing(self) -> Mapping[str, Sequence[str]]:
-        """Names of the pairs and cords whose forces on these bearings are unknown, grouped by the remedy."""
+        """Names of the pairs and cords with unknown forces on these bearings, by the reason or the remedy."""
         _ = self.forces  # lists the pairs
         return self._left_out
 

@@ -147,8 +147,8 @@ class _Decision:
         return [each for each in self._patterns.values() if each.moves]
 
     def _contradictory(self) -> ClutchPattern:
-        """Return a set of holding clutches whose speeds are contradictory, if possible one in which no clutch slips in
-        the wrong sense.
+        """Return a set of holding clutches whose speeds are contradictory, if possible the clutches that would
+        otherwise slip in the wrong sense.
         """
         pattern = self._patterns[()]
         while pattern.setting is not None and pattern.stopped:

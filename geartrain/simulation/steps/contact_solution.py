@@ -40,7 +40,7 @@ IMPACT_COLUMNS = 5
 
 
 class ContactState(NamedTuple):
-    """State of a simulated train, which the kernels modify in place. The contacts are the pairs, followed by the stops."""
+    """State of a simulated train, which the kernels modify in place. Contacts are the pairs, then the stops."""
 
     clock: Floats
     """Simulated time [s] and number of the time step."""

@@ -89,9 +89,7 @@ class Timekeeping(Result):
     amplitude: float | None
     """Amplitude of the pendulum, which is half of its total arc [rad]; None if it is not known."""
     minimum_torque: float | None
-    """Minimum torque [N m] or force [N] at `source` for which the pendulum reaches the declared `arc`; None if it
-    cannot be determined.
-    """
+    """Minimum torque [N m] or force [N] at `source` with which the pendulum reaches its `arc`; None if unknown."""
     minimum_weight: float | None
     """Mass of the weight that exerts the minimum torque [kg]; None if it cannot be determined."""
     descent: float | None
@@ -103,9 +101,7 @@ class Timekeeping(Result):
     escapement: float | None
     """Rate error due to the impulses of the escapement [s/d]; None if it cannot be determined."""
     thermal: float | None
-    """Rate error per kelvin due to the thermal expansion of the pendulum rod [s/d/K]; None if it cannot be
-    determined.
-    """
+    """Rate error per kelvin due to thermal expansion of the pendulum rod [s/d/K]; None if it cannot be determined."""
 
     @property
     def goes(self) -> bool | None:
@@ -118,8 +114,8 @@ class Timekeeping(Result):
 
 
 def find_timekeeping(setting: LoadCase) -> Timekeeping | None:
-    """Return the energy, amplitude and rate errors of a clock. Return None if there is no escapement, or no drive or
-    load with a unit from which the torque at the escape wheel follows.
+    """Return the energy, amplitude and rate errors of a clock; None if no escapement is declared, or if the torque or
+    the speed at the escape wheel is unknown.
     """
     escapement, case = setting.train.escapement, setting.case
     found = None if escapement is None else escapement_torques(setting)

@@ -22,8 +22,8 @@ class _Place(NamedTuple):
 
 
 def find_modules(declared: Train) -> Mapping[str, float]:
-    """Return the transverse module of each wheel [m], by wheel, if the wheel declares a module with a unit or meshes
-    connect it to such a wheel.
+    """Return transverse modules [m] by name of the wheel. A wheel without a declared module has the module of the
+    wheels with which it meshes; wheels of unknown module are omitted.
     """
     found = {
         name: wheel.transverse_module
@@ -72,7 +72,9 @@ def not_cut(wheel: str, problem: Problem) -> Problem:
 
 
 def _places(declared: Train) -> Mapping[str, _Place]:
-    """Return a nominal placement of each wheel: module 1 mm, and a cone angle that is 0 only for plane teeth."""
+    """Return assumed dimensions of each wheel, by name: a module of 1 mm, and a cone angle of 0 for plane teeth or 1
+    rad for all other teeth.
+    """
     bevels = {name for name, (_, wheel) in declared.wheels.items() if wheel.kind == "bevel"}
     meshing = {name for gear in declared.gears if not bevels.isdisjoint(gear.pair) for name in gear.pair}
     return {

@@ -99,7 +99,7 @@ def all_meshes(meshes: Mapping[str, GearMesh]) -> tuple[GearMesh, ...]:
 
 
 def _meshing_wheels(train: Train, gear: GearPair, place: str) -> MeshingWheels:
-    """Return the two wheels of a gear pair with the data from which tooth forms compute teeth, such as tooth counts."""
+    """Return tooth counts, kinds, dimensions and friction of the wheels of a pair, which is declared at `place`."""
     first, second = wheels = [train.wheels[name][1] for name in gear.pair]
     friction = train.friction_of(gear)
     kinds = ["helical" if wheel.is_helical else wheel.kind for wheel in wheels]
@@ -163,7 +163,7 @@ def find_outlines(meshes: Sequence[GearMesh]) -> dict[str, PairOutline]:
 
 
 def _in_order(meshes: Iterable[GearMesh]) -> Iterator[GearMesh]:
-    """Yield the gear meshes in breadth-first order, in which each mesh shares a wheel with an earlier one if it can."""
+    """Yield the meshes breadth-first: each, except the first of a connected set, shares a wheel with an earlier one."""
     at: dict[str, list[GearMesh]] = {}
     for mesh in (meshes := tuple(meshes)):
         for wheel in mesh.gear.pair:

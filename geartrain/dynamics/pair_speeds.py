@@ -72,7 +72,9 @@ def at_speed(mesh: GearMesh, speed: float | None) -> GearMesh:
 
 
 def at_own_speeds(meshes: Sequence[GearMesh], setting: LoadCase | None) -> tuple[GearMesh, ...]:
-    """Return the meshes with the friction coefficients at their pitch-line speeds, if these speeds are known."""
+    """Return the meshes with the friction coefficients at their pitch-line speeds, or without a coefficient if the
+    friction law needs a speed that is unknown.
+    """
     if setting is None:
         return tuple(meshes)
     circuits = {circuit.id: circuit for circuit in setting.circuits}

@@ -25,9 +25,7 @@ if TYPE_CHECKING:
     from geartrain.train import StateCase, Train
 
 DrivenWays = Mapping[str, Sequence[tuple["GearMesh", tuple[str, ...]]]]
-"""Driving directions of each pair, by name of the pair. Each is a mesh with the names of the states in which it
-occurs.
-"""
+"""Mesh for each wheel that drives a pair in some state, with the names of these states, by name of the pair."""
 
 
 @final
@@ -119,10 +117,10 @@ class TrainMechanics(Shown):
 
     @cached_property
     def driven_ways(self) -> DrivenWays:
-        """Driving directions of every pair with a declared tooth form, with the names of the states in which they
-        occur.
+        """Pairs with a declared tooth form, by name: for each wheel that drives in some state, the mesh and the names
+        of these states.
 
-        If the driver of a pair is undetermined, both directions are included.
+        If the driver of a pair is undetermined, both wheels are included.
         """
         found: dict[str, dict[str, tuple[GearMesh, tuple[str, ...]]]] = {mesh.name: {} for mesh in self.teeth}
         for state in self.kinematics.usable_states:

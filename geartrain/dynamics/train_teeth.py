@@ -45,7 +45,7 @@ STANDARD = "standard"
 
 
 class ToothingPlace(Protocol):
-    """Protocol of a placed wheel: module [mm] and half angle of the pitch cone [rad], which determine its teeth."""
+    """Protocol of an object that gives the module [mm] and the pitch cone angle [rad] of a wheel."""
 
     @property
     def module(self) -> float:
@@ -78,9 +78,7 @@ class TrainTeeth:
     """Teeth of each wheel that has teeth, by name. `problems` contains the reasons why other wheels have no teeth."""
     problems: Mapping[str, tuple[Problem, ...]]
     approximations: Mapping[str, WheelTeeth]
-    """Approximate teeth of each wheel whose pairs require different teeth, by name. They are cut to suit the first pair
-    of the wheel.
-    """
+    """Teeth, cut to suit its first pair, of each wheel whose pairs require different teeth, by name."""
     flat: frozenset[str]
     """Names of the wheels whose teeth are straight and in one plane."""
     backlashes: tuple[PairBacklash, ...]
@@ -186,8 +184,8 @@ class _Toothing:
     def _standard_pair(
         self, first: tuple[UndeclaredWheel, StandardTeeth], second: tuple[UndeclaredWheel, StandardTeeth], name: str
     ) -> tuple[Involute, WheelPair, int]:
-        """Return the standard tooth form of two wheels, their wheel pair, in which a ring gear is the second wheel, and
-        the position (1 or 2) of `first` in this pair.
+        """Return the standard tooth form of two wheels, the pair that they form (a ring gear is its second wheel), and
+        the position of `first` in this pair, 1 or 2.
         """
         (one, teeth), (other, its) = (second, first) if first[0].internal else (first, second)
         form = standard_form(teeth, its, self._standard_backlash(name))
@@ -224,7 +222,9 @@ class _Toothing:
         return TrainTeeth(found, problems, approximations, flat, tuple(self._backlashes(found)))
 
     def requirements(self, name: str) -> list[PairRequirement]:
-        """Return the teeth that each pair of a wheel requires. Raise `GearTrainError` if they cannot be cut."""
+        """Return the teeth of a wheel that each of its pairs requires. Raise `GearTrainError` if the teeth cannot be
+        cut, or if they have no plane outline.
+        """
         wheel, place = self._wheel(name), self.places[name]
         if not self._is_flat(name):
             kind = wheel.kind if wheel.kind != "spur" else "bevel" if place.cone else "worm wheel"
@@ -287,8 +287,8 @@ class _Toothing:
                 yield PairBacklash(gear.name, gear.pair, arc * size, angles, *self._contact(gear))
 
     def _contact(self, gear: GearPair) -> tuple[float | None, str]:
-        """Return the contact ratio of a pair of conjugate teeth, and advice on how to increase it. The ratio is None
-        for other teeth, and for pairs at a different centre distance than designed.
+        """Return the contact ratio of a pair, and advice on how to increase it. The ratio is None for teeth that are
+        not conjugate, and for teeth at another centre distance than designed.
         """
         mesh = self._mesh(gear)
         if gear.name in self.waves or gear.name in self.apart:

@@ -56,13 +56,11 @@ class PairErrorSource:
     sense: int
     """Sense of the driven link's mean motion relative to the carrier, 1 or -1."""
     set_back: float = 0.0
-    """Angle of the driver at position 0 that is due to the errors of other pairs [rad]. The positions of the driver's
-    teeth are measured from this angle.
-    """
+    """Advance of the driver at position 0 due to errors of other pairs [rad], which its tooth positions include."""
 
     @property
     def start(self) -> float:
-        """Angle of the driver at position 0 of the input without link errors, positive in its mean sense [rad]."""
+        """Driver angle at input position 0 without errors of other pairs, positive in the driver's mean sense [rad]."""
         return self.phase - self.set_back
 
     @property
@@ -86,20 +84,20 @@ def common_period(sources: Sequence[PairErrorSource]) -> Fraction | None:
 
 
 class CompositionStep(NamedTuple):
-    """Error sources that are solved together, given by index, because their drivers depend on each other."""
+    """Group of pairs whose transmission errors depend on one another and are computed together, or a single pair."""
 
     sources: tuple[int, ...]
     known: tuple[int, ...]
-    """Indices of the earlier sources on which the drivers of this step depend; `from_known` contains the coefficients,
+    """Indices of the earlier sources on which the drivers of this group depend; `from_known` contains the coefficients,
     shape (sources, known).
     """
     from_known: Floats
     own: Floats
-    """Change of each driver's angle per unit error of each source of the step [rad/rad], shape (sources, sources)."""
+    """Change of each driver's angle per unit error of each pair of the group [rad/rad], shape (sources, sources)."""
 
     @property
     def coupled(self) -> bool:
-        """True if the errors of these sources change the driver angles of the same sources."""
+        """True if errors of the pairs in the group change driver angles of pairs in the group."""
         return bool(self.own.any())
 
 
@@ -115,8 +113,8 @@ class SeenLink(NamedTuple):
     scale: float = 1.0
 
     def difference(self, values: Floats) -> float:
-        """Return the value of the link minus the value of its reference link, where `values` has a value for each link
-        about the link's own axis.
+        """Return a quantity of the link minus the same quantity of its reference link. `values` contains the quantity
+        for every link about the link's own axis.
         """
         return float(self.scale * (values[self.of] - self.sense * values[self.base]))
 
@@ -152,7 +150,9 @@ class ErrorSamples(NamedTuple):
 
 
 def evaluate(sampler: ErrorComposition | ErrorDifference, turns: Floats) -> ErrorSamples:
-    """Return the errors [rad] and rates [1] of the outputs at input positions [revolutions], in chunks."""
+    """Return the errors of the outputs [rad] and their speed deviations divided by the input speed [1] at input
+    positions `turns` [revolutions].
+    """
     parts = [sampler.at(turns[start : start + sampler.chunk]) for start in range(0, len(turns), sampler.chunk)]
     error, rate = (np.concatenate([part[column] for part in parts], axis=1) for column in (1, 2))
     return ErrorSamples(turns, error, rate, frozenset().union(*(part.reversing_drivers for part in parts)))
@@ -171,7 +171,9 @@ class ErrorDifference:
         return min(self.one.chunk, self.other.chunk)
 
     def at(self, turns: Floats) -> ErrorSamples:
-        """Return the differences of errors and rates at up to `chunk` input positions `turns` [revolutions]."""
+        """Return the difference between the two compositions in the errors of the outputs [rad] and in their speed
+        deviations divided by the input speed [1], at no more than `chunk` input positions `turns` [revolutions].
+        """
         one, other = self.one.at(turns), self.other.at(turns)
         both = one.reversing_drivers | other.reversing_drivers
         return ErrorSamples(turns, one.error - other.error, one.rate - other.rate, both)
@@ -179,7 +181,7 @@ class ErrorDifference:
 
 @dataclass
 class ErrorComposition:
-    """Composition of the error sources of a train, which gives the errors of the outputs at any input position."""
+    """Computation of the errors of the outputs at any input position from the error sources of a train."""
 
     spread: ErrorPropagation
     sources: tuple[PairErrorSource, ...]
@@ -205,7 +207,7 @@ class ErrorComposition:
 
     @cached_property
     def steps(self) -> tuple[CompositionStep, ...]:
-        """Steps in the order of solution, for the error sources on which an output depends."""
+        """Groups of the pairs on whose errors an output depends, in the order in which they are computed."""
         gains = self.gains[:, [source.pair for source in self.sources]]
         drivers = [np.flatnonzero(row).tolist() for row in gains]
         needed: set[int] = set()
@@ -230,8 +232,8 @@ class ErrorComposition:
         return tuple(self.sources[at] for step in self.steps for at in step.sources)
 
     def driver_shift(self, source: PairErrorSource, error: Floats) -> float:
-        """Return the change of a source's driver angle in its mean sense of rotation [rad] that is caused by the errors
-        of links in `error` [rad].
+        """Return the change of a source's driver angle that is caused by the link errors `error` [rad], shape (links,).
+        It is positive in the driver's mean sense of rotation [rad].
         """
         return float(sum(sign * error[link] for link, sign in self.turned_by(source)))
 
@@ -245,8 +247,8 @@ class ErrorComposition:
         return S
 
     def turned_by(self, source: PairErrorSource) -> tuple[tuple[int, int], tuple[int, int]]:
-        """Return the indices of the driver and of the carrier of an error source, each with the sign with which its
-        error changes the driver angle, equation (3) of docs/motion.md.
+        """Return the index of a source's driver and the index of its carrier, each with the sign (1 or -1) with which
+        the error of this link changes the driver angle, equation (3) of docs/motion.md.
         """
         joint = self.spread.joints[source.pair]
         return (
@@ -262,7 +264,9 @@ class ErrorComposition:
         return max(64, min(_CHUNK, _NUMBERS // (4 * (len(self.sources) + widest) + 1)))
 
     def at(self, turns: Floats) -> ErrorSamples:
-        """Return the errors [rad] and rates [1] of the outputs at up to `chunk` input positions [revolutions]."""
+        """Return the errors of the outputs [rad] and their speed deviations divided by the input speed [1] at no more
+        than `chunk` input positions `turns` [revolutions].
+        """
         phase = InputPhase(turns)
         error = np.zeros((len(self.sources), len(turns)))
         rate = np.zeros_like(error)
@@ -277,8 +281,8 @@ class ErrorComposition:
         return ErrorSamples(turns, found[0], found[1], reversing_drivers)
 
     def _take(self, step: CompositionStep, phase: InputPhase, error: Floats, rate: Floats) -> Iterator[str]:
-        """Compute the errors and speed deviations of the links driven by one group of sources, in place. Yield the
-        names of pairs whose driver turns against the sense of its mean speed.
+        """Compute the errors and speed deviations of the pairs in one group, and store them in the rows of `error` and
+        `rate`. Yield the names of the pairs whose driver turns against the sense of its mean speed.
         """
         own, known = list(step.sources), list(step.known)
         sources = [self.sources[at] for at in own]
@@ -313,8 +317,8 @@ class InputPhase:
         return split(self.turns)
 
     def cycles(self, ratio: Fraction) -> Floats:
-        """Return the positions multiplied by `ratio`, an exact number of periods per revolution [periods]. The result
-        is taken modulo 1 if it may exceed `PLAIN` periods.
+        """Return the input positions as numbers of periods, if there are `ratio` periods per revolution. The numbers
+        are taken modulo 1 if they may exceed `PLAIN`, beyond which a product of floats is too inaccurate.
 
         Dekker's product keeps the rounding error at the level of one period, even after 1e12 revolutions.
         """

@@ -40,7 +40,9 @@ _DEAD_CENTRE = "the motion is past a dead centre: an error turns its own driver 
 
 @dataclass(frozen=True)
 class CoupledErrors:
-    """Coupled pairs: their names, transmission functions, senses of the driven links, and the matrix `gain`."""
+    """Pairs whose transmission errors change one another's driver angles. `senses` contains the mean sense of rotation
+    (1 or -1) of each driven link.
+    """
 
     names: tuple[str, ...]
     transmissions: tuple[TransmissionFunction, ...]
@@ -63,13 +65,15 @@ class CoupledErrors:
         return error, slope
 
     def jacobian(self, slope: Floats) -> Floats:
-        """Return the Jacobian J = I - slope gain of equation (5) at each position, shape (n, pairs, pairs)."""
+        """Return the matrix I - s G at each position, equation (5) of docs/motion.md, shape (n, pairs, pairs), where I
+        is the unit matrix, s the derivatives `slope` of the errors, and G the matrix `gain`.
+        """
         return np.eye(len(self.transmissions)) - slope.T[:, :, None] * self.gain
 
 
 def solve_coupled_errors(pairs: CoupledErrors, base: Floats, turning: Floats) -> tuple[Floats, Floats, Floats]:
-    """Return the errors [rad], rates [1] and driver speeds [1] of coupled pairs, each of shape (pairs, n), given the
-    driver angles and speeds without these errors.
+    """Return the errors [rad], the speed deviations [1] and the driver speeds [1] of coupled pairs, each of shape
+    (pairs, n), given the driver angles and speeds without these errors. Speeds are divided by the speed of the input.
 
     base      driver angles [rad], shape (pairs, n)
     turning   driver speeds divided by the speed of the input [1], shape (pairs, n)
@@ -87,8 +91,8 @@ def solve_coupled_errors(pairs: CoupledErrors, base: Floats, turning: Floats) ->
 
 @np.errstate(invalid="ignore")  # inf - inf where nothing touches
 def _newton(pairs: CoupledErrors, base: Floats) -> tuple[Floats, Floats]:
-    """Return the errors of coupled pairs [rad] and the slopes of their transmission functions [1], found by Newton's
-    method with step halving.
+    """Return the errors of coupled pairs [rad] and the derivatives of the errors with respect to the driver angles [1],
+    found by Newton's method with step halving.
     """
     tolerance = _CONVERGED * (1 + np.max(np.abs(base), initial=0.0) + np.abs(pairs.gain).sum(axis=1).max())
     active = np.arange(base.shape[1])
@@ -123,8 +127,8 @@ def _newton(pairs: CoupledErrors, base: Floats) -> tuple[Floats, Floats]:
 
 @np.errstate(invalid="ignore")
 def _bisected(pairs: CoupledErrors, base: Floats, columns: Ints) -> tuple[Floats, Floats]:
-    """Return the error [rad] of a single pair and the slope of its transmission function [1], found by bisection. At a
-    jump of the function, the slope is 0; without contact of the teeth, the error is infinite.
+    """Return the error of a single pair [rad] and its derivative with respect to the driver angle [1], found by
+    bisection. The derivative is 0 where the error jumps; the error is infinite where the teeth do not touch.
     """
     if len(pairs.transmissions) > 1:
         raise _refusal(pairs.names, _NO_FIT)
@@ -141,8 +145,8 @@ def _bisected(pairs: CoupledErrors, base: Floats, columns: Ints) -> tuple[Floats
 
 
 def _stepped(matrices: Floats, right: Floats) -> Floats:
-    """Return the Newton step J^-1 r at each position, with the Jacobians `matrices` (J) and the residuals `right` (r);
-    0 where J is singular.
+    """Return the solution x of J x = r at each position for the Jacobians `matrices` (J) and the residuals `right` (r);
+    x is 0 where J is singular.
     """
     dead = _determinants(matrices) == 0
     if not dead.any():
@@ -154,7 +158,9 @@ def _stepped(matrices: Floats, right: Floats) -> Floats:
 
 
 def _solve_coupled(matrices: Floats, right: Floats) -> Floats:
-    """Return the solutions of n small systems of linear equations, as an array of shape (pairs, n)."""
+    """Return the solutions x of n small systems A x = b, with `matrices` (A) of shape (n, pairs, pairs); x and `right`
+    (b) have the shape (pairs, n).
+    """
     if len(right) == 1:  # the usual case; LAPACK would take half of the time of the motion
         return np.asarray(right / matrices[:, 0, 0])
     return np.ascontiguousarray(np.linalg.solve(matrices, right.T[:, :, None])[:, :, 0].T)
@@ -178,14 +184,12 @@ def _refusal(pairs: Sequence[str], why: str) -> GearTrainError:
 
 
 class ErrorPath(NamedTuple):
-    """Links of a pair through which its error propagates, and the coefficient of the driven link in its equation."""
+    """Links of one pair, by index, and the coefficient c of the driven link in equation (2) of docs/motion.md."""
 
     driver: int
     driven: int
     carrier: int
-    """Index of the link whose angle is subtracted from the driver's angle, which is usually the carrier of both
-    links.
-    """
+    """Index of the link whose angle is subtracted from the driver's angle; usually the carrier of both links."""
     coefficient: int
     driven_carrier: int
     """Index of the link whose angle is subtracted from the angle of the driven link."""
@@ -193,14 +197,12 @@ class ErrorPath(NamedTuple):
 
 @dataclass(frozen=True)
 class ErrorPropagation:
-    """Errors of links as linear combinations of the errors of pairs, with indices into `links` and `pairs`."""
+    """Errors of the links as linear combinations of the errors of the pairs. Indices refer to `links` and `pairs`."""
 
     links: tuple[str, ...]
     pairs: tuple[str, ...]
     joints: Mapping[int, ErrorPath]
-    """Links through which the error of each pair propagates, by index of the pair. They are determined on first
-    access.
-    """
+    """Links that determine the error of each pair, by index of the pair; they are determined on first access."""
     forms: Sequence[Mapping[int, Fraction]]
     """Error of each link per unit of the right-hand side c delta of each pair's equation (2), by index of the pair."""
     reached: frozenset[int]

@@ -32,8 +32,8 @@ _ROUNDS = 6  # rounds of subdivision: each narrows the interval by 4
 
 
 class _Candidates(NamedTuple):
-    """Intervals of the input positions in which an error or speed may exceed the maximum found so far: index of the
-    quantity, estimated maximum, and both ends of each interval.
+    """Intervals from `low` to `high` [revolutions] in which quantity number `sought` may exceed the maximum found so
+    far, because its estimated maximum in the interval is `promise`.
     """
 
     sought: Indices
@@ -42,11 +42,11 @@ class _Candidates(NamedTuple):
     high: Floats
 
     def chosen(self, which: Bools | Indices | slice) -> _Candidates:
-        """Return the selected candidates as a new object."""
+        """Return the intervals that a mask, an array of indices or a slice selects."""
         return _Candidates(self.sought[which], self.promise[which], self.low[which], self.high[which])
 
     def exceeding(self, maxima: Floats) -> _Candidates:
-        """Return the intervals with an estimate above the maximum found so far, one of several equal estimates."""
+        """Return the intervals whose estimated maximum exceeds the value in `maxima` for the same quantity."""
         return self.chosen(self.promise > (maxima + _tolerance(maxima))[self.sought])
 
 
@@ -98,7 +98,9 @@ def count_extremes(
 
 
 def pieces(searches: Sequence[KinkSearch], low: float, high: float, size: int) -> Iterator[tuple[Floats, Floats]]:
-    """Yield the ends of smooth pieces of the run [revolutions], moved slightly inwards, `size` pieces at a time."""
+    """Yield the two ends of each interval between kinks from `low` to `high` [revolutions], moved slightly inwards, in
+    arrays of `size` intervals.
+    """
     narrowest = min(searches, key=lambda each: each.step)
     for steps in narrowest.steps(low, high):
         kinks = [search.between(steps).turns for search in searches]
@@ -111,7 +113,7 @@ def pieces(searches: Sequence[KinkSearch], low: float, high: float, size: int) -
 
 
 def _promise(first: Floats, middle: Floats, last: Floats) -> Floats:
-    """Return an estimated upper bound on a smooth function in each interval, from its values at three positions."""
+    """Return an estimate of the maximum of a smooth function in each interval, from its values at three positions."""
     highest, lowest = (each.reduce([first, middle, last]) for each in (np.maximum, np.minimum))
     bend, rise = 2 * middle - first - last, np.abs(last - first)
     # vertex of the parabola through the three values, if it is between the ends
@@ -131,7 +133,7 @@ def _tolerance(maxima: Floats) -> Floats:
 
 
 def _locate(sampler: ErrorComposition | ErrorDifference, maxima: Floats, given: _Candidates) -> None:
-    """Replace each value in `maxima` by the maximum inside the candidate intervals if that is larger."""
+    """Replace each value in `maxima` by the maximum of its quantity inside the intervals `given`, if that is larger."""
     for _ in range(_ROUNDS):
         given = given.exceeding(maxima)
         rows = np.arange(len(given.sought))

@@ -60,7 +60,7 @@ class KinkPositions(NamedTuple):
 
 
 class InputSteps(NamedTuple):
-    """Steps of the input, from `low` to `high` [revolutions], both of shape (n,)."""
+    """Intervals of the input position, from `low` to `high` [revolutions], both of shape (n,)."""
 
     low: Floats
     high: Floats
@@ -68,7 +68,9 @@ class InputSteps(NamedTuple):
 
 @dataclass(frozen=True)
 class PairKinks:
-    """Kinks of the transmission function of the pair `source`, whose driver is the only output of `drivers`."""
+    """Kinks in the transmission function of one pair, `source`. The only output of `drivers` is the driver of this
+    pair.
+    """
 
     source: PairErrorSource
     drivers: ErrorComposition
@@ -92,10 +94,10 @@ class PairKinks:
         return way * found.error[0], self.source.mean + way * found.rate[0]
 
     def between(self, steps: InputSteps) -> Floats:
-        """Return the positions of kinks within the given steps [revolutions] and the indices of the kinks, shape (2,
-        n), in any order.
+        """Return an array of shape (2, n): the positions within `steps` at which the driver passes a kink
+        [revolutions], and the index of the kink that it passes. The columns are in any order.
 
-        A kink at the end of a step may be listed twice.
+        A kink at the end of an interval may be listed twice.
         """
         if not len(self.kinks) or not len(steps.low):
             return np.zeros((2, 0))
@@ -106,8 +108,8 @@ class PairKinks:
         return self._crossings(steps, low, high)
 
     def _cut_where_it_turns(self, steps: InputSteps, slowest: Floats) -> InputSteps:
-        """Return the intervals of the input, divided at the positions at which the driver of the pair reverses, which
-        are found by bisection.
+        """Return the intervals divided at the positions at which the pair's driver reverses, found by bisection.
+        `slowest` is the lower speed of the driver at both ends of each interval; only slow intervals are searched.
         """
         slow = slowest < _SLOW * self.source.mean
         ends = steps.low[slow, None] + (steps.high - steps.low)[slow, None] * (np.arange(_PARTS + 1) / _PARTS)
@@ -154,7 +156,9 @@ class PairKinks:
         return np.stack([steps.low[step] + share * width[step], kink])
 
     def unique(self, found: Floats) -> Floats:
-        """Return the positions from `between` in ascending order; kinks that were found twice are merged."""
+        """Return the result of `between` with the positions in ascending order and with kinks that were found twice
+        merged.
+        """
         turns, kink = found[:, np.lexsort(found)]
         same = _SAME / float(self.source.cycles) if self.source.cycles else 0.0
         again = (np.diff(turns, prepend=-np.inf) <= same) & (np.diff(kink, prepend=-1) == 0)
@@ -192,7 +196,9 @@ class KinkSearch:
         return 1 / (_STEPS * fastest) if fastest else np.inf
 
     def steps(self, start: float, end: float) -> Iterator[InputSteps]:
-        """Yield equal steps of the input between two positions [revolutions], no wider than `step`, in chunks."""
+        """Yield equal intervals between two positions of the input [revolutions], no wider than `step`, in groups that
+        fit in memory.
+        """
         number = max(_FEWEST, int(np.ceil((end - start) / self.step)))
         for first in range(0, number, self.composition.chunk):
             at = np.arange(first, min(first + self.composition.chunk, number) + 1)

@@ -88,7 +88,7 @@ class TransmissionErrorCurve(Tabular, Result):
 
     @cached_property
     def statistics(self) -> RunningStatistics:
-        """Peak values and moments of the output's transmission error and speed."""
+        """Extremes, mean and root mean square of the output's transmission error, and extremes of its speed."""
         found = RunningStatistics(self.name, self.ratio, slides=self.slides)
         found.add(self.error, self.speed - self.mean)
         return found
@@ -176,7 +176,7 @@ class Motion(Shown):
         return self._errors.spread
 
     def _path(self, pair: str) -> ErrorPath:
-        """Return the links through which a pair's error propagates. Raise `QuestionError` for a redundant pair."""
+        """Return the links of a pair that determine its error. Raise `QuestionError` for a redundant pair."""
         if pair in self._propagation.pairs:
             return self._propagation.joints[self._propagation.pairs.index(pair)]
         why = (
@@ -192,12 +192,12 @@ class Motion(Shown):
         return self._composed(1)
 
     def _with_sources(self, pairs: Collection[str]) -> ErrorComposition:
-        """Return the composition for the declared sense of the input that also evaluates the given pairs."""
+        """Return the error composition for the declared sense of the input that also evaluates the given pairs."""
         return self._composed(1, pairs)
 
     @cached_property
     def _unset(self) -> ErrorComposition:
-        """Error composition in which no output is set to the error 0 at position 0 of the input."""
+        """Error composition with the original output errors, which need not be 0 at position 0 of the input."""
         return replace(self._forward, offsets=())
 
     @cached_property
@@ -218,15 +218,15 @@ class Motion(Shown):
         )
 
     def _composed(self, way: int, besides: Collection[str] = ()) -> ErrorComposition:
-        """Return the error composition for one sense of the input, 1 (declared) or -1, in which the pairs `besides` are
-        also evaluated at each position. At position 0, the error of every output is 0.
+        """Return the error composition for the declared (`way` 1) or the opposite (`way` -1) sense of the input. The
+        error of every output is 0 at position 0. The pairs `besides` are evaluated even if no output depends on them.
         """
         backlash, (teeth, pins) = self._errors.backlash(way), self._start
         found = ErrorComposition(self._errors.spread, tuple(self._errors.sources(way, besides)), self._seen)
         for step in found.steps:
             jumping = [found.sources[at].id for at in step.sources if found.sources[at].transmission.at_once]
             if step.coupled and jumping:
-                what = f"the step of '{jumping[0]}' turns its own driver"
+                what = f"the instantaneous step of '{jumping[0]}' turns its own driver"
                 why = "an instantaneous step does not define the position of the driver during the step"
                 raise GearTrainError(Problem(what, why, "give `over`, or let the driver of the coupling be the input"))
         sources = tuple(
@@ -242,8 +242,8 @@ class Motion(Shown):
 
     @cached_property
     def _start(self) -> tuple[Floats, Floats]:
-        """Angles [rad] by which the errors of teeth turn each link at position 0 of the input, and angles by which the
-        errors of pins turn it.
+        """Errors of the links at position 0 of the input [rad], shape (links,): those that gear pairs cause, and those
+        that couplings with a variable ratio cause.
         """
         deltas = np.zeros((len(self._errors.spread.pairs), 2))
         pins = {joint.coupling.name for joint in self._problem.couplings}
@@ -349,8 +349,8 @@ class Motion(Shown):
         return self._forward if turns >= 0 else self._backward
 
     def _sampler(self, turns: float) -> ErrorComposition | ErrorDifference:
-        """Return the object that evaluates the output errors at given positions: an error composition, or the
-        difference between real and ideal teeth.
+        """Return the object that computes the output errors at given positions: an error composition, or the difference
+        between two compositions if the errors of ideal teeth are subtracted.
         """
         own = self._composition(turns)
         return own if self._ideal is None else ErrorDifference(own, self._ideal._composition(turns))
@@ -483,8 +483,8 @@ class Motion(Shown):
         return self._of((output,)).transmission_errors(turns, samples)[output]
 
     def run(self, turns: float = 20.0, samples: int = 200_000) -> Any:
-        """Compute the motion over a number of revolutions of the input, and the peak values and moments of each
-        output's error and speed.
+        """Compute the motion over a number of revolutions of the input, with the extremes, mean and root mean square of
+        each output's error, and the extremes of its speed.
 
         Parameters
         ----------

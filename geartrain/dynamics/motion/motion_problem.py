@@ -67,8 +67,10 @@ class MotionProblem:
     def without_steps(
         self, outputs: Mapping[str, tuple[str, str]], requested: Collection[str] = ()
     ) -> dict[str, tuple[str, str]]:
-        """Return the outputs that do not depend on the stepped link. If there are no such outputs, return the links
-        that drive the stepped link.
+        """Return the outputs that do not depend on a link that one-way clutches drive in steps. If there are no such
+        outputs, return the links that drive this link.
+
+        Raise `QuestionError` if an output depends on such a link and outputs were `requested`.
         """
         kept = {name: ends for name, ends in outputs.items() if self.behind.isdisjoint(ends)}
         if requested and (left := outputs.keys() - kept.keys()):
@@ -91,7 +93,7 @@ class MotionProblem:
 
     @property
     def way(self) -> int:
-        """Sign of the driving link's speed about its own axis; its angles are positive in its sense of rotation."""
+        """Sense of rotation of the driving link about its own axis, 1 or -1. Angles of the link are positive in it."""
         return -1 if self.speeds[self.driving_link] < 0 else 1
 
     def ratio(self, link: str) -> Fraction:
@@ -112,8 +114,8 @@ class MotionProblem:
         return self.signs.get(link, 1) * self.seen_ratio(link, carrier)
 
     def placed_by(self, pair: str) -> tuple[str, bool] | None:
-        """Return the pair that drives the driver of `pair` and thereby determines its phase, with the flag of this pair
-        in `shared`; None if there is no such pair.
+        """Return the pair that drives the driver of `pair` and thereby determines the phase of `pair`, and True if the
+        contacts of both pairs are on opposite sides of this wheel; None if there is no such pair.
         """
         if pair not in self.drivers:
             return None
@@ -137,8 +139,8 @@ class MotionProblem:
         return [mesh for mesh in self.teeth if mesh.rigid]
 
     def contradictions(self) -> list[tuple[Loop, list[str]]]:
-        """Return the loops closed by redundant pairs around which the transmission errors vary, each with the names of
-        the pairs that cause these errors.
+        """Return the loops closed by redundant pairs in which the speed ratio of at least one pair varies, each with
+        the names of the pairs whose ratio varies.
         """
         found = []
         for loop in self.loops:
@@ -200,10 +202,11 @@ def find_motion_problem(
 
 
 def find_shared_wheels(circuits: Sequence[Circuit], tree: Tree) -> dict[tuple[str, str], list[tuple[str, bool]]]:
-    """Return, for each pair of a wheel that has several coaxial mates, the other pairs that share its line of centres.
+    """Return the other pairs that share the line of centres of a pair at one of its wheels, by names of the pair and
+    the wheel.
 
-    An example is a planet between a sun and a ring. The flag is True if the two contacts are on opposite sides of the
-    wheel, which is the case if one mate is a ring.
+    Examples are the pairs of a planet with a sun and with a ring. The flag of another pair is True if the two contacts
+    are on opposite sides of the wheel, which is the case if one mate is a ring.
     """
     of_wheel: dict[str, list[tuple[Circuit, str]]] = {}
     for circuit in circuits:

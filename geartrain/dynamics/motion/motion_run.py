@@ -92,8 +92,8 @@ def find_spectrum(
 
 
 def _harmonics(superposed: Superposition, at: int) -> Complex:
-    """Return the complex amplitudes of the error of pair number `at` at harmonics 1, 2, ... of its period [rad]. The
-    phases refer to position 0 of the input.
+    """Return the complex amplitudes [rad] of harmonics 1, 2, ... of the periodic error of pair number `at`, with phases
+    that refer to position 0 of the input.
     """
     source = superposed.sources[at]
     pitches = source.transmission.pitch_count
@@ -166,8 +166,7 @@ MOST_TURNS = 10**12
 
 @dataclass
 class MotionRun(Tabular, Pictured):
-    """Evaluation of a motion at input positions from 0 to `turns`; each result is computed when its method
-    is called.
+    """Evaluation of a motion at input positions from 0 to `turns` revolutions.
 
     The methods `run`, `run_random_phases` and `find_spectra` compute the results.
 
@@ -215,9 +214,9 @@ class MotionRun(Tabular, Pictured):
     samples: int
     """Number of positions, 2 or more, including both ends of the run."""
     statistics: list[RunningStatistics] = field(default_factory=list)
-    """Peak values and moments of each output's error and speed."""
+    """Extremes, mean and root mean square of each output's error, and extremes of its speed."""
     phase_statistics: list[list[RunningStatistics]] = field(default_factory=list)
-    """Peak values and moments of each output's error and speed, for each set of random phases."""
+    """Extremes, mean and root mean square of each output's error for each set of random phases."""
     seed: int | None = None
     """Random seed for the phases; None if no random phases were used."""
     spectra: dict[str, list[SpectrumLine]] = field(default_factory=dict)
@@ -225,9 +224,7 @@ class MotionRun(Tabular, Pictured):
     done: int = 0
     """Number of positions evaluated so far; it is less than `samples` after an interrupted run."""
     reversing_drivers: set[str] = field(default_factory=set)
-    """Names of pairs whose driver temporarily turned against its mean sense of rotation; the backlash of these
-    pairs is not modelled.
-    """
+    """Names of pairs whose driver temporarily turned against its mean sense; their backlash is not modelled."""
 
     def __post_init__(self) -> None:
         if not abs(self.turns) <= MOST_TURNS:
@@ -343,8 +340,9 @@ class MotionRun(Tabular, Pictured):
         return ["turns", *(f"{name} {what}" for name, heads in units for what in heads)]
 
     def _values(self, passage: ErrorSamples) -> list[Floats]:
-        """Return the columns of a table of positions: revolutions of the input, then the angle [rad], the error [rad]
-        and the relative speed [1] of each output; for a sliding output its travel [mm], error [mm] and speed [mm/turn].
+        """Return the columns of a table of positions: revolutions of the input, and, for each output, its angle [rad],
+        error [rad] and speed divided by the input speed [1], or its travel [mm], error [mm] and speed [mm/turn] if it
+        slides.
         """
         found = [passage.turns]
         for at, (tally, start) in enumerate(zip(self.motion._statistics(), self.motion._start_angles, strict=True)):

@@ -48,7 +48,7 @@ class PairErrors:
 
     @cached_property
     def spread(self) -> ErrorPropagation:
-        """Propagation of the errors of pairs to the requested links."""
+        """Errors of the requested links as linear combinations of the errors of pairs."""
         held = {row.label for row in self.train.system.equations}
         circuits = {circuit.id: circuit for circuit in self.train.circuits if circuit.id in held}
         ends = {
@@ -78,10 +78,11 @@ class PairErrors:
         return ErrorPath(ends[1 - driven], ends[driven], bases[1 - driven], coefficient, bases[driven])
 
     def driven_side(self, circuit: Circuit) -> int:
-        """Return 0 if the first link of the circuit is driven, 1 if the second link is driven.
+        """Return the side of a circuit whose angle is given by its transmission function: 0 for the first link, 1 for
+        the second link.
 
-        The transmission function of a coupling gives the angle of its driven link, such as a slot, even if this link
-        drives, because couplings have no backlash.
+        This is the driven wheel of a gear pair. In a coupling, it is always the first link, such as a slot, even if
+        this link drives, because couplings have no backlash.
         """
         return int(circuit.kind == "gear" and self.train.drivers[circuit.id].wheel == circuit.wheels[0])
 
@@ -157,8 +158,8 @@ class PairErrors:
         return PairErrorSource(circuit.id, transmission, at, *senses, cycles, phase, forward, sense)
 
     def _phase(self, circuit: Circuit, transmission: TransmissionFunction, driven: int) -> float:
-        """Return the driver's angle [rad] at which a tooth of the first wheel has the declared phase; 0 for a coupling.
-        In the second gear pair of a planet between a sun and a ring, the angle follows from the first pair.
+        """Return the driver angle that corresponds to the tooth phase of a pair [rad]; 0 for a coupling. If a planet
+        meshes with two wheels, the angle of the second pair follows from the first pair.
         """
         placed = None if circuit.id in self.train.phases else self.train.placed_by(circuit.id)
         if placed is not None:

@@ -30,9 +30,7 @@ class ToothImpact(Shown):
     inertia: float
     """Effective inertia at the driven wheel [kg m^2]."""
     rate: float
-    """Frequency of the periods of the transmission function [1/s]. A period is one pitch, unless the transmission error
-    is given as data.
-    """
+    """Frequency of the periods of the transmission function [1/s]; a period is one pitch, or that of tabulated data."""
     jumps: tuple[float, ...]
     """Increase of the driven wheel's speed at each impact within one period [rad/s]."""
 
@@ -119,9 +117,7 @@ class PairImpacts(Result):
     dissipated: float | None = None
     """Energy dissipated by impacts in one pitch [J]."""
     work: float | None = None
-    """Work done by the driver in the impacts of one pitch [J], which is the sum of transferred and dissipated
-    energy.
-    """
+    """Work of the driver in the impacts of one pitch [J], the sum of transferred and dissipated energy."""
     minimum_load: float | None = None
     """Minimum load torque at which the teeth remain in contact at the given speed [N m]."""
     void: float | None = None

@@ -46,7 +46,8 @@ class SpeedSpan(NamedTuple):
 
 @dataclass
 class RunningStatistics(Result):
-    """Running peak values and moments of the error and speed of one output (algorithms of Welford and of Chan et al.).
+    """Extremes, mean and root mean square of the error of one output, and extremes of its speed, updated whenever
+    positions are added (algorithms of Welford and of Chan et al.).
 
     See Also
     --------
@@ -85,7 +86,7 @@ class RunningStatistics(Result):
     """True for a link that slides, whose deviations are in mm."""
 
     def add(self, error: Floats, rate: Floats) -> None:
-        """Include the errors and speeds at further positions in the peak values and moments.
+        """Include the errors and speeds at further positions in the extremes, mean and root mean square.
 
         Parameters
         ----------
@@ -132,7 +133,7 @@ class RunningStatistics(Result):
 
     @property
     def speed_span(self) -> SpeedSpan:
-        """Minimum and maximum speed as in `speeds`, and the mean speed divided by the input speed [1]."""
+        """Minimum, maximum and mean speed of the output divided by the input speed [1]."""
         return SpeedSpan(*self.speeds, self.mean)
 
     @property

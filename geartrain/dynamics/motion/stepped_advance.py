@@ -30,7 +30,7 @@ _HALVINGS = 30  # bisections of a part in which the fastest driver changes; the 
 
 
 def mean_advance(problem: MotionProblem, drivers: ErrorComposition, stepped: SteppedLink) -> float:
-    """Return the mean speed of the driven link divided by the speed of the input [1].
+    """Return the mean speed of a link that one-way clutches drive in steps, divided by the speed of the input [1].
 
     drivers   composition whose outputs are the drivers, in the order of `stepped`
     """

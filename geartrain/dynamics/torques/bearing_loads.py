@@ -52,14 +52,14 @@ def separation(setting: LoadCase, circuit: Circuit, mesh: GearMesh | None) -> fl
 
 
 class AxisForce(NamedTuple):
-    """Force on the second link of a pair, and the opposite force on its first link; or a force on a single link.
+    """Force on the second link of a pair and the opposite force on its first link, or a force on a single link.
 
-    The force is r `along` + |r| `lean` `apart`, where r is the torque on the carrier, or the torque on the link if the
-    force acts on a single link.
+    The force is r `along` + |r| `lean` `apart`, where r is the torque on the carrier, or on the single link. The
+    vectors `along` and `apart` are the tangential and the separating force for r = 1 and `lean` = 1.
     """
 
     name: str
-    """Name of the pair, or of the link on which the line of a weight acts."""
+    """Name of the pair, or of the link on which the cord of a weight acts."""
     links: tuple[str | None, str]
     """First link (None for a force on a single link) and second link."""
     carrier: str
@@ -88,7 +88,7 @@ class BearingLoads:
 
     @cached_property
     def forces(self) -> tuple[AxisForce, ...]:
-        """Forces of pairs, and of the line of a weight, that act on these bearings."""
+        """Forces of pairs, and of the cord of a driving weight, that load these bearings."""
         found = [*self._pairs(), *self._line()]
         return tuple(
             each for each in found if any(self._inside(link, end) for link in self.links for end in each.links)
@@ -96,12 +96,12 @@ class BearingLoads:
 
     @property
     def missing(self) -> Mapping[str, Sequence[str]]:
-        """Names of the pairs and lines whose forces on these bearings are unknown, grouped by the reason."""
+        """Names of the pairs and cords with unknown forces on these bearings, by the reason or the remedy."""
         _ = self.forces  # lists the pairs
         return self._left_out
 
     def _inside(self, link: str, end: str | None) -> bool:
-        """Return True if `link` is `end` or carries it, so that a force on `end` loads the bearing of `link`."""
+        """Return True if `end` is `link` or is carried by it, so that a force on `end` loads the bearing of `link`."""
         while end is not None and end != link:
             end = self.setting.tree.above(end)
         return end is not None
@@ -144,7 +144,7 @@ class BearingLoads:
             )
 
     def _line(self) -> Iterator[AxisForce]:
-        """Yield the force that the line of a driving weight exerts on its drum."""
+        """Yield the force that the cord of a driving weight exerts on its drum; yield nothing if it is unknown."""
         drive, source = self.setting.case.drive, next(iter(power_inputs(self.setting)), None)
         if drive is None or drive.drum is None or source is None:
             return
@@ -215,7 +215,7 @@ class BearingLoads:
         return found[:, None]
 
     def ways(self, links: Iterable[str]) -> Floats:
-        """Return the unit vectors of the reference directions of the axes of the given links, shape (links, 3, 1)."""
+        """Return the unit vectors along the axes of the given links in reference direction, shape (links, 3, 1)."""
         labels, axes = [self.setting.tree.axis(link) or "" for link in links], self.setting.axes
         ways = [scaled(self.setting.train.axes.get(label, Axis()).way, axes.sign(label)) for label in labels]
         return np.array(ways).reshape(-1, 3, 1)
@@ -252,9 +252,8 @@ class BearingLoads:
         return found
 
     def friction(self, loads: Floats, balance: TorqueBalance) -> Floats:
-        """Return the friction torque of each link's bearings [N m], given their loads [N], both of shape (links, n).
-
-        Equal planets have equal torques, even if their loads differ due to weights or rounding.
+        """Return the friction torque in the bearings of each link [N m], given their loads [N], both of shape (links,
+        n). The torque is averaged over equal planets, whose loads may differ due to weights or rounding.
         """
         own = np.array([[self.setting.train.links[link].friction_radius] for link in self.links]) * loads + self.thrust
         like, row = equal_planets(balance), {link: at for at, link in enumerate(self.links)}
@@ -285,8 +284,12 @@ class BearingLoads:
         return {link: (torque, load) for link, torque, load in rows}
 
     def _responses(self, balance: TorqueBalance, flow: FlowPattern, applied: Mapping[str, Fraction]) -> Floats | None:
-        """Return the carrier torque of each force, shape (forces, 1 + links): the first column without load-dependent
-        friction, the others per unit friction torque in the bearing of a link. None if the torques do not balance.
+        """Return the torque of each force on the carrier, shape (forces, 1 + links); None if the torques do not
+        balance.
+
+        Column 0 contains the torques without load-dependent friction. Each further column contains the torques per unit
+        friction torque in the bearing of one link, or in the bearings of all equal planets (column of the first
+        planet).
         """
         like = equal_planets(balance)
         known: dict[str, LinearForm] = {link: {_KNOWN: torque} for link, torque in balance.known.items()}
@@ -324,7 +327,9 @@ class BearingLoads:
 
 
 def _share(own: float | None, other: float | None, place: float | None) -> float:
-    """Return the fraction of a force at `place` [m] that a bearing at `own` carries beside another one at `other`."""
+    """Return the fraction of a force at `place` [m] that is carried by the bearing at `own` [m], if a second bearing is
+    at `other` [m]. It is 1/2 if `place` is None, and 1 if the position of a bearing is unknown.
+    """
     if own is None or other is None:
         return 1.0
     return 0.5 if place is None else (other - place) / (other - own)

@@ -64,14 +64,15 @@ class FlowDirections(NamedTuple):
         return bool(self.ahead or self.back or self.shared)
 
     def joined(self, other: FlowDirections) -> FlowDirections:
-        """Return the union of the loads in two results for the same pair."""
+        """Return the directions of power flow under the loads of this object and under those of another one."""
         return FlowDirections(self.ahead | other.ahead, self.back | other.back, self.shared or other.shared, self.note)
 
 
 def find_flow_directions(balance: TorqueBalance, loads: UnitLoads) -> dict[str, FlowDirections]:
-    """Return the direction in which each load drives power through every mesh; empty if no torques balance the loads.
+    """Return the direction in which each load drives power through each pair, by pair; empty if no torques balance the
+    loads.
 
-    balance   torque balance without losses; its known torques only indicate the loaded links
+    balance   torque balance without losses; it uses which links have known torques, but not the values of these torques
     """
     at = {link: row for row, link in enumerate(balance.links)}
     names = sorted(loads)
@@ -169,7 +170,7 @@ class _Drivers:
 
     @cached_property
     def _ways(self) -> Mapping[str, FlowDirections]:
-        """Directions in which assumed resistances drive power through each pair without a declared driver."""
+        """Directions of power flow through the pairs without a declared driver, under assumed loads on the outputs."""
         setting, found, note = self.setting, dict[str, FlowDirections](), ""
         left = {name for name, each in self.circuits.items() if name not in self.declared and setting.turn(each)}
         for loads, missed in _resistances(setting):
@@ -187,8 +188,8 @@ class _Drivers:
 
 
 def _resistances(setting: LoadCase) -> Iterator[tuple[UnitLoads, str]]:
-    """Yield groups of assumed unit loads that oppose the motion, in order of precedence, each with the phrase that
-    names them in a note on pairs without power.
+    """Yield groups of assumed unit loads that oppose the motion, in order of precedence, each with words for a note on
+    pairs through which none of these loads takes power, such as "no dial".
     """
     frame, declared = setting.train.frame, setting.case.outputs
     ends = {name: output.links(name, frame) for name, output in declared.items()}
@@ -218,7 +219,9 @@ def drag_torques(setting: LoadCase, of: str, base: str) -> dict[str, Fraction]:
 
 
 def _directions(setting: LoadCase, loads: UnitLoads) -> dict[str, FlowDirections]:
-    """Return the directions of power flow in each pair under all positive combinations of the loads, by pair."""
+    """Return, by pair, the directions in which the loads drive power through the pair, for all choices of the driving
+    links.
+    """
     found: dict[str, FlowDirections] = {}
     for requested in _sources(setting):
         like = equal_planets(build_balance(setting, {}, requested))
@@ -232,7 +235,7 @@ def _directions(setting: LoadCase, loads: UnitLoads) -> dict[str, FlowDirections
 
 
 def _sources(setting: LoadCase) -> Iterator[tuple[str, ...]]:
-    """Yield each possible choice of the links with unknown torque, whose number equals the number of inputs."""
+    """Yield each possible set of driving links (links of unknown torque), whose number equals the number of inputs."""
     links, inputs = power_inputs(setting), tuple(setting.case.inputs)
     if len(links) == 1 and not setting.speeds.get(links[0]):
         links = inputs  # the crank is at rest and passes no power
@@ -243,8 +246,10 @@ def _sources(setting: LoadCase) -> Iterator[tuple[str, ...]]:
 
 
 def _spread(load: Mapping[str, Fraction], like: Mapping[str, tuple[str, ...]]) -> dict[str, Fraction]:
-    """Return a load [N m] that acts on all equal planets instead of one, with the torques on all other links multiplied
-    by the number of planets.
+    """Return the torques by link of a load that acts on all equal planets instead of one; torques on other links are
+    multiplied by the number of planets.
+
+    like   all planets that are equal to a planet, by planet
     """
     most = max((len(like.get(link, (link,))) for link in load), default=1)
     return {

@@ -34,7 +34,9 @@ Values = dict[int, Fraction | None]
 
 
 def eliminate_block(columns: Sequence[TorqueUnknown], block: Block, sides: Sides, known: KnownTorques) -> Echelon:
-    """Return the exact echelon form of the equations (3) of one block of the balance, for one pattern of power flow."""
+    """Return the exact echelon form of the torque equations of one block, equations (3) of docs/torques.md. `sides` is
+    the driving side of each unknown torque: 1 for the first link, -1 for the second, 0 without losses.
+    """
     rows = {row: dict(form) for row, form in known.items()}
     for column in block.columns:
         for row, value in columns[column].pieces[sides[column]].items():
@@ -65,7 +67,7 @@ def solve_block(
 
 @dataclass(frozen=True)
 class FlowPattern:
-    """Pattern of power flow that is consistent with the losses, and its torques."""
+    """Driving side of every pair with losses, and the torques, which transmit power in these directions."""
 
     pattern: DrivingSides
     solved: SolvedTorques
@@ -73,7 +75,9 @@ class FlowPattern:
 
 @dataclass
 class _Partial:
-    """Solution of the first blocks of the balance: driving sides and torques by column, sums of torques by row."""
+    """Solution of some blocks of the balance: driving side and torque of each solved column, and sum of the known and
+    computed torques in each row.
+    """
 
     sides: dict[int, int]
     values: Values
@@ -81,7 +85,7 @@ class _Partial:
 
 
 def find_flow_patterns(balance: TorqueBalance) -> tuple[tuple[FlowPattern, ...], bool]:
-    """Return all consistent patterns of power flow, and True if all patterns were tried.
+    """Return all flow patterns whose torques agree with the assumed driving sides, and True if all patterns were tried.
 
     The blocks of the Dulmage-Mendelsohn decomposition are solved in order, each by enumeration of its patterns or by
     fixed-point iteration.
@@ -94,8 +98,8 @@ def find_flow_patterns(balance: TorqueBalance) -> tuple[tuple[FlowPattern, ...],
 
 
 def _solve_blocks(balance: TorqueBalance, blocks: Sequence[Block]) -> tuple[list[_Partial], bool] | None:
-    """Return all combinations of the solutions of the blocks, and True if all directions of power flow were tried; None
-    if a block leaves a torque undetermined that a later block requires.
+    """Return all solutions of the balance, and True if all combinations of driving sides were tried; None if a block
+    other than the last leaves one of its torques undetermined.
     """
     partials, complete = [_Partial({}, {}, dict(balance.rows))], True
     for block in blocks:
@@ -154,7 +158,9 @@ def _flow(balance: TorqueBalance, partial: _Partial) -> FlowPattern:
 def _solutions(
     columns: Sequence[TorqueUnknown], block: Block, rows: Mapping[int, Fraction]
 ) -> tuple[list[tuple[Sides, Values]], bool]:
-    """Return the driving sides and torques of all solutions of one block, and True if all sides were tried."""
+    """Return the driving sides and torques of every solution of one block, and True if all combinations of sides were
+    tried.
+    """
     known: KnownTorques = {row: {_KNOWN: rows[row]} if rows[row] else {} for row in block.rows}
     lossy = [column for column in block.columns if len(columns[column].sides) > 1]
     base = {column: columns[column].sides[0] for column in block.columns}
@@ -182,8 +188,8 @@ def _solutions(
 def _is_consistent(
     columns: Sequence[TorqueUnknown], block: Block, sides: Sides, values: Values, known: KnownTorques
 ) -> bool:
-    """Return True if power flows in the assumed directions, equation (7) of docs/torques.md, for at least one choice of
-    the undetermined torques.
+    """Return True if some values of the undetermined torques make power flow from the assumed driving sides, equation
+    (7) of docs/torques.md.
     """
     if not all(columns[column].admits(sides[column], value or Fraction(0)) for column, value in values.items()):
         return False
@@ -217,8 +223,8 @@ def _solve(columns: Sequence[TorqueUnknown], block: Block, sides: Sides, known: 
 def _iterate(
     columns: Sequence[TorqueUnknown], block: Block, lossy: Sequence[int], base: Sides, known: KnownTorques
 ) -> Sides | None:
-    """Return driving sides that agree with the torques, found from the lossless solution by reversing all sides that do
-    not agree; None if sides repeat.
+    """Return driving sides that agree with the torques, found by fixed-point iteration from the solution without
+    losses; None if the iteration fails or repeats a choice of sides.
     """
     sides: Sides = {**base, **dict.fromkeys(lossy, 0)}
     seen: list[Sides] = []

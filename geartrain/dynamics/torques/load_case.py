@@ -36,7 +36,8 @@ class VirtualMotion:
 
 
 def speed_forms(links: Iterable[str], rows: Iterable[WillisEquation]) -> dict[str, LinearForm]:
-    """Return the speed of every link as a linear form in the free speeds and the column `PRESCRIBED`.
+    """Return the speed of each link, by name, as a linear form in undetermined speeds and the constant 1 (column
+    `PRESCRIBED`).
 
     rows   equations of the Willis system to be satisfied
     """
@@ -54,8 +55,8 @@ def speed_forms(links: Iterable[str], rows: Iterable[WillisEquation]) -> dict[st
 def unbalanced_motions(
     system: WillisSystem, loads: Mapping[str, Fraction], still: Collection[str]
 ) -> list[VirtualMotion]:
-    """Return a basis of the virtual motions if the loads do work in at least one of them, equation (15); empty if the
-    loads are in equilibrium.
+    """Return a basis of the virtual motions if the loads do work in at least one of them, equation (15) of
+    docs/torques.md; empty if the loads are in equilibrium.
 
     still   links with unknown torques; the links are at rest in all these motions, so that their torques do no work
     """
@@ -71,7 +72,9 @@ def unbalanced_motions(
 
 
 def balancing_torque(motions: Sequence[VirtualMotion], link: str) -> Fraction | None:
-    """Return the torque on `link` that balances the loads in every motion, equation (16); None if no torque does."""
+    """Return the torque on `link` that balances the loads in every motion, equation (16) of docs/torques.md; None if no
+    torque does.
+    """
     found: Fraction | None = None
     for motion in motions:
         speed = motion.speeds.get(link, Fraction(0))
@@ -109,8 +112,8 @@ class MeanEfficiencies:
         return self.driver != self.load
 
     def given(self, side: int, driving: bool) -> tuple[Fraction, Fraction]:
-        """Return the efficiency if the first link drives and the efficiency if the second link drives, for the given
-        constant torque.
+        """Return the efficiency if the first link drives and the efficiency if the second link drives. Both depend on
+        which torque of the pair is constant over a turn.
 
         side      1 if the torque of the first link is constant, -1 if the torque of the second link is, 0 if neither is
         driving   True if loads supply power to the train; only used if neither torque is constant
@@ -223,7 +226,9 @@ class LoadCase:
         return friction is not None and friction.has_friction
 
     def bearer(self, link: str) -> str:
-        """Return the link that carries the axis of `link`, in whatever order coaxial joints are declared."""
+        """Return the link that carries the axis of `link`. The order in which coaxial joints are declared does not
+        matter.
+        """
         return self.tree.top.get(link, link)
 
     def reacts_on(self, link: str) -> str:
@@ -235,14 +240,14 @@ class LoadCase:
         return self.train.frame if escapement is None or link != escapement.link else pallet_link(escapement, self.tree)
 
     def turn(self, circuit: Circuit) -> Fraction | None:
-        """Return the speed of a circuit's first link relative to its carrier, or None if it is undetermined. If it is
-        0, no power flows.
+        """Return the speed of the first link of a circuit relative to its carrier; None if the speed is undetermined.
+        Power flows through the circuit only if this speed is not 0.
         """
         return self._difference(circuit.i, circuit.subtracted[0])
 
     def bearings(self, loaded: Mapping[str, tuple[float, float]], steady: bool = True) -> tuple[BearingTorque, ...]:
         """Return the friction torque of every bearing with friction, which opposes the rotation of its link, equation
-        (10). The torque includes the mean torque of jumpers that act on the link.
+        (10) of docs/torques.md.
 
         The torque is 0 if the relative speed in the bearing is 0 or undetermined.
 
@@ -261,8 +266,8 @@ class LoadCase:
         return tuple(found)
 
     def friction_senses(self, link: str, carrier: str | None = None) -> Iterator[tuple[str, int]]:
-        """Yield a link and the link that carries it, unless it is the frame. Each has the sense, about its own axis, of
-        a unit friction torque in the bearing between them, which opposes the relative speed.
+        """Yield the link, and its carrier unless this is the frame, each with the sign (1, -1 or 0) of the torque that
+        friction in the bearing between them exerts on it about its own axis.
         """
         carrier = self.tree.borne_by(link) if carrier is None else carrier
         relative = self.relative(link, carrier) or Fraction(0)

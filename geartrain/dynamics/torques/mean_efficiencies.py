@@ -36,7 +36,7 @@ def find_mean_efficiencies(setting: LoadCase, circuit: Circuit) -> MeanEfficienc
 
 
 def _of_circuit(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
-    """Return the mean efficiencies of a pair; 1 if no loss is declared or if required dimensions are unknown."""
+    """Return the mean efficiencies of a gear pair or coupling; 1 if no loss is declared, or if data are missing."""
     if circuit.kind != "gear":
         return _of_coupling(setting, circuit)
     gear = setting.gears[circuit.id]
@@ -75,7 +75,7 @@ def _of_screw(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies | None:
 
 
 def _of_coupling(setting: LoadCase, circuit: Circuit) -> MeanEfficiencies:
-    """Return the mean efficiencies of a coupling, first with its driven link as driver; 1 for a pin follower."""
+    """Return the mean efficiencies of a coupling, whose first link is its driven link; 1 for a pin follower."""
     coupling = setting.couplings[circuit.id]
     if (losses := coupling.losses) is not None and circuit.b:
         both = losses.backward.base, losses.forward.base
@@ -103,10 +103,11 @@ def _mean(efficiency: float | None) -> Fraction:
 def apply_mean_efficiencies(
     balance: TorqueBalance, means: Mapping[str, MeanEfficiencies], driving: bool
 ) -> tuple[TorqueBalance, tuple[str, ...]]:
-    """Return the balance with the applicable mean efficiency of each pair, and the names of the pairs without a
-    constant torque.
+    """Return the balance with the mean efficiency of each pair, and the names of the pairs whose mean efficiency is
+    uncertain.
 
-    A pair is listed only if neither of its torques is constant and its efficiency depends on which torque is constant.
+    The mean efficiency depends on which torque of the pair is constant over a turn. It is uncertain if neither is
+    constant.
     """
     if not any(each.differ for each in means.values()):
         return balance, ()

@@ -105,7 +105,9 @@ def neglected_over_turn(setting: LoadCase, at_means: Sequence[str]) -> tuple[Neg
 
 
 def _pins(setting: LoadCase, busy: Sequence[Circuit], over_turn: bool = False) -> Iterator[NeglectedEffect]:
-    """Yield the neglected friction of pin followers, whose mean power is 0, and of pins without dimensions."""
+    """Yield the friction of pins that is neglected in the loaded circuits `busy`: friction of followers, which transmit
+    no mean power (omitted if `over_turn` is True), and friction of pins without declared dimensions.
+    """
     pins = {pin.name for pin in setting.train.pin_couplings if setting.has_friction(pin)}
     rubbing = [circuit for circuit in busy if circuit.id in pins]
     if not over_turn:
@@ -119,7 +121,9 @@ def _pins(setting: LoadCase, busy: Sequence[Circuit], over_turn: bool = False) -
 
 
 def _of_couplings(setting: LoadCase, busy: Sequence[Circuit]) -> Iterator[NeglectedEffect]:
-    """Yield the effects of couplings that are not modelled, such as side loads."""
+    """Yield the effects, such as side loads on bearings, that are not modelled for the couplings among the loaded
+    circuits `busy`.
+    """
     named: dict[tuple[str, str], list[str]] = {}
     for circuit in busy:
         if circuit.kind != "gear" and (effect := setting.couplings[circuit.id].NEGLECTED) is not None:

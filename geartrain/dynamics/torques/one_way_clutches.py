@@ -49,7 +49,7 @@ class ClutchPattern:
 
     @property
     def stopped(self) -> tuple[str, ...]:
-        """Clutches that are assumed to overrun but would not overrun at the speeds of the pattern."""
+        """Clutches that are assumed to overrun, but whose slip speed in this pattern is 0 or has the wrong sense."""
         return tuple(name for name, slip in self.slips.items() if slip is not None and slip <= 0)
 
 
@@ -125,8 +125,8 @@ class _Decision:
         return ClutchPattern(holding, case, setting, slips, moves)
 
     def _clutch(self, name: str) -> tuple[Clutch, str, str, int]:
-        """Return a one-way clutch, its first and second link (the first link of a brake is the frame), and the sense in
-        which it overruns, 1 or -1.
+        """Return a one-way clutch, its two links (for a brake: the frame and the braked link), and the sense in which
+        it overruns, 1 or -1.
         """
         clutch = self.train.declaration.clutches[name]
         first, second = clutch.locks or (self.train.declaration.frame, clutch.fixes or "")
@@ -143,11 +143,13 @@ class _Decision:
 
     @cached_property
     def _moving(self) -> Sequence[ClutchPattern]:
-        """Sets of holding clutches at whose speeds no clutch slips in the sense in which it must hold."""
+        """Sets of holding clutches for which no other clutch slips in the sense in which it must hold."""
         return [each for each in self._patterns.values() if each.moves]
 
     def _contradictory(self) -> ClutchPattern:
-        """Return a set of holding clutches with contradictory speeds, if possible those that would slip wrongly."""
+        """Return a set of holding clutches whose speeds are contradictory, if possible the clutches that would
+        otherwise slip in the wrong sense.
+        """
         pattern = self._patterns[()]
         while pattern.setting is not None and pattern.stopped:
             held = {*pattern.holding, *pattern.stopped}
@@ -159,8 +161,8 @@ class _Decision:
 
     @cached_property
     def _loads(self) -> Mapping[str, tuple[str, str] | None]:
-        """Loads that are considered separately, by name: the link and reference link of an output, or None for all
-        declared loads together.
+        """Loads under which the clutches are decided, by name. Each value is the loaded link and its reference link, or
+        None for all declared loads together.
         """
         declared, case = self.train.declaration, self._patterns[()].case
         if case.loads:
@@ -191,12 +193,12 @@ class _Decision:
 
     @cached_property
     def _fitting(self) -> Mapping[str, Sequence[ClutchPattern]]:
-        """Sets of holding clutches that satisfy the conditions of all clutches under one load, by load."""
+        """Sets of holding clutches that agree with the speeds and with the torques of one load, by name of the load."""
         return {load: [each for each in self._moving if self._fits(each, load)] for load in self._loads}
 
     def _released(self) -> tuple[ClutchPattern, tuple[str, ...]]:
-        """Return the set of holding clutches with the fewest violations after clutches that cannot hold are removed
-        from it, and the names of the removed clutches.
+        """Return the set of holding clutches that violates the fewest conditions, without the clutches in it that
+        cannot hold, and the names of these clutches.
         """
         found = []
         for pattern in self._moving:
@@ -210,7 +212,9 @@ class _Decision:
         return self._patterns[tuple(name for name in holding if name not in released)], released
 
     def _members(self, pattern: ClutchPattern, named: set[str]) -> tuple[str, ...]:
-        """Return the holding clutches whose names occur in `named`, in which names may be joined: "A and B"."""
+        """Return the holding clutches of a pattern that occur in `named`, in which clutches between the same links have
+        one common name, such as "A and B".
+        """
         joined = {pattern.case.clutches[links] for links in pattern.case.senses} & named
         return tuple(name for name in pattern.holding if pattern.case.clutches[self._clutch(name)[0].links] in joined)
 
@@ -248,7 +252,7 @@ class _Decision:
     def _torque(
         self, pattern: ClutchPattern, name: str, deciding: Mapping[str, Torques | None]
     ) -> tuple[Fraction | None, str]:
-        """Return the torque of a clutch on its second link, None if it depends on the load, and its unit."""
+        """Return the torque of a clutch on its second link, which is None if it depends on the load, and its unit."""
         clutch, _, _, sense = self._clutch(name)
         links, found, unit = clutch.links, set[Fraction | None](), ""
         source = power_inputs(pattern.setting)[:1] if pattern.setting is not None else ()
@@ -299,7 +303,7 @@ class _Decision:
         return replace(case, problems=(*case.problems, Problem(what, why, fix, place)))
 
     def _undecided(self, chosen: Sequence[tuple[str, ...]]) -> StateCase:
-        """Return the case of the state with a problem: which clutches hold depends on the loads."""
+        """Return the prescriptions of the state with the problem that the loads decide which clutches hold."""
         common = set(chosen[0]).intersection(*chosen[1:])
         open_ = [name for name in self.names if any(name in each for each in chosen) and name not in common]
         ways = {
@@ -314,7 +318,7 @@ class _Decision:
 
     @cached_property
     def _varying(self) -> Mapping[str, Sequence[Circuit]]:
-        """Couplings with variable ratio on which the slip speed of a clutch depends, by clutch."""
+        """Couplings of variable ratio on which the slip speed of each one-way clutch depends, by name of the clutch."""
         setting = self._patterns[()].setting
         varying = [each for each in setting.circuits if each.swings] if setting is not None else []
         if setting is None or not varying:
@@ -337,8 +341,8 @@ class _Decision:
         return [name for name, couplings in self._varying.items() if not all(each.ratio for each in couplings)]
 
     def _steps(self, pattern: ClutchPattern) -> StateCase:
-        """Return the case of a state in which oscillating links drive one link in steps, or with `problems` if its mean
-        advance cannot be computed.
+        """Return the prescriptions in a state in which oscillating links drive one link in steps. If its mean advance
+        cannot be computed, `problems` of the returned case contains the reason.
         """
         setting, frame, names = pattern.setting, self.train.declaration.frame, _joined(self._swinging)
         assert setting is not None
@@ -374,7 +378,7 @@ class _Decision:
             what = f"{len(self.names)} one-way clutches are active"
             why = f"at most {MOST_CLUTCHES} are supported, because all combinations of holding clutches are tried"
             raise DeclarationError(
-                [Problem(what, why, "disable some: list them under `free`", declared.place("clutches"))]
+                [Problem(what, why, "disable some of them: list them under `free`", declared.place("clutches"))]
             )
         base = replace(declared.case(self.state, ()), inputs={}, fixed=(), locks=())
         for name in self.names:

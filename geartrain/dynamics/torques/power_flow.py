@@ -90,7 +90,7 @@ class RecirculatingPower(Result):
 def find_circulation(
     streams: Sequence[PowerStream], power_in: Fraction
 ) -> tuple[list[PowerStream], list[RecirculatingPower]]:
-    """Return the streams with their recirculating parts, and the loops in which power recirculates.
+    """Return the streams, each with the part of its power that recirculates, and the loops in which power recirculates.
 
     Cycles are removed in descending order of their bottleneck power.
     """
@@ -116,7 +116,7 @@ def find_circulation(
 
 
 def _widest(streams: Sequence[PowerStream], left: Sequence[Fraction]) -> list[int]:
-    """Return the streams of the cycle with the largest minimum of the powers `left`; empty without a cycle."""
+    """Return the indices of the streams in the cycle with the largest minimum of `left`; empty without a cycle."""
     best = _closed(streams, [at for at, power in enumerate(left) if power])
     if not best:
         return []
@@ -131,7 +131,7 @@ def _widest(streams: Sequence[PowerStream], left: Sequence[Fraction]) -> list[in
 
 
 def _closed(streams: Sequence[PowerStream], open_: Iterable[int]) -> list[int]:
-    """Return the streams of one cycle among those with the indices `open_`, as indices; empty without a cycle."""
+    """Return the indices of the streams in one cycle of the streams with the indices `open_`; empty without a cycle."""
     stream_of: dict[tuple[PowerNode, PowerNode], int] = {}
     before: dict[PowerNode, list[PowerNode]] = {}
     for at in open_:

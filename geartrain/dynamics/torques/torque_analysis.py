@@ -89,9 +89,9 @@ class LoadedBalance:
         return sorted(found, key=lambda flow: (len(flow.solved.open), self.power(flow.solved.external))), complete
 
     def solve(self) -> tuple[LoadedBalance, list[FlowPattern], bool]:
-        """Return the balance including the load-dependent friction of bearings, its patterns of power flow as in
-        `sorted_flows`, and True if all patterns were tried. The friction is consistent with the bearing loads in the
-        first pattern.
+        """Return the balance including load-dependent friction of bearings, its patterns of power flow in the order of
+        `sorted_flows`, and True if all patterns were tried. The friction follows from the bearing loads in the first
+        pattern.
         """
         found, loads = self, self.bearing_loads
         flows, complete = self.sorted_flows(self.balance)
@@ -151,8 +151,8 @@ def _some(links: Sequence[str]) -> str:
 def find_torque_verdict(
     question: LoadedBalance, flows: Sequence[FlowPattern], complete: bool, neglected: Sequence[NeglectedEffect] = ()
 ) -> TorqueVerdict:
-    """Return the verdict on the patterns of power flow. They are sorted by the number of undetermined torques, then by
-    losses; the first pattern is the result.
+    """Return the verdict on the torques. The patterns of power flow `flows` are sorted by the number of undetermined
+    torques, then by losses; the torques of the first pattern are reported.
     """
     if not flows:
         return _unbalanced(question, complete)
@@ -183,7 +183,9 @@ def find_torque_verdict(
 
 
 def _unbalanced(question: LoadedBalance, complete: bool) -> TorqueVerdict:
-    """Return the verdict that no torques balance the loads, because of shares, bearing friction, or locking teeth."""
+    """Return the verdict that no torques balance the loads, with the cause: too few unknown torques, declared shares of
+    load, bearing friction, or teeth that lock.
+    """
     names = question.names
     if not question.enough:
         text = "the loads balance without losses, but not with them: one more unknown torque is needed"
@@ -259,8 +261,8 @@ def _indeterminate(flows: Sequence[FlowPattern], question: LoadedBalance) -> Tor
 
 
 def _describe_flow(question: LoadedBalance, power: Fraction, resisted: bool) -> str:
-    """Return a phrase on the power that the unknown torques supply in one solution. `resisted` is True if they absorb
-    power in the solution with minimum loss.
+    """Return a phrase on the power that the links of unknown torque supply or absorb in one solution. `resisted` is
+    True if they absorb power in the solution with minimum loss.
     """
     if power < 0:
         return f"power {decimal(-power, 6)} leaves at {question.names}, which resists"
@@ -323,7 +325,7 @@ def find_ties(
 def _planet_meshes(
     circuits: Sequence[Circuit], meshes: Sequence[LoadedPair], apart: Collection[str]
 ) -> dict[str, list[tuple[str, str, _Key]]]:
-    """Return the meshes of each planet: name, mating link, and a key that is equal for equal planets."""
+    """Return the meshes of each planet: name, mating link, and a key by which meshes of equal planets are matched."""
     found: dict[str, list[tuple[str, str, _Key]]] = {}
     for circuit, mesh in zip(circuits, meshes, strict=True):
         first, second = circuit.wheels if circuit.kind == "gear" else (circuit.i, circuit.j)
@@ -400,9 +402,7 @@ def find_idle_pairs(setting: LoadCase) -> Collection[str]:
 
 
 def find_question(setting: LoadCase, solve_for: str | None) -> TorqueQuestion | TorqueVerdict:
-    """Return the loads and the links with unknown torques. Return a verdict if no load is declared, or if no torque can
-    be requested.
-    """
+    """Return the loads and the links of unknown torque, or a verdict with the reason why torques cannot be computed."""
     loads = {link: torque.base for link, torque in setting.case.loads.items()}
     if not loads and not any(map(setting.bearing, setting.train.links)) and not setting.train.has_jumpers:
         text = "no load is declared: give `loads` on links (negative against their motion) or `bearing` friction"
@@ -417,12 +417,12 @@ def find_question(setting: LoadCase, solve_for: str | None) -> TorqueQuestion | 
 
 
 def torques_unknown(state: str | None) -> Torques:
-    """Return the torques, with a verdict but without values, for a state whose speeds are undetermined."""
+    """Return a result without torques. Its verdict states that the speeds in the state are undetermined."""
     return Torques(state, TorqueVerdict("still", "the speeds of this state are not determined"))
 
 
 def resist(setting: LoadCase, drag: Mapping[str, Fraction]) -> Torques:
-    """Compute the torques for power input at the inputs under the torques `drag`, without friction of bearings."""
+    """Compute the torques if the inputs drive the train against the torques `drag`, without friction of bearings."""
     if (verdict := _without_axis(setting, drag)) is not None:
         return Torques(setting.case.state, verdict)
     links = power_inputs(setting)
@@ -492,7 +492,7 @@ def drive(setting: LoadCase, load: str, source: str) -> Torques:
 
 
 def _requested(setting: LoadCase, loads: Mapping[str, Fraction], solve_for: str | None) -> TorqueQuestion:
-    """Return the loads and as many links of unknown torque as inputs, or fewer if their choice is not unique."""
+    """Return the loads and the links of unknown torque: as many links as inputs, or fewer if the choice is unclear."""
     inputs, enter = setting.case.inputs, power_inputs(setting)
     free = tuple(link for link in enter if link not in loads)
     needed = len(inputs)
@@ -525,8 +525,8 @@ def _requested(setting: LoadCase, loads: Mapping[str, Fraction], solve_for: str 
 
 
 def _without_axis(setting: LoadCase, links: Iterable[str]) -> TorqueVerdict | None:
-    """Return a verdict if a link does not rotate about one axis, so that a torque on it has no defined power; None if
-    all links do. The speed of such a link is a sum of joint speeds about non-parallel axes.
+    """Return the verdict that a torque on one of the links is undefined, because the link rotates about several axes
+    that are not parallel; None if there is no such link.
     """
     sums = setting.axes.joint_sums
     for link in links:
@@ -580,8 +580,8 @@ def _balanced(setting: LoadCase, unknown: TorqueQuestion, bearings: bool = True,
 
 
 def _overrunning(setting: LoadCase, balance: TorqueBalance, flow: FlowPattern) -> tuple[str, ...]:
-    """Return the names of the holding one-way clutches whose torque has the wrong sense; if there are none, of those
-    with an undetermined torque.
+    """Return the names of the holding one-way clutches whose torque has the wrong sense; if there are none, the names
+    of those whose torque is undetermined.
     """
     senses = setting.case.senses
     held = [each for each in _held(setting, balance, flow) if each.links in senses]
@@ -590,7 +590,9 @@ def _overrunning(setting: LoadCase, balance: TorqueBalance, flow: FlowPattern) -
 
 
 def _with_reason(question: TorqueQuestion, lacking: TorqueVerdict) -> TorqueVerdict:
-    """Return the verdict `lacking`, preceded by the reason why the unknown torques are not unique if there is one."""
+    """Return the verdict `lacking`. If the question does not determine its unknown torques, the reason precedes the
+    text.
+    """
     if question.undecided is None:
         return lacking
     untried = [link for link in question.undecided.candidates if link not in question.links]
@@ -606,7 +608,9 @@ def build_balance(
     requested: tuple[str, ...],
     means: Mapping[str, MeanEfficiencies] | None = None,
 ) -> TorqueBalance:
-    """Build the torque balance of a train with known and unknown torques; it has no losses if `means` is None."""
+    """Build the torque balance of a train with the torques `known` and unknown torques on the links `requested`. All
+    efficiencies are 1 if `means` is None.
+    """
     case, train = setting.case, setting.train
     meshes = tuple(_mesh(setting, circuit, means[circuit.id] if means else None) for circuit in setting.circuits)
     locks = [(a, b) for a, b in case.locks if a != b]
@@ -634,7 +638,7 @@ def build_balance(
 
 
 def _mesh(setting: LoadCase, circuit: Circuit, means: MeanEfficiencies | None) -> LoadedPair:
-    """Return the coefficients, speed and efficiencies of a gear pair or coupling in the torque balance."""
+    """Return the coefficients, speed and efficiencies of a gear pair or coupling for the torque balance."""
     # a travel reacts on a link that slides and on a link that turns, other pairs on one link
     links = (circuit.i, circuit.j, *(circuit.subtracted if circuit.travels else circuit.subtracted[:1]))
     senses = tuple(map(setting.sense, links))

@@ -18,9 +18,7 @@ from geartrain.numerics.block_triangular import Block, dulmage_mendelsohn_blocks
 from geartrain.numerics.elimination import LinearForm
 
 DrivingSides = Mapping[str, int]
-"""Driving side of each mesh relative to the carrier: 1 for the first link, -1 for the second link, 0 for a mesh without
-losses.
-"""
+"""Driving side of each mesh: 1 for the first link, -1 for the second link, 0 for a mesh without losses."""
 
 LoadShares = tuple[str, Mapping[str, Fraction]]
 """A link, and the meshes of one of its wheels, each with the fraction of the wheel's torque that it transmits."""
@@ -33,9 +31,7 @@ class LoadedPair:
 
     id: str
     links: tuple[str, ...]
-    """Names of the links i, j and k (first, second, carrier); four links if the two members react on different
-    links.
-    """
+    """Names of the links i, j and k (first, second, carrier), or four if both members react on different links."""
     senses: tuple[int, ...]
     """Senses of the axes of `links` relative to the reference direction, 1 or -1."""
     a: int
@@ -67,7 +63,7 @@ class LoadedPair:
 
     @property
     def turn(self) -> int:
-        """Sign of the rolling speed. Power flows to the second link if the multiplier has the opposite sign."""
+        """Sign of `rolling`. If the pair's multiplier has the opposite sign, power flows to the second link."""
         return (self.rolling > 0) - (self.rolling < 0)
 
     @property
@@ -82,15 +78,17 @@ class LoadedPair:
         return self.forward if side > 0 else self.backward if side < 0 else Fraction(1)
 
     def torques(self, side: int) -> tuple[Fraction, ...]:
-        """Return the torques on `links` for a multiplier of 1, equation (5)."""
+        """Return the torque on each link of `links` if the multiplier x of the pair is 1, equation (5) of
+        docs/torques.md. `side` is 1 if the first link drives, -1 if the second link drives.
+        """
         left = self.a * (self.backward if side < 0 else Fraction(1))
         right = self.b * (self.forward if side > 0 else Fraction(1))
         reactions = (-left - right,) if len(self.links) == 3 else (-left, -right)
         return tuple(sense * torque for sense, torque in zip(self.senses, (left, right, *reactions), strict=True))
 
     def power(self, multiplier: Fraction) -> Fraction:
-        """Return the power that flows from the first link to the second relative to the carrier, before losses if the
-        first link drives; see equation (4).
+        """Return the power that flows from the first link to the second relative to the carrier, given the multiplier x
+        of the pair, equation (4) of docs/torques.md. If the first link drives, losses are not subtracted.
         """
         return -multiplier * self.rolling
 
@@ -114,14 +112,16 @@ class TorqueUnknown:
     """Required sign of the torque of a one-way clutch, 1 or -1; 0 if any sign is permitted."""
 
     def admits(self, side: int, torque: Fraction) -> bool:
-        """Return True if a torque transmits power in the direction of `side`, or transmits no power."""
+        """Return True if this unknown can have the value `torque`: it transmits no power, or power from the driving
+        side `side` (1 for the first link, -1 for the second link, 0 for either).
+        """
         if (self.barred and torque) or self.sense * torque < 0:
             return False
         return side == 0 or ((torque > 0) - (torque < 0)) * side * self.turn <= 0
 
     def side_of(self, mesh: LoadedPair, side: int) -> int:
-        """Return the driving side of one mesh with this unknown torque, given the side of the first mesh; the links of
-        the mesh may be in the reverse order. Return 0 if the mesh has no losses.
+        """Return the driving side of `mesh`, one of the equal meshes with this unknown, if the driving side of the
+        first of them is `side`: 1 for the first link, -1 for the second link; 0 if the mesh has no losses.
         """
         return side * mesh.turn * self.turn if mesh.loses else 0
 
@@ -130,15 +130,17 @@ class TorqueUnknown:
 class TorqueBalance:
     """Known and unknown torques in one load case.
 
-    links     all links except the frame
-    known     link -> external torque, which includes loads and friction of bearings; 0 for other links
-    unknown   links with unknown external torque
-    reactions link with unknown torque -> link on which the reaction acts if it is not the frame, and the sign of the
-              reaction to a unit torque
-    held      links braked to the frame; `locks` are pairs of links that are locked together, with both senses
-    ties      groups of meshes with equal multipliers, such as meshes of equal planets
-    shares    declared fractions of the torque of a wheel
-    senses    sign of the torque on the last link of a brake or lock that consists of one-way clutches, by its links
+    links       all links except the frame
+    meshes      gear pairs and couplings
+    known       external torque, from loads and bearing friction, by link; 0 for other links
+    unknown     links with unknown external torque
+    held        links that are braked to the frame
+    locks       pairs of links that are locked together, each link with the sense of its axis
+    ties        names of the meshes in each group with one common multiplier, such as the meshes of equal planets
+    shares      declared fractions of the torque of a wheel
+    reactions   link on which the reaction to an unknown torque acts, if it is not the frame, and the sign of this
+                reaction, by link with unknown torque
+    senses      sign of the torque on the last link of a brake or lock that consists of one-way clutches, by its links
     """
 
     links: tuple[str, ...]
@@ -223,8 +225,8 @@ class TorqueBalance:
 
     @cached_property
     def _parts(self) -> Mapping[str, Sequence[tuple[int, str, Fraction]]]:
-        """Rows of the balance for declared shares, by mesh: index of the row, link of the shared wheel, and coefficient
-        of the mesh's torque.
+        """Coefficients of the equations for declared shares of load, by mesh: row of the balance, link of the shared
+        wheel, and coefficient of the mesh's torque.
         """
         found: dict[str, list[tuple[int, str, Fraction]]] = {}
         row = len(self.links)
@@ -273,7 +275,9 @@ def _row(entries: Iterable[tuple[int, Fraction]]) -> LinearForm:
 
 @dataclass(frozen=True)
 class SolvedTorques:
-    """Torques of one pattern of power flow: multipliers of meshes, external torques, torques of brakes and locks."""
+    """Solution of the torque balance for one pattern of power flow: multiplier of each pair, external torque of each
+    link, and torques of brakes and locks.
+    """
 
     multipliers: Mapping[str, Fraction]
     external: Mapping[str, Fraction]
@@ -287,7 +291,9 @@ class SolvedTorques:
 
 
 def idle_pairs(balance: TorqueBalance) -> set[str]:
-    """Return the pairs that transmit no torque at any position, because no link that they drive has a torque."""
+    """Return the names of the pairs that transmit no torque at any position of the input, because no torque acts on the
+    links that they could drive.
+    """
     rows = {row for row, torque in balance.rows.items() if torque}
     idle: set[str] = set()
     for block in balance.parts:
@@ -300,7 +306,9 @@ def idle_pairs(balance: TorqueBalance) -> set[str]:
 
 
 def generic_balance(balance: TorqueBalance) -> TorqueBalance:
-    """Return the balance with generic coefficients, which do not cancel, to determine the order of solution."""
+    """Return the balance with arbitrary coefficients that do not cancel by chance, from which the order of solution
+    follows.
+    """
     group = {name: at for at, names in enumerate(balance.ties, 1) for name in names}
     meshes = tuple(
         replace(

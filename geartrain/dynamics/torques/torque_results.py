@@ -59,8 +59,8 @@ class HoldingTorque(Result):
 
 
 class MemberTorques(NamedTuple):
-    """Torques on the members of a gear pair or coupling, or forces on members that slide [N m or N, or numbers without
-    a unit].
+    """Torques on the two links and on the carrier of a gear pair or coupling [N m, or numbers without a unit]. For a
+    link that slides, the value is a force [N].
     """
 
     first: Fraction
@@ -82,9 +82,7 @@ class BearingTorque(Result):
     carrier: str
     """Link that carries the bearing."""
     torque: Fraction
-    """Torque on the link about its own axis [N m, or a number without a unit]; 0 if the bearing is at rest or its speed
-    is undetermined.
-    """
+    """Torque on the link about its own axis [N m, or a number without a unit]; 0 at rest or for unknown speed."""
     reaction: Fraction
     """Torque on the carrier about its own axis [N m, or a number without a unit]; 0 if the carrier is the frame."""
     loss: Fraction
@@ -259,7 +257,7 @@ class DrivenWay(NamedTuple):
 
 @dataclass(frozen=True)
 class Torques(FrozenFields, Tabular, TrainResult):
-    """Exact torques and powers of a train in one state, from A^T x + T = 0, equation (3) of docs/torques.md.
+    """Exact torques and powers of a train in one state, from the torque balance, equation (3) of docs/torques.md.
 
     Torques are in N m if loads have units, and numbers without a unit if they do not. The unit of power is the unit of
     torque times the train's unit of speed. Powers are positive if they flow into the train.

@@ -26,20 +26,18 @@ if TYPE_CHECKING:
 
 
 class LinkMotion(NamedTuple):
-    """Motion of the links at the given positions of the input."""
+    """Speeds of the links and angles of the drivers at n positions of the input."""
 
     turns: Floats
     """Positions of the input [revolutions], shape (n,)."""
     speeds: Floats
-    """Speeds of links about the reference direction of parallel axes, divided by the magnitude of the input speed [1],
-    shape (links, n).
-    """
+    """Speeds of links about the reference direction, divided by the size of the input speed [1], shape (links, n)."""
     angles: Mapping[str, Floats]
     """Angle of the driver of each evaluated pair in its mean sense of rotation [rad], shape (n,), by pair."""
 
 
 class PositionMotion:
-    """Motion of the links that transmit torque, for any choice of the flanks in contact.
+    """Speeds of the links that transmit torque, and angles of drivers, with either flank of each pair in contact.
 
     motion  motion of these links relative to the frame
     pairs   names of the pairs whose ratio or losses depend on position
@@ -83,8 +81,8 @@ class PositionMotion:
         return np.array([float(self.motion._problem.ratio(link)) for link in self.links])
 
     def at(self, turns: Floats, coasting: Mapping[str, Bools]) -> LinkMotion:
-        """Return the link speeds and driver angles at positions of the input [revolutions], at most one chunk of
-        positions.
+        """Return the link speeds and driver angles at positions of the input [revolutions]. The number of positions may
+        not exceed `composition.chunk`.
 
         coasting   boolean mask of the positions at which the coast flanks of a pair are in contact, by pair
         """

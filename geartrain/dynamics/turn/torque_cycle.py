@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class TorqueExtreme(NamedTuple):
-    """Extreme value of the torque, and its position in the run."""
+    """Extreme value of the torque, and the position of the input at which it occurs."""
 
     torque: float
     """Torque at the requested link [N m, or a number without a unit]. It is positive if it drives the link in its mean
@@ -29,7 +29,7 @@ class TorqueExtreme(NamedTuple):
 
 
 class PlaceInRun(NamedTuple):
-    """Position in a run, in revolutions of the input and in days."""
+    """Position of the input since the start of the evaluated range, in revolutions and in days."""
 
     turns: float
     """Revolutions of the input since the beginning of the run."""
@@ -39,9 +39,10 @@ class PlaceInRun(NamedTuple):
 
 @dataclass(frozen=True)
 class CycleEnergy(Result):
-    """Energies over a run [J, or rad if torques are numbers without a unit].
+    """Energies that a train receives, delivers and loses over several revolutions of the input [J, or rad if torques
+    are numbers without a unit].
 
-    Energy is conserved: put_in - returned = taken_out - loads_put_in + mesh + pin + bearing.
+    Energy is conserved: `put_in` + `loads_put_in` = `returned` + `taken_out` + `mesh` + `pin` + `bearing`.
     """
 
     KEYS = (
@@ -102,7 +103,7 @@ class CycleEnergy(Result):
 
 @dataclass(frozen=True)
 class PairCycle(Result):
-    """Energy loss, energy input and maximum torque of one gear pair, coupling or bearing over a run."""
+    """Energy loss, energy input and maximum torque of one gear pair, coupling or bearing over several revolutions."""
 
     kind: str
     """Kind of the pair: `mesh`, `pin` or `bearing`."""
@@ -230,9 +231,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     locked_share: float = 0.0
     """Fraction of the run in which no torque balances the loads, so that the train is locked."""
     held_share: float = 0.0
-    """Fraction of the run in which the loads and the requested link both supply power, all of which is lost to
-    friction.
-    """
+    """Fraction of the run in which loads and the requested link supply power, all of which is lost to friction."""
     ambiguous_share: float = 0.0
     """Fraction of the run in which several patterns of power flow balance the loads."""
     locked: tuple[tuple[PlaceInRun, PlaceInRun], ...] = ()

@@ -33,7 +33,9 @@ if TYPE_CHECKING:
 
 
 class ContactTorques(NamedTuple):
-    """Torques on driven link and from driver for a multiplier of 1, in the mean senses of rotation, shape (n,)."""
+    """Torque on the driven link, and torque supplied by the driver, for a pair with the multiplier 1, shape (n,). Each
+    is positive in the mean sense of rotation of its link.
+    """
 
     driven: Floats
     driver: Floats
@@ -44,7 +46,9 @@ class ContactTorques(NamedTuple):
 
 
 class PairForce(NamedTuple):
-    """Torques on both links for a multiplier of 1, about the reference direction of parallel axes, shape (n,)."""
+    """Torques on the first and second link of a pair with the multiplier 1, about the reference direction of parallel
+    axes, shape (n,).
+    """
 
     first: Floats
     second: Floats
@@ -60,13 +64,11 @@ class DriverState(NamedTuple):
     S: Floats
     """Angle of the driver in its mean sense of rotation [rad]; empty if no property of the pair depends on it."""
     turning: Floats
-    """Speed of the driver relative to the carrier, in its mean sense of rotation, divided by the speed of the input
-    [1].
-    """
+    """Speed of the driver relative to its carrier in its mean sense of rotation, divided by the input speed [1]."""
 
 
 class ContactLosses:
-    """Contact without losses; its subclasses describe the effect of friction on the torques of a contact."""
+    """Losses of a contact, which are 0 in this base class. Subclasses include the effect of friction on the torques."""
 
     has_friction: ClassVar[bool] = False
     """True if power is lost in the contact."""
@@ -79,11 +81,13 @@ class ContactLosses:
     def torques(
         self, tau: Floats, transmission: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
     ) -> ContactTorques:
-        """Return the torques on the driven link and from the driver for a multiplier of 1.
+        """Return the torque on the driven link and the torque supplied by the driver if the multiplier is 1.
 
-        tau   speed ratio of the flank in contact, which follows from `transmission`
-        way   1 if the driver of the transmission function drives, -1 if the driven link drives, 0 without relative
-              motion
+        tau      speed ratio of the flank in contact, which follows from `transmission`
+        at       angle and speed of the driver
+        way      1 if the driver of the transmission function drives, -1 if the driven link drives, 0 without relative
+                 motion
+        static   True for static friction, False for sliding friction
         """
         del transmission, at, way, static
         return ContactTorques(np.ones_like(tau), tau)
@@ -143,8 +147,8 @@ class SlidingFriction(ContactLosses):
 class ToothFriction(SlidingFriction):
     """Friction of teeth: each tooth pair in contact multiplies the torque by (1 + f out)/(1 + f into).
 
-    Here `into` and `out` are the friction terms of the input and output power, and f is the coefficient of friction,
-    which is negative if the driven link of the transmission function drives.
+    The coefficient of friction f is negative if the driven link of the transmission function drives. `into` and `out`
+    are defined in `ContactRubbing`.
     """
 
     turned: int = 1
@@ -169,8 +173,8 @@ class ToothFriction(SlidingFriction):
     def torques(
         self, tau: Floats, transmission: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
     ) -> ContactTorques:
-        """Return the torques on the driven link and from the driver. The tooth pairs in contact share the torque of the
-        driving side equally.
+        """Return the torque on the driven link and the torque supplied by the driver. The tooth pairs in contact share
+        the torque of the driving side equally.
         """
         assert transmission is not None
         sliding, into, out = transmission.rubbing(at.S)
@@ -201,7 +205,9 @@ class PinFriction(SlidingFriction):
     def torques(
         self, tau: Floats, transmission: TransmissionFunction | None, at: DriverState, way: Floats, static: bool
     ) -> ContactTorques:
-        """Return the torques on driven link and from driver, from lever arms that are finite even at dead points."""
+        """Return the torque on the driven link and the torque supplied by the driver, from lever arms that are finite
+        even at dead points.
+        """
         del transmission
         # by the law of sines sin d = e sin S / rho, so the arm is r e |sin S| / rho^2
         arm = self.transmission.r * self.transmission.e * np.abs(np.sin(at.S)) / self.transmission._reach(at.S)[1]
@@ -228,9 +234,7 @@ class PairContact:
     """
     sense: int
     ratio: float
-    """Magnitude of the constant speed ratio (driven speed divided by driver speed), which is used if `source`
-    is None.
-    """
+    """Magnitude of the constant speed ratio (driven to driver speed), which is used if `source` is None."""
     losses: ContactLosses
     source: PairErrorSource | None = None
     """Source of the transmission error; None for a pair with constant ratio, which is not evaluated at positions."""
@@ -268,9 +272,11 @@ class PairContact:
         return self.source is not None and self.source.transmission.reversed_motion() is not self.source.transmission
 
     def torques(self, side: int, at: DriverState, static: bool = False) -> PairForce:
-        """Return the torques on both links for a multiplier of 1, about the reference direction of parallel axes.
+        """Return the torques on both links if the pair's multiplier is 1, about the reference direction of parallel
+        axes.
 
-        side   1 for the drive flanks, -1 for the coast flanks
+        side     1 for the drive flanks, -1 for the coast flanks
+        static   True for static friction, False for sliding friction
         """
         transmission = (
             None
@@ -325,7 +331,9 @@ def find_contacts(
 def mean_friction_pairs(
     setting: LoadCase, sources: Mapping[str, PairErrorSource], teeth: Mapping[str, GearMesh]
 ) -> Iterator[str]:
-    """Yield the redundant pairs with tooth friction, whose mean friction is used because their position is unknown."""
+    """Yield the names of redundant pairs with tooth friction. The phase of their teeth is unknown, so the mean value of
+    friction over a pitch is used.
+    """
     names = {circuit.id for circuit in setting.circuits} - sources.keys()
     return (name for name in teeth if name in names and _by_friction(setting, teeth[name]))
 
@@ -349,7 +357,7 @@ def _coupling_losses(setting: LoadCase, circuit: Circuit) -> ContactLosses:
 def _gear_losses(
     setting: LoadCase, circuit: Circuit, first: bool, source: PairErrorSource | None, mesh: GearMesh | None
 ) -> ContactLosses:
-    """Return the losses of a gear pair: friction of its teeth at each position, or a constant mean efficiency."""
+    """Return the losses of a gear pair: those of tooth friction at each position, or those of a constant efficiency."""
     if source is None or mesh is None or not _by_friction(setting, mesh):
         means = find_mean_efficiencies(setting, circuit).load
         driver, driven = (float(each) for each in (means if first else means[::-1]))

@@ -176,7 +176,7 @@ def find_turn_balance(setting: LoadCase, problem: MotionProblem, of: str | None)
 
 @dataclass
 class _RunResults:
-    """Results that are computed from the torques at all positions over several revolutions of the input."""
+    """Results for the reported link `of`, from the torques at all positions over several revolutions of the input."""
 
     run: TurnRun
     of: str | None
@@ -301,8 +301,8 @@ class _RunResults:
         return PlaceInRun(turns, turns / speed * float(train.unit_days) if speed else None)
 
     def _extreme(self, way: int, static: bool) -> TorqueExtreme | None:
-        """Return the maximum torque (`way` 1) or minimum torque (`way` -1) at the reported link, searched between
-        positions too; None if all values are infinite. `static` selects static friction.
+        """Return the maximum (`way` 1) or minimum (`way` -1) torque at the reported link, which is also searched for
+        between the computed positions; None if all values are infinite. `static` selects static friction.
         """
         torque = self._highest if way > 0 else self._torque
         values = torque(self.run.standing if static else self.run.found)
@@ -310,7 +310,7 @@ class _RunResults:
         return None if extreme is None else TorqueExtreme(extreme[1], *self._place(extreme[0]))
 
     def _energy(self, parts: Mapping[str, PairCycle]) -> CycleEnergy:
-        """Return the energies over the run [J, or rad if torques are numbers without a unit]."""
+        """Return the energies over the evaluated revolutions [J, or rad if torques are numbers without a unit]."""
         found, requested = self.run.found, len(self.run.train.requested)
         # powers are divided by the speed of the input, so the integral is over its angle in radians
         weights = self.run.cells.weights * 2 * np.pi
@@ -345,19 +345,19 @@ class _RunResults:
 
     @property
     def _closes(self) -> bool:
-        """True if the length of the run is an integer number of periods."""
+        """True if the evaluated revolutions of the input are an integer number of periods."""
         period = self.run.train.motion.period
         return period is None or (self.run.span / float(period)) % 1 == 0
 
     def _held(self) -> float:
-        """Return the fraction of the run in which loads and unknown torques both supply power."""
+        """Return the fraction of the revolutions in which loads and unknown torques both supply power."""
         found, requested = self.run.found, len(self.run.train.requested)
         driving, loading = found.powers[:requested].sum(axis=0), found.powers[requested:].sum(axis=0)
         minimum = FAINT * np.nanmax(np.abs(found.powers), initial=0.0)
         return self.run.share((driving > minimum) & (loading > minimum))
 
     def _stretches(self) -> tuple[tuple[PlaceInRun, PlaceInRun], ...]:
-        """Return the beginning and end of each range of input positions in which no torque balances the loads."""
+        """Return the first and last position of each range of input positions in which no torques balance the loads."""
         turns, locked = self.run.cells.turns, np.concatenate([[False], ~self.run.found.valid, [False]])
         starts, ends = np.flatnonzero(locked[1:] & ~locked[:-1]), np.flatnonzero(locked[:-1] & ~locked[1:]) - 1
         return tuple(
@@ -366,8 +366,8 @@ class _RunResults:
 
 
 def _changes(signs: Floats, closes: bool) -> int:
-    """Return the number of sign changes in a sequence, in which zeros are ignored; if `closes` is True, also from its
-    end to its beginning.
+    """Return the number of sign changes in a sequence, ignoring zeros. If `closes` is True, the sequence is periodic,
+    so the last element is also compared with the first.
     """
     own = signs[signs != 0]
     if not len(own):

@@ -42,24 +42,22 @@ ROUNDS = 6  # maximum iterations to find consistent flanks and speeds
 
 @dataclass(frozen=True)
 class ColumnPieces:
-    """Coefficients of one unknown torque in each row of the balance, for each sign of this torque."""
+    """Coefficients of one unknown torque in the rows of the balance at n positions, for each sign of the torque."""
 
     pieces: Mapping[int, Mapping[int, Floats]]
-    """Coefficients of shape (n,), by side and row. The side is the sign of the torque, 1 or -1, or 0 if the sign has no
-    effect.
-    """
+    """Coefficients of shape (n,), by side and row. The side is the sign of the torque, or 0 if it has no effect."""
     barred: Mapping[int, Bools]
     """Boolean mask of the positions at which the torque must be 0, by side."""
 
     @property
     def sides(self) -> tuple[int, ...]:
-        """Signs of the torque that are to be tried."""
+        """Signs of the torque for which coefficients are given: 1 and -1, or only 0 if the sign has no effect."""
         return tuple(self.pieces)
 
 
 @dataclass
 class BalanceLayer:
-    """One solution of the torque balance at each position at which it exists."""
+    """One solution of the torque balance at n positions. `valid` is False at positions without this solution."""
 
     values: Floats
     """Torques by column, shape (columns, n). `rows` contains the sum of the torques in each row, shape (rows, n)."""
@@ -74,7 +72,9 @@ class BalanceLayer:
 
 @dataclass(frozen=True)
 class _Trial:
-    """Torques of one block for assumed signs, shape (columns, n), and a mask of the positions with these signs."""
+    """Torques of one block for assumed signs, shape (columns, n). `valid` is True at positions at which the torques
+    have these signs.
+    """
 
     layer: BalanceLayer
     sides: Sequence[int]
@@ -105,7 +105,9 @@ def solve_positions(
 
 
 def _block_trials(columns: Sequence[ColumnPieces], block: Block, layer: BalanceLayer) -> tuple[list[_Trial], bool]:
-    """Return the different solutions of one block for all assumed signs, and True if all signs were tried."""
+    """Return the solutions of one block in which the torques have the assumed signs, without duplicates, and True if
+    all combinations of signs were tried.
+    """
     own = [columns[at] for at in block.columns]
     found: list[_Trial] = []
     two_sided = sum(len(each.sides) > 1 for each in own)
@@ -187,7 +189,7 @@ def _eliminated(
 
 
 def _iterated(own: Sequence[ColumnPieces], block: Block, layer: BalanceLayer) -> list[_Trial]:
-    """Return solutions of one block, found by replacing assumed signs of its torques by the computed signs."""
+    """Return solutions of one block, found by iteration: each round assumes the signs of the torques of the last."""
     patterns = {tuple(each.sides[0] for each in own): None}
     found: list[_Trial] = []
     left = layer.valid.copy()
@@ -211,7 +213,7 @@ def _iterated(own: Sequence[ColumnPieces], block: Block, layer: BalanceLayer) ->
 def _joined(
     columns: Sequence[ColumnPieces], block: Block, layers: Sequence[BalanceLayer], trials: Sequence[_Trial]
 ) -> list[BalanceLayer]:
-    """Return the solutions of the balance extended by one block, as many as the maximum over all positions."""
+    """Return the solutions `layers` of the previous blocks, completed by the solutions `trials` of one block."""
     # fast path: at most one solution at every position needs no further layers
     if len(layers) == 1 and not np.any(sum((trial.valid.astype(int) for trial in trials), np.zeros(1)) > 1):
         (layer,) = layers
@@ -249,16 +251,14 @@ _CHUNK = 8192  # positions evaluated at once, to bound the memory
 
 
 class PositionTorques(NamedTuple):
-    """Torques at n positions, the last axis of all arrays; powers are divided by the speed of the input."""
+    """Torques and powers at n positions of the input. Powers are divided by the speed of the input."""
 
     turns: Floats
     """Positions of the input [revolutions], shape (n,)."""
     valid: Bools
     """Boolean mask of the positions at which a solution balances the loads. `layers` is the number of solutions."""
     unresolved: Bools
-    """Boolean mask of the positions at which a link rests within its backlash, or at which no choice of flanks is
-    consistent with the torques.
-    """
+    """Boolean mask of positions at which a link rests within its backlash, or no flanks agree with the torques."""
     layers: Floats
     torque: Floats
     """Unknown torque on each requested link in the solution with minimum loss, shape (requested, n)."""
@@ -278,9 +278,7 @@ class PositionTorques(NamedTuple):
     pressed: Floats
     """Multiplier of each pair, shape (pairs, n); it is positive if the drive flanks are in contact."""
     turning: Floats
-    """Speed of each pair's driver in its mean sense of rotation, divided by the speed of the input, shape
-    (pairs, n).
-    """
+    """Speed of each pair's driver in its mean sense, divided by the input speed, shape (pairs, n)."""
     slipping: Floats
     """Speed of each bearing divided by the speed of the input, shape (bearings, n)."""
     kinks: Floats
@@ -288,8 +286,8 @@ class PositionTorques(NamedTuple):
 
 
 class _State(NamedTuple):
-    """Speeds of links, angles of drivers and unit torques of pairs at n positions. Of several equal planets, only the
-    first one is included.
+    """Motion of the links, driver angles, and torques of pairs with the multiplier 1 on either flank, at n positions.
+    Of several equal planets, only the first one is included.
     """
 
     motion: LinkMotion
@@ -380,13 +378,15 @@ class TurnBalance:
 
     @cached_property
     def flanked(self) -> tuple[str, ...]:
-        """Names of the pairs whose coast flanks may be in contact."""
+        """Names of the pairs with backlash, which can be in contact on their drive flanks or on their coast flanks."""
         return tuple(name for name, contact in self.contacts.items() if contact.has_flanks)
 
     def _chunk(self, turns: Floats, static: bool) -> PositionTorques:
-        """Return the torques at a few thousand positions. The flanks in contact are found iteratively; if no choice is
-        consistent, the drive flanks are used. A link that would turn backwards on drive flanks and forwards on coast
-        flanks rests within its backlash.
+        """Return the torques at a few thousand positions.
+
+        The flanks in contact are found by iteration. It begins with the drive flanks, which are also used at positions
+        at which it does not converge. A link that would turn backwards on drive flanks and forwards on coast flanks
+        rests within its backlash.
         """
         left: Indices = np.arange(len(turns))
         coasting, resting = (np.zeros((len(names), len(turns)), bool) for names in (self.flanked, self.bearings))
@@ -437,10 +437,8 @@ class TurnBalance:
         return np.where(np.abs(found) <= AT_REST * scale, 0.0, found)
 
     def outside_speeds(self, speeds: Floats) -> Floats:
-        """Return the speed of each link with an external torque relative to the link on which the reaction acts, shape
-        (links with external torques, positions).
-
-        The speeds are about the links' own axes.
+        """Return the speed of each link with an external torque, about its own axis and relative to the link on which
+        the reaction acts, shape (links with external torques, positions).
         """
         setting, row = self.setting, self.motion.links
         bases = [setting.reacts_on(link) if link in self.requested else setting.train.frame for link in self.outside]
@@ -451,8 +449,8 @@ class TurnBalance:
     # -------------------------------------------------------------------------------------------------- the balance
 
     def _balanced(self, state: _State) -> tuple[_State, list[BalanceLayer], BalanceLayer]:
-        """Return the state completed by the load-dependent friction of bearings, all solutions of the balance, and the
-        solution with minimum loss. If the friction does not converge at a position, no solution is valid there.
+        """Return the state with the load-dependent friction of bearings, all solutions of the balance, and the solution
+        with minimum loss. No solution is valid at positions at which the friction does not converge.
         """
         pieces = [self._pieces(column, state) for column in self.columns]
         for round_ in range(_MOST_LOADED):
@@ -535,7 +533,7 @@ class TurnBalance:
         return np.where(state.resting[link], 0.0, own.sliding + loaded + own.drag * np.abs(speed))
 
     def _pieces(self, column: TorqueUnknown, state: _State) -> ColumnPieces:
-        """Return the coefficients of one unknown torque in each row of the balance, for each sign of the torque."""
+        """Return the coefficients of an unknown torque in each row of the balance, for each sign of the torque."""
         if not column.meshes:
             size = len(state.motion.turns)
             rows = {row: np.full(size, float(value)) for row, value in column.pieces[0].items()}
@@ -558,10 +556,10 @@ class TurnBalance:
 
     @cached_property
     def relation_to_first(self) -> Mapping[str, tuple[bool, tuple[int, int]]]:
-        """Relation of each pair to the first pair with the same unknown torque.
+        """Order and signs of each pair's links relative to those of the first pair with the same unknown torque.
 
-        The relation consists of a flag, which is True if both pairs have their links in the same order, and the signs
-        of the torques on its two links relative to those of the first pair.
+        The order is True if both pairs name their links in the same order. The signs, 1 or -1, relate the torques on
+        the two links to the torques of the first pair.
         """
         found = {}
         for first, mesh in ((column.meshes[0], mesh) for column in self.columns for mesh in column.meshes):
@@ -572,7 +570,7 @@ class TurnBalance:
         return found
 
     def _for_planet(self, name: str, force: PairForce) -> tuple[Floats, Floats]:
-        """Return the unit torques on both links of a planet's pair from those of the first of equal planets."""
+        """Return the torques on both links of pair `name`, given those of the first pair with the same unknown."""
         alike, signs = self.relation_to_first[name]
         first, second = (force.first, force.second) if alike else (force.second, force.first)
         return signs[0] * first, signs[1] * second

@@ -45,7 +45,9 @@ FAINT = 1e-9
 
 @dataclass(frozen=True)
 class RunCells:
-    """Cells of a run from `low` to `high` [revolutions], shape (cells,). Torques are smooth in each cell."""
+    """Intervals (cells) from `low` to `high` [revolutions], shape (cells,), into which the evaluated range of the input
+    is divided. Torques are smooth within each cell.
+    """
 
     low: Floats
     high: Floats
@@ -54,7 +56,7 @@ class RunCells:
 
     @property
     def turns(self) -> Floats:
-        """Positions in all cells as reported [revolutions], shape (cells times `NODES`,)."""
+        """Input positions in all cells, including both ends of a cell [revolutions], shape (cells times `NODES`,)."""
         share = np.arange(NODES) / (NODES - 1)
         found = self.low[:, None] + (self.high - self.low)[:, None] * share
         found[:, -1] = self.high
@@ -138,7 +140,7 @@ def find_kinks(signs_at: Callable[[Floats], Ints], cells: RunCells, signs: Ints)
 
 @dataclass
 class TurnRun:
-    """Run of `train` over `span` revolutions of the input, with at least `samples` positions."""
+    """Torques of `train` at no fewer than `samples` positions over `span` revolutions of the input."""
 
     train: TurnBalance
     span: float
@@ -146,7 +148,7 @@ class TurnRun:
 
     @cached_property
     def kinks(self) -> Floats:
-        """Positions of kinks [revolutions] for the most frequent combinations of coast flanks in contact."""
+        """Positions of kinks [revolutions] for the most frequent sets of pairs that touch on their coast flanks."""
         train = self.train
         # flanks in contact at a few positions: their functions' kinks are searched exactly
         even = train.at(np.linspace(0.0, self.span, min(self.samples, _PROBES)))
@@ -169,7 +171,7 @@ class TurnRun:
 
     @cached_property
     def _refined(self) -> tuple[RunCells, PositionTorques]:
-        """Refined cells of the run in order, with kinks at their ends, and the torques at their positions."""
+        """Refined cells in ascending order, with kinks at their ends, and the torques at their positions."""
         cells = run_cells(self.span, max(1, self.samples // NODES), self.kinks, self.narrowest)
         found = self.train.at(cells.requested)
         # signs and tolerances refer to the scales of the initial cells, so that refinement does not change them
@@ -194,8 +196,12 @@ class TurnRun:
     def _cuts(
         self, cells: RunCells, found: PositionTorques, scales: RunScales, total: float, depth: int
     ) -> tuple[Indices, Floats]:
-        """Return the indices of the cells to be divided, and the positions at which they are divided: kinks, and
-        middles of cells that are too wide.
+        """Return the indices of the cells to be divided, and the positions at which they are divided: kinks, and the
+        middles of cells in which the integrals are inaccurate.
+
+        found   torques at the positions of the cells
+        total   energy with which the errors of the integrals are compared
+        depth   number of previous divisions
         """
         if depth == _DEPTH:
             return _NONE
@@ -216,7 +222,7 @@ class TurnRun:
 
     @property
     def cells(self) -> RunCells:
-        """Refined cells of the run."""
+        """Cells of the evaluated revolutions after refinement."""
         return self._refined[0]
 
     @property
@@ -242,25 +248,27 @@ class TurnRun:
         ).astype(np.int64)
 
     def share(self, where: Bools) -> float:
-        """Return the fraction of the run that the selected positions represent."""
+        """Return the fraction of the evaluated revolutions that the selected positions represent."""
         return float(self.cells.weights @ where) / self.span
 
     @cached_property
     def standing(self) -> PositionTorques:
-        """Torques at the positions of the run if static friction acts."""
+        """Torques at the positions of the refined cells if static friction acts."""
         return self.train.at(self.cells.requested, static=True) if self.train.starts_harder else self.found
 
 
 @dataclass(frozen=True)
 class RunScales:
-    """Torque scale (maximum torque of any pair) and power scale (maximum external power) of a run."""
+    """Maximum torque of any pair (`pressed`) and maximum external power (`power`), to which rounding errors are
+    relative.
+    """
 
     pressed: float
     power: float
 
     @classmethod
     def of(cls, found: PositionTorques) -> RunScales:
-        """Return the scales that follow from the torques and powers at some positions."""
+        """Return the maximum torque of a pair and the maximum external power at some positions."""
         pressed = np.where(found.valid, np.abs(found.pressed), 0.0)
         return cls(float(np.max(pressed, initial=0.0)), float(np.nanmax(np.abs(found.powers), initial=0.0)))
 

@@ -39,7 +39,7 @@ class BearingForces:
 
     @cached_property
     def pairs(self) -> Mapping[str, str]:
-        """Mapping from each gear pair with separate planets to the corresponding pair of the simulated train.
+        """Pair of the simulated train, in which equal planets are one, by pair of the train with separate planets.
 
         Redundant pairs, whose shares of the torque are unknown, are omitted.
         """
@@ -124,7 +124,9 @@ class BearingForces:
 
     @cached_property
     def constant(self) -> Floats:
-        """Weights on each support plus the pull of the line of a driving weight [N], shape (supports, 3)."""
+        """Constant force on each support [N], from weights of links and the cord of a driving weight, shape (supports,
+        3).
+        """
         found = self.loads.weights[:, :, 0].copy()
         for at, force in enumerate(self.loads.forces):
             if force.links[0] is None and self.drive.kind == "torque":

@@ -29,9 +29,7 @@ if TYPE_CHECKING:
 
 
 DAMPING_RATIO = 0.05
-"""Damping ratio [1] of a pair for which neither damping nor restitution is declared. It is typical of measurements on
-spur gears.
-"""
+"""Damping ratio [1] of a pair without declared damping and restitution, typical of tests on spur gears."""
 
 # minimum restitution: at large damping it falls with the square of the damping ratio and never reaches 0
 _MINIMUM = 0.05
@@ -97,15 +95,15 @@ class CompliantTrain(TrainModel):
 
     @cached_property
     def _rows(self) -> list[Floats]:
-        """Coefficients of the coordinate speeds in the speed at which the flanks of each pair separate, at its mean
-        speed ratio; one array of shape (coordinates,) for each pair.
+        """Coefficients by which the coordinate speeds give the separation speed of the flanks of each pair at its mean
+        speed ratio, shape (coordinates,).
         """
         return [pair.opening_row(len(self.coordinates), pair.front.slope) for pair in self.model.pairs]
 
     @cached_property
     def _inertias(self) -> list[float]:
-        """Effective inertia of each pair about the axis of its driven side [kg m2], 1/(r M^-1 r^T) with its row r of
-        `_rows` and the mass matrix M; 0 if all speeds in the row are prescribed.
+        """Effective inertia of each pair at its driven side [kg m2]: 1/(r M^-1 r^T) with the coefficients r in `_rows`
+        and the mass matrix M; 0 if all speeds to which r applies are prescribed.
         """
         rows, mass = (row[self.free] for row in self._rows), self.mass[np.ix_(self.free, self.free)]
         return [1 / float(row @ np.linalg.solve(mass, row)) if row.any() else 0.0 for row in rows]

@@ -60,7 +60,9 @@ class ContactPair:
         return self.front is self.back
 
     def opening_row(self, n: int, ratio: float) -> Floats:
-        """Return the coefficients of the n coordinate speeds in the pair's opening speed, at a speed ratio."""
+        """Return the coefficients by which n coordinate speeds give the separation speed of the pair's flanks, for one
+        speed ratio.
+        """
         return _dense(self.driven, n) - ratio * _dense(self.driver, n)
 
 
@@ -154,10 +156,10 @@ class ContactModel:
 
     @property
     def fall_times(self) -> list[float]:
-        """Time that each stopped link takes to move from one stop to the next [s], if all coordinates move in their
-        mean ratios.
+        """Time that each link with stops, such as an escape wheel, needs from one stop to the next [s].
 
-        The time follows from the driving torque at the start, without resistance.
+        The train is assumed to start from rest under the driving torque, without resistance, and to move in its mean
+        ratios.
         """
         # generalised torque and inertia of the mean motion, which has one degree of freedom
         torque = float(self.typical @ self.torque)
@@ -179,8 +181,8 @@ class ContactModel:
 
     @cached_property
     def _functions(self) -> tuple[list[TabledFunction], list[list[int]], list[list[int]]]:
-        """Distinct tabulated functions of all pairs, and the indices of each pair's two transmission functions and four
-        friction functions among them.
+        """All different tabulated functions, and the indices of each pair's functions among them: two transmission
+        functions (front and back flanks), and four functions of tooth friction (-1 without friction).
         """
         # functions shared by several pairs are tabulated once, by identity
         known: dict[int, int] = {}
@@ -280,20 +282,22 @@ def _sparse(rows: Sequence[Mapping[int, float]]) -> tuple[Ints, Ints, Floats]:
 class ContactSystem(NamedTuple):
     """Arrays that describe the coordinates and contacts of a train, in SI units.
 
-    mass, viscous, matrix   mass matrix M, damping matrix D, and M + h D + h^2 K with the time step h and the stiffness
-                            matrix K, (n, n)
-    torque                  constant torque on each coordinate
-    given                   1 if the speed of a coordinate is prescribed, 0 if it is free
-    pair_of                 coordinates of the rows of pairs, then of stops; `pair_driver`, `pair_driven`: coefficients
-                            of the speeds of both sides, 0 for the driver of a stop
-    start_driver, start_driven   angles of both sides where all coordinates are 0
-    two_sided               1 for pins without clearance and gears without backlash; 0 for stops
-    tables, rubbing         functions of both flanks; friction terms of the driver's arm, (front, back) x (forward,
-                            back)
-    compliance              compliance of the rows of pairs and stops [1/(kg m2)]; 0 for rigid teeth
-    bearing_*               rows of relative speeds in bearings, with torques of sliding and sticking
-    stop_*                  the angle of a stop's row is limited to (1 + floor(t/beat)) pitch
-    spring_*                rows with the torque stiffness (rest + rate t - angle)
+    The rows of pairs are followed by the rows of stops.
+
+    mass, viscous  mass matrix M and damping matrix D, shape (n, n)
+    matrix         M + h D + h^2 K with the time step h and the stiffness matrix K, shape (n, n)
+    torque         constant torque on each coordinate
+    given          1 if the speed of a coordinate is prescribed, 0 if it is free
+    pair_of        index of the coordinate to which each coefficient of a row refers
+    pair_driver, pair_driven     coefficients of the speeds of the driver (0 for a stop) and of the driven side
+    start_driver, start_driven   angles of the driver and of the driven side if all coordinates are 0
+    two_sided      1 for pins without clearance and gears without backlash, 0 for stops and other pairs
+    tables         index of the transmission function of each flank
+    rubbing        indices of the friction terms of the front and of the back flank, each for both senses of rotation
+    compliance     compliance of each row [1/(kg m2)]; 0 for rigid teeth
+    bearing_*      rows with the relative speeds in bearings, with the torques of sliding and sticking friction
+    stop_*         rows whose angle is limited to (1 + floor(t/beat)) pitch at the time t
+    spring_*       rows with the torque stiffness (rest + rate t - angle) at the time t
     """
 
     mass: Floats

@@ -55,8 +55,8 @@ class CarriedTorques(NamedTuple):
 
 
 class _State(NamedTuple):
-    """Speeds and accelerations of all links at n positions for an input speed of 1 rad/s, and the matrices that couple
-    the errors of the pairs.
+    """Speeds and accelerations of all links at n positions for an input speed of 1 rad/s, with the matrix and the
+    virtual speeds from which the torques of pairs are computed.
     """
 
     speed: Floats
@@ -187,15 +187,17 @@ class InertialContacts:
         return CarriedTorques(*self._carried(state, forces))
 
     def _carried(self, state: _State, forces: Sequence[Floats]) -> Iterator[Floats]:
-        """Yield the torques that the pairs transmit under each array of torques f on the links: sense J^-T R^T f, with
-        the matrices J (`_inverse`) and R (`_response`) and the sense of each driven side.
+        """Yield the torque that each pair transmits, shape (pairs, n), for each array of torques on the links in
+        `forces`.
         """
         for requested in forces:
             force = self._without_crank_power(requested, state.virtual)
             yield self._senses[:, None] * np.einsum("nji,jn->in", state.inverse, self._response.T @ force)
 
     def _without_crank_power(self, requested: Floats, speed: Floats) -> Floats:
-        """Return the torques on the links plus the crank's torque, which makes their power at `speed` 0."""
+        """Return the torques on the links, to which a torque on the crank is added so that their total power at the
+        link speeds `speed` is 0.
+        """
         # a prescribed input absorbs any torque, so no correction is needed
         if self.acting.crank is None:
             return requested
@@ -206,7 +208,9 @@ class InertialContacts:
         return force
 
     def rates(self, turns: Floats) -> Floats:
-        """Return the input speed at which each pair separates at each position [rad/s], shape (pairs, n)."""
+        """Return the input speed at which the flanks of a pair separate [rad/s], for each pair at each position, shape
+        (pairs, n).
+        """
         return minimum_rate(*self.torques(turns))
 
     def impulses(self, kinks: Floats, width: float) -> Floats:
@@ -314,7 +318,7 @@ def find_inertial_loads(
 
 
 def _is_cranked(train: Train, case: StateCase) -> bool:
-    """Return True if a crank other than the only input drives the train without a declared constant torque."""
+    """Return True if a crank that is not an input drives a train with one input, by a torque that is not constant."""
     steady = case.drive is not None and case.drive.steady_torque is not None
     return train.crank is not None and train.crank not in case.inputs and len(case.inputs) == 1 and not steady
 
@@ -325,8 +329,8 @@ def torques_have_units(train: Train, case: StateCase) -> bool:
 
 
 def _torques(train: Train, case: StateCase) -> tuple[dict[str, Quantity], dict[str, Quantity]]:
-    """Return the declared load torques and the friction torques of bearings, each by link. Loads on inputs are omitted
-    unless a crank drives the train, because they do no virtual work.
+    """Return the load torques and the friction torques of bearings, both by link. Loads on inputs do no virtual work;
+    they are omitted unless a crank drives the train.
     """
     # torques on a prescribed input do no virtual work
     still = {train.frame} if _is_cranked(train, case) else {train.frame, *case.inputs}

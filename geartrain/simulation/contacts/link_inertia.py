@@ -33,9 +33,7 @@ class LinkInertia(Result):
     For a sliding link, it gives the same kinetic energy if a travel of 1 mm is treated as one turn.
     """
     source: Literal["declared", "outlines", "unknown"]
-    """Source of the moment of inertia of the link without its planets: declaration, outlines of its wheels,
-    or unknown.
-    """
+    """Source of the moment of inertia without the planets: declaration, outlines of the wheels, or unknown."""
     carried: float = 0.0
     """Part of `value` that is due to the masses of carried planets [kg m2]."""
     missing: tuple[str, ...] = ()
@@ -190,7 +188,9 @@ class _Bodies:
         return find_cut_teeth(self.train).wheels
 
     def _orbit(self, carrier: str, planet: str) -> float | None:
-        """Return the distance of a planet's axis from its carrier's axis [m], a centre distance; None if unknown."""
+        """Return the distance from a carrier's axis to a planet's axis [m], which is the centre distance of a gear pair
+        on this carrier; None if it is unknown.
+        """
         from geartrain.dynamics.gear_meshes import find_sizes
 
         tree = self.train.tree

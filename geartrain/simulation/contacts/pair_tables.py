@@ -29,9 +29,7 @@ class PairTables(NamedTuple):
     period: Floats
     """Period of each function in the driver angle [rad]."""
     slope: Floats
-    """Mean slope of each function, which is the factor of the driver angle in its linear part; 0 if the function is not
-    an angle.
-    """
+    """Mean slope of each function (factor of the driver angle); 0 if the function is not an angle."""
     cells: Ints
     """Number of uniform cells in the period of each function. `start` contains the index in `first` of its
     first cell.
@@ -50,7 +48,9 @@ class PairTables(NamedTuple):
 
 
 class TabledFunction(NamedTuple):
-    """Function slope S + p(S) of a driver angle S [rad], with a table of p, which is periodic, and its minimum jump."""
+    """Function of a driver angle S [rad]: the sum of `slope` S and a periodic function, which is given by a table.
+    `jump` is the minimum size of the jumps of its derivative.
+    """
 
     slope: float
     table: CellTable

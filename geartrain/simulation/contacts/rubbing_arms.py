@@ -28,21 +28,21 @@ if TYPE_CHECKING:
 
 _ROUGH = 1e-4  # relative tolerance of friction terms that are interpolated between nodes
 Arms = tuple[TabledFunction, TabledFunction, TabledFunction, TabledFunction]
-"""Tables of the friction terms: drive flank in forward and in backward rotation, then coast flank in forward and in
-backward rotation.
-"""
+"""Tables of the friction terms: drive flank in forward and backward rotation, then coast flank likewise."""
 
 
 def tooth_arms(mesh: GearMesh) -> Arms | None:
-    """Return the friction terms of the driver's lever arm of two toothed wheels, or None if no friction is known."""
+    """Return the friction terms of a gear pair, which are added to the lever arm of its driver, for both flanks and
+    both senses of rotation; None without friction.
+    """
     ahead, back = _flank_arms(mesh, mesh.transmission), _flank_arms(mesh, mesh.coast)
     # the coast flank drives in the opposite sense, so its terms are swapped
     return None if ahead is None or back is None else (ahead[0], ahead[1], back[1], back[0])
 
 
 def _flank_arms(mesh: GearMesh, transmission: TransmissionFunction) -> tuple[TabledFunction, TabledFunction] | None:
-    """Return the friction terms of one flank for two senses of rotation: the sense in which this flank drives, and the
-    opposite sense. None if there is no friction.
+    """Return the friction terms of one flank as functions of the driver angle, first for the sense of rotation in which
+    the flank drives, then for the opposite sense; None without friction.
     """
     if not mesh.computes_losses or not mesh.has_friction:
         return None
@@ -68,8 +68,9 @@ def _flank_arms(mesh: GearMesh, transmission: TransmissionFunction) -> tuple[Tab
 def _friction_term(
     tau: Floats, rubbing: ContactRubbing, coefficient: Callable[[Floats], Floats | float], way: int, label: str
 ) -> Floats:
-    """Return the friction term tau (1/eta - 1) at each driver angle, from the speed ratio tau and the efficiency eta; 0
-    during a dwell. Sliding is reversed for `way` -1. Raise `GearTrainError` if friction locks the teeth.
+    """Return the friction term tau (1/eta - 1) of the driver's lever arm at each driver angle, where tau is the speed
+    ratio and eta the efficiency of the teeth; 0 where no teeth touch. `way` is -1 for the opposite sense of sliding.
+    Raise `GearTrainError` if friction locks the teeth.
     """
     sliding, into, out = rubbing
     # NaN marks tooth pairs that do not touch at this angle

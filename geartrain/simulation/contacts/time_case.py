@@ -23,9 +23,9 @@ _EQUAL = 1e-9  # relative tolerance of a speed given in rounded decimals
 
 @dataclass(frozen=True)
 class PowerInput:
-    """Drive of a train: a prescribed speed, a torque, a spring, or a hand that turns the link through a spring.
+    """Drive of a train: a prescribed speed, a torque, a spring, or a hand.
 
-    A hand turns at a prescribed speed and drives the link through a torsional spring.
+    A hand is a prescribed speed that acts on the link through a torsional spring.
     """
 
     link: str
@@ -146,8 +146,10 @@ def _refuse_rate_beyond_beats(train: Train, problem: MotionProblem, drive: Power
 def _declared_rate(
     train: Train, case: StateCase, problem: MotionProblem, passed: Fraction | None, scale: float | None
 ) -> float:
-    """Return the speed of the driving link [rad/s] from the first of these that is declared: a rate, an escapement, the
-    speed of a hand; otherwise `scale`.
+    """Return the speed of the driving link [rad/s]. It follows from a declared rate, else from the escapement, else
+    from the speed of a hand, else it is `scale`.
+
+    passed   speed of the escape wheel relative to its pallets divided by the speed of the driving link
     """
     unit = radians_per_second(train, case)
     if unit is not None:

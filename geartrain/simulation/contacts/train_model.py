@@ -145,8 +145,8 @@ class TrainModel:
 
     @cached_property
     def contacts(self) -> tuple[Circuit, ...]:
-        """Circuits (pairs and couplings) that are treated as contacts. Ideal pairs with a constant ratio are
-        eliminated, unless they load a bearing whose friction depends on the load.
+        """Circuits of the gear pairs and couplings whose contacts are simulated. Ideal pairs of constant ratio are
+        eliminated instead, unless they load a bearing with load-dependent friction.
         """
         return tuple(circuit for circuit in self.problem.circuits if self._is_contact(circuit))
 
@@ -170,7 +170,7 @@ class TrainModel:
 
     @cached_property
     def _efficiencies(self) -> Mapping[str, Any]:
-        """Declared efficiency of each gear pair and each row of a coupling, by name; None if undeclared."""
+        """Declared efficiency of each gear pair and of each Willis equation of a coupling, by name; else None."""
         gears = {gear.name: gear.efficiency for gear in self.train.gears}
         return gears | {name: each.efficiency for each in self.train.couplings for name in each.row_names}
 
@@ -322,8 +322,8 @@ class TrainModel:
         return forward, way * (source.sense if source else (1 if circuit.a * circuit.b < 0 else -1))
 
     def _sides(self, circuit: Circuit) -> tuple[Form, Form]:
-        """Return the speed of the driver and the speed of the driven side of a pair relative to its carrier, positive
-        forwards, as linear forms of the coordinate speeds.
+        """Return the speeds of the driver and of the driven side of a pair as linear forms in the coordinate speeds.
+        Both speeds are relative to the carrier, and positive in the mean sense of rotation.
         """
         forward, sense = self._senses(circuit)
         path = self.motion._path(circuit.id)

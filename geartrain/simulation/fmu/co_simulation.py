@@ -107,7 +107,9 @@ def fmu_file(train: GearTrain, case: CoSimulationCase) -> bytes:
 
 @contextmanager
 def _path_kept() -> Iterator[None]:
-    """Restore the import path and the imported modules on exit, because the builder imports the script by name."""
+    """Restore the import path, and remove the script of the FMU from the imported modules, at the end of the context.
+    PythonFMU imports this script by name.
+    """
     path = list(sys.path)
     try:
         yield

@@ -51,7 +51,7 @@ _OUTPUT = {
 
 
 class TrainSlave(Fmi2Slave):  # type: ignore[misc]
-    """Co-simulation slave for the train whose declaration is in the resources of the unit."""
+    """Model of a train for co-simulation ("slave" in FMI 2). The train is declared in the resource files of the FMU."""
 
     def __init__(self, **options: Any) -> None:
         super().__init__(**options)
@@ -206,7 +206,7 @@ class TrainSlave(Fmi2Slave):  # type: ignore[misc]
 
 
 def keep_alive(names: dict[str, Any]) -> None:
-    """Add a permanent reference to the global variables of the script in the unit each time that the script runs.
+    """Add a reference to the global variables of the FMU's script, which is never released, each time the script runs.
 
     This compensates for a fault of PythonFMU 0.7.0: on each call of Python, the PythonFMU library releases a reference
     that it does not own.
@@ -230,7 +230,7 @@ def _item(what: str, name: str) -> Callable[[Simulation], float]:
 
 
 def _quoted(name: str) -> str:
-    """Return a name in the form that is required between the dots of a structured variable name."""
+    """Return a name as required between the dots of a variable name in FMI: in quotation marks if it is not plain."""
     if _PLAIN.fullmatch(name):
         return name
     return "'" + name.replace("\\", "\\\\").replace("'", "\\'") + "'"

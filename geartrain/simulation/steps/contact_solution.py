@@ -40,7 +40,7 @@ IMPACT_COLUMNS = 5
 
 
 class ContactState(NamedTuple):
-    """State of a simulated train, modified in place by the kernels. Contacts are the pairs, then the stops."""
+    """State of a simulated train, which the kernels modify in place. Contacts are the pairs, then the stops."""
 
     clock: Floats
     """Simulated time [s] and number of the time step."""
@@ -70,12 +70,13 @@ class RunRecord(NamedTuple):
     """Results of a simulated run, which the kernels modify in place.
 
     energy         energy balance, with the columns from `WORK_DRIVE` on
-    counts         statistics of pairs and stops, (pairs + stops, COUNTS)
-    angles, speeds samples, (samples, n); `forces` mean torques between samples, (samples, pairs + stops)
-    drive          mean torque of each prescribed coordinate between samples, (samples, n)
-    impacts        list of impacts, (capacity, IMPACT_COLUMNS); `numbers` contains the numbers of samples, detected
-                   impacts, unsolved steps, pivots and counted steps, and 1 if the steps diverged and the run was
-                   stopped
+    counts         statistics of pairs and stops, shape (pairs + stops, COUNTS)
+    angles, speeds coordinates and their speeds at the samples, shape (samples, n)
+    forces         mean torque of each pair and stop between samples, shape (samples, pairs + stops)
+    drive          mean torque of each prescribed coordinate between samples, shape (samples, n)
+    impacts        list of impacts, shape (capacity, IMPACT_COLUMNS)
+    numbers        numbers of samples, of impacts, of steps without a solution, of changes of contacts and bearings
+                   (pivots), and of counted steps; 1 if the steps diverged and the run was stopped
     """
 
     energy: Floats
@@ -176,7 +177,8 @@ class StepRules(NamedTuple):
 
 @kernel
 def solve_guess(system: ContactSystem, state: ContactState, here: StepEquations, step: float, creep: float) -> None:
-    """Solve for speeds and impulses, assuming the touching contacts and turning bearings that are given by the state.
+    """Solve the equations of a time step for speeds and impulses, and store them in `here`. Touching contacts and
+    turning bearings are those in `state`.
 
     creep   maximum creep speed of a stuck bearing [rad/s]
     """
@@ -265,7 +267,7 @@ def add_load_friction(
 
 @kernel
 def carrier_torque(system: ContactSystem, state: ContactState, here: StepEquations, f: int) -> float:
-    """Return the torque on the carrier per unit impulse of the pair of force number `f` on bearings."""
+    """Return the torque on the carrier per unit impulse of the pair that exerts bearing force number `f`."""
     m = system.loaded.pair[f]
     side = state.touching[m] - 1
     sides = system.loaded.forces[f]
@@ -357,9 +359,10 @@ AT_ONCE = 6
 def correct_contacts(
     system: ContactSystem, state: ContactState, here: StepEquations, slack: float, single: bool
 ) -> int:
-    """Open contacts with tensile impulses, close flanks that penetrate, and return the number of changes.
+    """Open contacts with tensile impulses, close flanks that would penetrate, and return the number of changes.
 
-    single   change only the contact with the lowest index (Murty's method)
+    slack    penetration speed that is tolerated [rad/s]
+    single   True to change only the contact with the lowest index (Murty's method)
     """
     found = 0
     for m in range(len(system.compliance)):
@@ -391,8 +394,8 @@ def correct_contacts(
 def correct_bearings(
     system: ContactSystem, state: ContactState, here: StepEquations, creep: float, single: bool
 ) -> int:
-    """Release bearings that creep too fast, reverse or stick bearings that turn against their assumed sense, and return
-    the number of changes.
+    """Release bearings that stick but creep faster than `creep` [rad/s], and reverse or stop bearings that turn against
+    their assumed sense. Return the number of changes. If `single` is True, make at most one change (Murty's method).
     """
     found = 0
     for m in range(len(system.sliding)):

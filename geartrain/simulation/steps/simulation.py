@@ -56,9 +56,9 @@ class StepPlan(NamedTuple):
 
 @dataclass
 class SimulatedRun:
-    """Results of a simulated run.
+    """Results of a simulated run, of which the first `plan.skip` steps are not evaluated.
 
-    `start` and `end` are the kinetic energies at the start and at the end of the counted part [J].
+    `start` and `end` are the kinetic energies at the start and at the end of the evaluated part [J].
     """
 
     plan: StepPlan
@@ -165,7 +165,9 @@ def _mark(record: RunRecord, state: ContactState) -> _Mark:
 
 
 def _part(run: SimulatedRun, at: int, before: _Mark, after: _Mark) -> SimulatedRun:
-    """Return the results of block number `at` of a run, from the recorded values before and after the block."""
+    """Return the results of block number `at` of a run. `before` and `after` contain the counts, energies and angles
+    that were recorded at the beginning and at the end of the block.
+    """
     counts, energy, turned = (late - early for early, late in zip(before, after, strict=True))
     plan = run.plan._replace(skip=run.plan.skip + at * run.plan.block, steps=run.plan.block, block=0)
     return replace(run, plan=plan, counts=counts, energy=energy, turned=turned, blocks=())
@@ -182,8 +184,8 @@ def check_convergence(state: ContactState, record: RunRecord, step: float) -> No
 def step_rules(
     model: ContactModel, state: ContactState, plan: StepPlan, duration: float, share: float = 1.0
 ) -> StepRules:
-    """Return the numerical parameters of a run of the given duration [s]. Tolerances are chosen for the rounding errors
-    of the speeds.
+    """Return the numerical parameters of a run of the given duration [s], with tolerances above the rounding errors of
+    the speeds.
 
     share   fraction of the step at which forces are evaluated
     """

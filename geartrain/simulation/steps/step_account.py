@@ -93,11 +93,10 @@ def count_contacts(
     rules: StepRules,
     teeth: CompliantTeeth,
 ) -> None:
-    """Add the times in contact, friction and damping losses, impacts with their energy, and peak torques of each pair
-    to the record.
+    """Add the contact times, losses and impacts of each pair in one step to `record`, and update the peak torques.
 
-    The work of the springs of compliant teeth is added to the numerical dissipation. The change of their stored energy
-    must be subtracted from this sum.
+    Work of the springs of compliant teeth is counted as numerical dissipation. The caller must subtract the increase of
+    their stored energy.
     """
     step, rigid = rules.step, rules.share == 1.0
     for m in range(len(system.tables)):
@@ -197,10 +196,11 @@ def count_released_energy(
 
 @kernel
 def count_gap(counts: Floats, ahead: float, behind: float, flight: float) -> None:
-    """Add the times without contact and on the coast flank to the counts of a pair, and update its maximum gap, from
-    its gaps at both flanks [rad].
+    """Add the time without contact and the time on the coast flank in one step to the counts of a pair, and update its
+    maximum gap.
 
-    flight   fraction of the step in which no flank touches
+    ahead, behind   gaps at the drive flank and at the coast flank [rad]
+    flight          fraction of the step in which no flank touches
     """
     counts[TIME_APART] += flight
     if behind < ahead:
@@ -225,7 +225,9 @@ def find_flight(touching: Ints, here: StepEquations, m: int) -> float:
 
 @kernel
 def count_impact(record: RunRecord, m: int, taken: float, impulse: float, steady: float) -> None:
-    """Divide the energy that a contact dissipates in a step between an impact and the steady force."""
+    """Divide the energy `taken`, which contact `m` dissipates in a step, between an impact and the steady force, in
+    proportion to their impulses. `steady` is the impulse of the steady force.
+    """
     share = (impulse - steady) / impulse if impulse > steady else 0.0
     record.energy[IMPACT_LOSS] += taken * share
     record.energy[STEP] += taken * (1.0 - share)

@@ -267,7 +267,9 @@ def find_bounds(
     rules: StepRules,
     teeth: CompliantTeeth,
 ) -> None:
-    """Compute speed ratios, lever arms, gaps and bounds on opening speeds at extrapolated positions."""
+    """Compute the speed ratio, lever arm and gap of each flank at the extrapolated position of its driver, and the
+    minimum separation speed at which the flank does not penetrate.
+    """
     step, rigid = rules.step, rules.share == 1.0
     for m in range(len(system.tables)):
         S, q, dS, dq, on = system.start_driver[m], system.start_driven[m], 0.0, 0.0, 0.0
@@ -331,10 +333,10 @@ def is_struck(touching: Ints, before: Ints, jump: Floats, tables: Ints, ratio: F
 
 @kernel
 def find_shift(system: ContactSystem, here: StepEquations, minimum: float) -> float:
-    """Return the maximum difference between the drivers' speeds and the speeds that were used for extrapolation
-    [rad/s].
+    """Return the maximum difference between the computed speed of a driver and the speed with which its position was
+    extrapolated [rad/s].
 
-    minimum   fraction of a driver's own speed below which its difference is ignored
+    minimum   fraction of the driver's speed; smaller differences are ignored
     """
     most = 0.0
     for m in range(len(system.tables)):
@@ -350,7 +352,7 @@ def find_shift(system: ContactSystem, here: StepEquations, minimum: float) -> fl
 
 @kernel
 def find_stop_bounds(system: ContactSystem, state: ContactState, here: StepEquations, step: float) -> None:
-    """Compute the maximum speed [rad/s] at which each stopped link can reach its stop or rebounds from it."""
+    """Compute the maximum speed [rad/s] of each link with stops, at which it just reaches its stop or rebounds."""
     for stop in range(len(system.stop_pitch)):
         m = len(system.tables) + stop
         beats = floor((state.clock[0] + step / 2) / system.stop_beat[stop])

@@ -112,7 +112,7 @@ class ContactPlace(Result):
 
 @dataclass(frozen=True, slots=True)
 class ContactLoad:
-    """Line contact of a loaded pair that has a path of contact: forces and pressures along the path.
+    """Forces and pressures along the path of contact of a loaded pair with line contact.
 
     Positions X along the path are arcs on the pitch line, measured from the pitch point [module]. For helical teeth the
     quantities refer to the transverse section.
@@ -380,7 +380,9 @@ class CrossedWheels:
         return sum(self.ends) / self.pitch
 
     def tooth_pairs(self, place: float) -> int:
-        """Return the tooth pairs in contact while one of them touches `place` past the pitch point [mm]."""
+        """Return the number of tooth pairs in contact while one of them is in contact at the distance `place` from the
+        pitch point [mm], positive after the pitch point.
+        """
         back, front = self.ends
         # contacts exactly at an end of the path count, in spite of rounding
         slack = 1e-9 * self.pitch
@@ -407,11 +409,10 @@ class CrossedWheels:
 
 
 def loss_over_friction(mesh: GearMesh) -> float | None:
-    """Return the power loss of a pair divided by its power and by its friction coefficient, in the limit of zero
-    friction, from equation (14) of docs/strength.md.
+    """Return the power loss of a pair divided by the transmitted power and by the friction coefficient, for friction
+    close to 0, equation (14) of docs/strength.md; None for teeth that lock.
 
-    The product of this value and the energy that the pair transmits is the integral of force over sliding distance. The
-    result is None for teeth that lock.
+    This value times the energy that the pair transmits is the integral of force over sliding distance.
     """
     # the limit at friction 0, evaluated at a small coefficient
     wheels = replace(mesh.wheels, friction=_SLIGHT, friction_law=None)
@@ -423,11 +424,10 @@ def loss_over_friction(mesh: GearMesh) -> float | None:
 
 
 def deepest_passage(load: ContactLoad, gear: int) -> float:
-    """Return the maximum over the points of a flank of the force per width times the sliding distance in one passage of
-    the contact [N], equation (15) of docs/strength.md.
+    """Return the maximum of force per width times sliding distance in one passage [N], among all points of a flank,
+    equation (15) of docs/strength.md. A point at which the contact does not move along the flank is omitted.
 
-    The product of this value and the wear coefficient K, divided by the hardness, is a wear depth. A point at which the
-    contact does not move along the flank is omitted.
+    The product of this value and the wear coefficient K, divided by the hardness, is the depth of wear.
     """
     approach, recess = load.path.arcs
     X = np.linspace(-approach, recess, 801)

@@ -212,13 +212,11 @@ def helical_root_stress(
     wheel: RackWheel, angle: float, pair: RackPair, tangential: float, width: float, module: float
 ) -> IsoRoot | None:
     """Return the root stress of a helical wheel from its virtual spur wheel in the normal section, equation (22) of
-    docs/strength.md.
+    docs/strength.md; None if at least two tooth pairs of the virtual spur wheel are always in contact.
 
-    wheel, angle   data in the normal section, where `wheel.tip` is the height of the tip above the pitch circle instead
-                   of a radius [module]; normal pressure angle [rad]
-    module         normal module [mm]
-
-    Return None if at least two tooth pairs of the virtual spur wheel are always in contact.
+    wheel    data in the normal section; `wheel.tip` is the height of the tip above the pitch circle [module]
+    angle    normal pressure angle [rad]
+    module   normal module [mm]
     """
     lean = pair.lean
     contact_ratio = pair.contact_ratio / cos(lean.base) ** 2
@@ -237,7 +235,7 @@ def _inv(angle: float) -> float:
 
 
 def _tangent(slope: float, H: float) -> float:
-    """Return the solution th [rad] of the equation th = slope tan(th) - H, found by Newton's method."""
+    """Return the solution x [rad] of the equation x = `slope` tan(x) - `H` by Newton's method."""
     th = pi / 6
     # Newton's method converges quadratically, so few of these steps are needed
     for _ in range(50):
@@ -294,8 +292,8 @@ class RootSection:
 
 @dataclass(frozen=True)
 class ToothSide:
-    """Half of a tooth outline, from the tip to the middle of the space. The x-axis is the centre line of the tooth, and
-    y >= 0 [module].
+    """Half of the outline of a tooth [module], from the centre of its tip to the centre of the gap beside it. The
+    x-axis is the centre line of the tooth, and y is 0 or more.
     """
 
     points: Floats
@@ -316,7 +314,7 @@ class ToothSide:
 
     @cached_property
     def _flank(self) -> tuple[Floats, Floats]:
-        """Radii of flank points times `outward`, in increasing order [module], and their azimuths [rad]."""
+        """Radii of the outline's points [module], negative for a ring gear, in increasing order, and azimuths [rad]."""
         r = np.hypot(*self.points.T) * self.outward
         azimuth = np.arctan2(self.points[:, 1], self.points[:, 0])
         # all points of the tip circle; only the last of them is needed for the interpolation

@@ -128,7 +128,9 @@ class PairUnderLoad:
         return self.wheels[at].z / 2 * self.module * (1.0 if size is None else size.stretch)
 
     def _cone_factor(self, at: int) -> float:
-        """Return the pitch radius of a bevel gear divided by that of its virtual spur wheel [1]; 1 for spur wheels."""
+        """Return the cosine of the pitch cone angle of wheel `at` of a bevel pair, which relates its radii to those of
+        its virtual spur wheel; 1 for spur wheels.
+        """
         return 1.0 if self.spurs is None else cos(self.spurs.middle.cone(self.wheels[at].gear))
 
     @property
@@ -213,9 +215,10 @@ class PairUnderLoad:
         )
 
     def _bending(self, at: int, torque: float) -> tuple[RootSection | None, float, float | None]:
-        """Return the weakest section of a tooth with the whole load at its tip, the bending stress in this section
-        [MPa], and the maximum bending stress if tooth pairs share the load [MPa]. The section is None for a pin, and
-        the last stress is None if it is not computed.
+        """Return the weakest section of a tooth whose tip carries the whole load, the bending stress in this section
+        [MPa], and the maximum bending stress if tooth pairs share the load [MPa].
+
+        The section is None for a pin. The last stress is None if it is not computed.
         """
         own, load = self.wheels[at], self.load
         if (pins := own.teeth.pins) is not None:

@@ -81,11 +81,10 @@ class PinLoad(NamedTuple):
 
 
 def lobe_load(disc: CycloidalDisc) -> PinLoad:
-    """Return the load of the pin with the maximum pressure.
+    """Return the load of the pin at which the contact pressure is highest.
 
-    The force is divided by the tangential force at the disc's pitch circle; the curvature is in 1/module. The radius of
-    curvature of a convex lobe is the radius of curvature of the curve of pin centres minus the pin radius. For a
-    concave lobe, it is the sum of these radii, equation (28).
+    The force is divided by the tangential force at the disc's pitch circle. The curvature [1/module] is the sum of the
+    curvatures of the pin and of the lobe, equation (28) of docs/strength.md.
 
     >>> from geartrain.teeth.cycloidal_disc import CycloidalDisc
     >>> load = lobe_load(CycloidalDisc(11, 25 / 3, 1.0))

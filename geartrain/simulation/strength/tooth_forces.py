@@ -84,9 +84,11 @@ class ToothForces:
 
     @staticmethod
     def _both(loads: Sequence[float], radii: Sequence[float], cosines: Sequence[float]) -> list[tuple[float, float]]:
-        """Return the pitch radius and the tangential force of both wheels of a pair, by equation (32) of
-        docs/strength.md, from their torques, radii and cosines of the pitch cone angles (1 for parallel axes, -1 for a
-        ring gear).
+        """Return the pitch radius and the tangential force of both wheels of a pair, equation (32) of docs/strength.md.
+
+        loads     torques on the wheels
+        radii     pitch radii
+        cosines   cosines of the pitch cone angles: 1 for parallel axes, -1 for a ring gear
         """
         others = cosines[::-1]
         lever = sum(radius * other for radius, other in zip(radii, others, strict=True))
@@ -157,8 +159,8 @@ class ToothForces:
         return push, 0.0 - push * lean, None if apart is None else outwards * abs(push) * apart
 
     def _skew(self, circuit: Circuit, at: int, load: float, drives: bool) -> tuple[float, WheelParts]:
-        """Return the pitch radius of a wheel on crossed axes [mm], and the tangential, axial and radial force on the
-        wheel, including friction along its teeth [N].
+        """Return the pitch radius of a wheel on crossed axes [mm], and its tangential, axial and radial force [N]. The
+        forces include friction along the teeth.
         """
         helix = self.setting.helix_angles(circuit) or (0.0, 0.0)
         friction = self.setting.train.friction_of(self.setting.gears[circuit.id])

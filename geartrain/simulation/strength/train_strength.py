@@ -100,7 +100,9 @@ class Service:
         return own
 
     def time(self, train: TrainMechanics, state: str | None) -> float | None:
-        """Return the revolutions of a link per unit of its relative speed, or None without a service life."""
+        """Return the number of revolutions of a link in the service life, divided by its speed; None if no service life
+        is given.
+        """
         turns, years = self.turns, self.years
         if turns is None and years is None:
             return None
@@ -130,7 +132,7 @@ class Service:
 
 
 def _input_speed(train: TrainMechanics, state: str | None) -> float:
-    """Return the magnitude of the speed of the crank or, if there is none, of the first input that turns."""
+    """Return the magnitude of the crank's speed, else of the first input that turns, in the train's unit; else 0."""
     case, crank = train.kinematics.case(state), train.declaration.crank
     speeds = train.kinematics.solution(case).speeds
     if crank is not None and speeds.get(crank):
@@ -179,7 +181,7 @@ class StrengthQuestion:
 
     @cached_property
     def teeth(self) -> Mapping[str, WheelTeeth]:
-        """Cut teeth of each wheel that can mesh with all mates of the wheel, keyed by wheel."""
+        """Cut teeth by name of the wheel, for all wheels that can be cut so that they mesh with all their mates."""
         return self._cut.wheels
 
     @cached_property
@@ -188,7 +190,7 @@ class StrengthQuestion:
 
     @cached_property
     def swings(self) -> Mapping[str, float]:
-        """Maximum torque during the requested revolutions divided by the mean torque of each pair, by pair."""
+        """Maximum torque of each pair divided by its mean torque in the requested revolutions, 1 or more, by pair."""
         found = {}
         for circuit in self.setting.circuits:
             pair, maximum = self.torques.pairs.get(circuit.id), self.maximum.get(circuit.id)
@@ -359,7 +361,9 @@ class StrengthQuestion:
             return None
 
     def _pair_with_faults(self, mesh: GearMesh, name: str) -> str | None:
-        """Return the other pair whose teeth cannot turn, so that a wheel is not cut; None if there is none."""
+        """Return the name of another pair of wheel `name` whose faults prevent cutting the wheel; None if there is
+        none.
+        """
         # only a wheel that could not be cut has an unusable outline
         others = (each for each in self.meshes if each is not mesh and name in each.gears and name not in self.teeth)
         return next((other.name for other in others if other.faults), None)

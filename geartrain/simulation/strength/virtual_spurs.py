@@ -182,8 +182,10 @@ class SkewPair:
             return None
 
     def _root_stress(self, at: int, force: float) -> float | None:
-        """Return the root stress of wheel `at`, 0 or 1, under a normal force at its tip [MPa]; None if the virtual
-        wheel cannot be cut. The force acts on a length of twice its lever arm, or on the whole tooth if that is
+        """Return the root stress of wheel `at` (0 or 1) under a normal force at the tip of a tooth [MPa]; None if the
+        virtual wheel cannot be cut.
+
+        The force is distributed over a length of twice its lever arm about the root, or over the tooth if that is
         shorter.
         """
         if self._pair is None:

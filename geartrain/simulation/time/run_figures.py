@@ -64,7 +64,7 @@ _Figure = tuple[str, str, float, Literal["mean", "extreme"]]
 
 @dataclass(frozen=True)
 class RunFigures:
-    """Results of one run of a train for the requested outputs, computed from the samples and counts of the run."""
+    """Results of one run for the requested outputs, computed from its samples, contact times and energies."""
 
     of: TrainModel
     outputs: Sequence[tuple[str, str, str]]
@@ -221,7 +221,7 @@ class RunFigures:
         )
 
     def means(self) -> Iterator[_Figure]:
-        """Yield name, unit, value and kind of each mean value of the run."""
+        """Yield each mean value of the run as its name, its unit, its value and the word "mean"."""
         yield "torque of the drive", "N m", self.torque, "mean"
         yield "impact power", "W", self.energy.impact_loss / self.duration, "mean"
         for each in self.contacts:
@@ -234,7 +234,7 @@ class RunFigures:
         return [batch_half_width(np.array(each)) for each in zip(*blocks, strict=True)]
 
     def extremes(self) -> Iterator[_Figure]:
-        """Yield name, unit, value and kind of each maximum value of the run."""
+        """Yield each maximum value of the run as its name, its unit, its value and the word "extreme"."""
         for each in self.contacts:
             if each.impact_rate:
                 yield f"{each.name} hardest impact", "rad/s", each.hardest, "extreme"
@@ -411,8 +411,8 @@ def find_amplitudes(time: Floats, angle: Floats) -> tuple[Floats, Floats]:
 
 
 def _source(order: float, width: float, cycles: Mapping[str, float]) -> str:
-    """Return the name and harmonic of the pair that causes a vibration order, such as "c2~d1 x1": the lowest harmonic
-    within `width`; "" if there is none.
+    """Return the pair and its lowest harmonic, such as "c2~d1 x1", that lies within `width` of a vibration order, which
+    it may cause; "" if there is none.
     """
     near = [
         (harmonic, name)

@@ -287,8 +287,9 @@ class Simulation(Shown):
         self._read(record, steps)
 
     def _apply_new_speed(self) -> int:
-        """Set the prescribed coordinate speeds to the present speed of the drive. Return 1 if they change, so that the
-        next time step must correct the momentum; otherwise return 0.
+        """Set the prescribed coordinate speeds to the speed of the drive. Return 1 if a speed changes, else 0.
+
+        After a change, the torque in the next time step compensates the sudden change of momentum.
         """
         if self.drive_kind != "rate":
             return 0
@@ -303,7 +304,7 @@ class Simulation(Shown):
         return 1
 
     def _run_steps(self, record: RunRecord, steps: int, stride: int) -> None:
-        """Compute `steps` time steps, whose impulses `record` adds up as one incomplete sample."""
+        """Compute `steps` time steps, and add their impulses to a single sample in `record`."""
         ahead = max(steps, 1) * self.step + float(self._state.clock[0])
         # a stride beyond the steps keeps the sample open
         rules = step_rules(self._model, self._state, StepPlan(self.step, 0, steps, stride + 1), ahead)

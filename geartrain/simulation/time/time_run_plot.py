@@ -91,8 +91,8 @@ def _across_text(run: TimeRun) -> str:
 
 
 def _loose(run: TimeRun) -> list[str]:
-    """Return the names of the pairs with backlash whose gaps are drawn, in the order of the declaration: at most
-    `_PAIRS` pairs, which are out of contact for the longest time.
+    """Return the names of the pairs whose gaps are drawn, in the order of declaration: of the pairs with backlash, the
+    `_PAIRS` pairs that are out of contact for the longest time.
     """
     names = [
         name
@@ -113,7 +113,7 @@ def _moving(run: TimeRun) -> list[str]:
 
 
 def _stretch(run: TimeRun, pairs: list[str]) -> slice:
-    """Return the range of samples in which gaps are drawn, which is centred on the maximum gap of all pairs."""
+    """Return the range of samples in which gaps are drawn: `_STRETCH` samples, centred on the maximum gap."""
     whole = len(run.time)
     first = int(np.searchsorted(run.time, run.skip))
     middle = whole
@@ -210,8 +210,8 @@ def _spectrum(panel: Axes, run: TimeRun, moving: list[str]) -> None:
 
 
 def _named(peaks: Sequence[SpectrumPeak]) -> Iterator[tuple[float, float, str]]:
-    """Yield the frequency [Hz], amplitude [deg] and source of each spectral line that is labelled: strong lines of a
-    known source without close neighbours.
+    """Yield the frequency [Hz], amplitude [deg] and source of each spectral line to be labelled: up to `_NAMES` lines
+    of known source, except lines with a frequency close to that of another labelled line.
     """
     taken: list[float] = []
     for peak in peaks:

@@ -94,8 +94,8 @@ class DrivenTrain:
         return Simulation(found, seen, step, fast=is_fast(fast, inf))
 
     def _model(self, yields: bool = False) -> tuple[TrainModel, list[tuple[str, str, str]]]:
-        """Return the contact model of the train, and the name, link and reference link of each recorded output. Teeth
-        are compliant if `yields` is True.
+        """Return the contact model of the train, and the name, link and reference link of each recorded output.
+        `yields` is True for compliant teeth, False for rigid teeth.
         """
         seen = self.train.planets_as_one.kinematics.seen_links(self.state, self.outputs)
         rate = radians_per_second(self.rate)
@@ -114,6 +114,7 @@ def model_in_time(
 ) -> TrainModel:
     """Return the contact model of a train. The arguments `rate` [rad/s] and `restitution` replace the declared values.
 
+    yields  True for compliant teeth, False for rigid teeth
     scale   input speed that is assumed if none is declared, for results that do not depend on it [rad/s]
     """
     # vibration modes, for which no rate is needed, do not depend on friction
@@ -334,7 +335,9 @@ class TimeStudy:
         return [tau / abs(self.of.case.rate) / beat for _, beat in self.of.case.escapements.values()]
 
     def plan(self, finer: int) -> StepPlan:
-        """Return the time steps of one run, where `finer` is 1 for the time step h and 2 for the time step h/2."""
+        """Return the number and length of the time steps of one run. `finer` is the number of parts, 1 or 2, into which
+        each time step h of the study is divided.
+        """
         # the finer run has exactly twice the steps
         steps, skip = (round(each * self.per_turn) * finer for each in (self.turns, self.skip))
         often = max([_SAMPLES * self.busiest, *(_A_BEAT * each for each in self.beats)])
@@ -378,11 +381,10 @@ class TimeStudy:
         return first.result(None)
 
     def static_peaks(self) -> Sequence[float | None]:
-        """Return the maximum quasi-static torque of each pair [N m], computed in a run with rigid teeth and almost no
-        inertia.
+        """Return the maximum quasi-static torque of each pair with compliant teeth [N m]; None if the teeth are rigid,
+        or if no speed is prescribed, because the train would accelerate without limit.
 
-        The values are None for rigid teeth, and if no speed is prescribed, since such a train would accelerate without
-        limit.
+        The torques are computed in a separate run with rigid teeth and almost no inertia.
         """
         model = self.of.model
         if self.of.yields is None or self.of.case.drive.kind != "rate":

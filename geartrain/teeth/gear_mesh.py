@@ -112,7 +112,7 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def note(self) -> str:
-        """Note on a wheel that is treated as a wheel of another kind, such as a contrate wheel; may be empty."""
+        """Note on a wheel that is treated as a wheel of another kind, such as a contrate wheel; "" if there is none."""
         return self.wheels.note
 
     @property

@@ -115,7 +115,7 @@ class Geneva(SteppingCoupling):
 
 
 class Step(SteppingCoupling):
-    """Finger and star, ratchet or mutilated wheel: every engagement moves the driven link by whole teeth."""
+    """Finger and star, ratchet or mutilated wheel: every engagement moves the driven link by one or more teeth."""
 
     kind: Literal["step"] = Field(description="Finger and star, ratchet or mutilated wheel: whole teeth, then rest")
     teeth: int = Field(ge=1, le=10**12, description="Number of teeth of the driven link")

@@ -122,7 +122,9 @@ class Screw(TravelCoupling):
 
 
 class Drum(TravelCoupling):
-    """Line on a drum with its load on one or more falls. The travel is the drum's circumference over the falls."""
+    """Line on a drum with its load on one or more falls. The travel is the circumference of the drum divided by the
+    number of falls.
+    """
 
     kind: Literal["drum"] = Field(description="Line that a drum winds, with a load that slides")
     diameter: Annotated[MeasuredLength, above_zero("give a diameter such as 40 mm")] = Field(

@@ -77,7 +77,8 @@ def _with_total_inertia(train: Train, part: Link) -> Link:
     wheels = {}
     for name, wheel in part.wheels.items():
         # mass of wheels follows from their density, so it is multiplied too
-        wheels[name] = wheel.changed(density=_multiplied(wheel.density or train.density, number))
+        density = wheel.density or train.density
+        wheels[name] = wheel.changed(density=_multiplied(density, number)) if density else wheel
     bearing = part.bearing
     if bearing is not None:
         sliding, static = _multiplied(bearing.sliding, number), _multiplied(bearing.static, number)

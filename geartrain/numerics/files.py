@@ -442,7 +442,8 @@ def _parsed_rows(path: Path, parse: Callable[[list[str]], T], what: str, why: st
     for at, line in enumerate(text.splitlines(), 1):
         words = line.partition("#")[0].replace(",", " ").split()
         try:
-            found += [parse(words)] if words else []
+            if words:
+                found.append(parse(words))
         except ValueError:
             problems.append(Problem(f"'{' '.join(words)}' {what}", why, fix, f"{path}:{at}"))
     if problems:

@@ -282,7 +282,7 @@ def _cell(value: object) -> str:
 
 
 def imported_function(module: str, name: str) -> Callable[..., Any]:
-    """Import the function or class `name` of a module of `geartrain` that draws or describes a result.
+    """Import the function or class `name` of a module of `geartrain` that must not be imported at the top of a file.
 
     Drawing modules import computing modules, but not the reverse; results call them only when they are displayed.
     """

@@ -254,7 +254,6 @@ def from_graph(
     (('pitch', 'phases'), {12})
     """
     import networkx as nx
-    from scipy.spatial.transform import Rotation
 
     if aim not in ("pitch", "phases"):
         what, why = f"unknown aim {aim!r}", "`aim` names the condition that all meshes or loops must satisfy"
@@ -284,6 +283,8 @@ def from_graph(
         z = min(choices[:_MOST_CHOICES], key=lambda z: forecast_spread(axes, meshes, z, corners))
         fitted, residuals = fit_phases(axes, meshes, z, corners)
     # a common rotation is removed, so that displacements are meaningful (Kabsch's algorithm)
+    from scipy.spatial.transform import Rotation
+
     placed = Rotation.align_vectors(axes, fitted)[0].apply(fitted)
     labels = tuple(str(name) for name in names)
     chosen = dict(zip(labels, z.tolist(), strict=True))

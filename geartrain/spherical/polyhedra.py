@@ -266,8 +266,6 @@ def _corners(face: tuple[int, ...]) -> Iterator[tuple[int, int, int]]:
 
 def _checked(points: ArrayLike) -> Floats:
     """Return the points as an array; raise `GearTrainError` if they cannot be vertices of a solid."""
-    from scipy.spatial import cKDTree
-
     try:
         vertices = np.array(points, dtype=np.float64)
     except (TypeError, ValueError):
@@ -281,6 +279,8 @@ def _checked(points: ArrayLike) -> Floats:
     spread = np.linalg.svd(vertices - vertices.mean(axis=0), compute_uv=False)
     if spread[2] <= NEAR * spread[0]:
         raise _refused("the points are in one plane", "a polyhedron has a positive volume", "add a vertex outside it")
+    from scipy.spatial import cKDTree
+
     repeated = cKDTree(vertices).query_pairs(NEAR * float(spread[0]) / len(vertices) ** 0.5)
     if repeated:
         first, second = min(repeated)

@@ -122,7 +122,11 @@ def _identity(key: str, node: YamlNode) -> object:
     if key in JOINTS:
         return frozenset(_ends(key, node))
     given = node.mapping.get("id")
-    return given.text if given else "~".join(_ends(key, node)[:2])
+    if given:
+        return given.text
+    # a gear pair with more than two ends is an error and must not change another pair
+    ends = _ends(key, node)
+    return "~".join(ends[:2] if key == "couplings" else ends)
 
 
 def _ends(key: str, node: YamlNode) -> list[str]:

@@ -44,9 +44,9 @@ def find_neglected_effects(
     busy = [circuit for circuit in setting.circuits if circuit.id not in set(idle)]
     found = [*_pins(setting, busy), *_teeth(setting, busy, means)]
     open_ = [circuit.id for circuit in busy if setting.turn(circuit) is None]
-    # pairs whose friction depends on the speed of their teeth
-    laws = {name for name, mesh in setting.meshes.items() if mesh.wheels.friction_law is not None}
-    laws = {name for name in laws if setting.gears[name].efficiency is None}
+    # pairs whose friction depends on the speed of their teeth; access to another pair would build its teeth
+    laws = {name for name in open_ if name in setting.meshes and setting.gears[name].efficiency is None}
+    laws = {name for name in laws if setting.meshes[name].wheels.friction_law is not None}
     if lossy := tuple(name for name in open_ if means[name] != MeanEfficiencies() or name in laws):
         why = "their driving side depends on speeds that are not determined"
         found.append(NeglectedEffect("losses of pairs", lossy, why))

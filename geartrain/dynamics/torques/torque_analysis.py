@@ -157,8 +157,9 @@ def find_torque_verdict(
     if not flows:
         return _unbalanced(question, complete)
     uncounted: dict[str, list[str]] = {}
-    for each in (each for each in neglected if each.counts):
-        uncounted.setdefault(each.what, []).extend(each.where)
+    for each in neglected:
+        if each.counts:
+            uncounted.setdefault(each.what, []).extend(each.where)
     named = [f"{what} ({', '.join(where)})" for what, where in uncounted.items()]
     but = f"; not included: {', '.join(named)}" if named else " (mean over a turn)" if neglected else ""
     # undetermined torques come first, because the number of patterns then has no meaning
@@ -740,17 +741,17 @@ def _pair(setting: LoadCase, mesh: LoadedPair, circuit: Circuit, flow: FlowPatte
 
 def _held(setting: LoadCase, balance: TorqueBalance, flow: FlowPattern) -> tuple[HoldingTorque, ...]:
     """Return the torques of all brakes and locks, each about the axis of the held link."""
-    case, arms, found = setting.case, setting.arms, dict[tuple[str, ...], list[tuple[Fraction, ...] | None]]()
+    case, arms = setting.case, setting.arms
+    found: list[tuple[tuple[str, ...], tuple[Fraction, ...] | None]] = []
     for link in balance.held:
         torque = flow.solved.brakes.get(link)
-        found.setdefault((link,), []).append(None if torque is None else (_load(arms, link, torque),))
+        found.append(((link,), None if torque is None else (_load(arms, link, torque),)))
     for ((a, sense), (b, other)), torque in zip(balance.locks, flow.solved.locks, strict=True):
         # the torque on the second link is the reaction to the torque on the first
         both = None if torque is None else (_load(arms, a, sense * torque), _load(arms, b, -other * torque))
-        found.setdefault((a, b), []).append(both)
-    causes = {links: case.causes.get(links, links) for links in found}
+        found.append(((a, b), both))
+    causes = {links: case.causes.get(links, links) for links, _ in found}
     return tuple(
         HoldingTorque(links, torques, case.clutches.get(causes[links]), causes[links] if causes[links] != links else ())
-        for links, each in found.items()
-        for torques in each
+        for links, torques in found
     )

@@ -215,8 +215,10 @@ class _RunResults:
         link = self._link
         locked, ambiguous = self.run.share(~found.valid), self.run.share(found.layers > 1)
         maximum = None if locked else self._extreme(1, False)
-        # without static friction the maximum torque is sufficient to start the train
-        starting = self._extreme(1, True) if train.starts_harder else maximum
+        starting = None
+        if self.run.standing.valid.all():
+            # without static friction the maximum torque is sufficient to start the train
+            starting = self._extreme(1, True) if train.starts_harder else maximum
         torque, neglected, period = self._torque(found), self._neglected(), train.motion.period
         names = (*train.pairs, *(f"bearing {link}" for link in train.bearings))
         parts = self._parts(names)
@@ -239,7 +241,7 @@ class _RunResults:
             None if locked else float(self.run.cells.weights @ torque) / self.run.span,
             maximum,
             self._extreme(-1, False),
-            starting if self.run.standing.valid.all() else None,
+            starting,
             None if locked else self._energy(parts),
             parts,
             locked,

@@ -281,7 +281,10 @@ class ClosedForm(Result):
             used = {wheels[at] for _, powers in factor for at, power in enumerate(powers) if power}
             if used.issubset(own):
                 place = {wheel: at for at, wheel in enumerate(wheels)}
-                spread = [Term(c, tuple(e[place[w]] if w in place else 0 for w in own)) for c, e in factor]
+                spread = [
+                    Term(coefficient, tuple(powers[place[wheel]] if wheel in place else 0 for wheel in own))
+                    for coefficient, powers in factor
+                ]
                 known.append(Laurent.of(spread, len(own)))
         return FactoredPolynomial.of(terms, [self.counts[wheel] for wheel in own], known)
 

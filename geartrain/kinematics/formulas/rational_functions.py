@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from operator import index
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from geartrain.kinematics.formulas.laurent import Exponents, Laurent, Term, common_divisor, divide_exactly
@@ -184,7 +185,7 @@ class Formula:
             rest = []
             for coefficient, exponents in terms:
                 powers = dict(zip(self.wheels, exponents, strict=True))
-                factors = (int(counts[wheel]) ** powers[wheel] for wheel in self.wheels if wheel in counts)
+                factors = (index(counts[wheel]) ** powers[wheel] for wheel in self.wheels if wheel in counts)
                 rest.append(Term(math.prod(factors, start=coefficient), tuple(powers[wheel] for wheel in left)))
             parts.append(Laurent.of(rest, len(left)))
         return make_formula(self.label, left, *parts)[0]

@@ -116,15 +116,16 @@ def solve_floats(system: WillisSystem, inputs: Mapping[str, Sequence[float]] | N
     estimate = 2 * (np.abs(left) + np.abs(more)) + UNIT_ROUNDOFF * np.abs(x) + reach
     residual = np.divide(np.abs(rest), terms, out=np.zeros_like(rest), where=terms > 0)
     # component-wise condition numbers |A^-1| |A| |x| / |x|; the numerator is exact if the inverse was computed
-    size = np.abs(x[:, 0])
-    numbers = np.divide(spread[:, 0], size, out=np.full_like(size, np.inf), where=size != 0).tolist()
-    at, inf = matrix.at, float("inf")
-    condition = {link: numbers[at[link]] if link in at else inf for link in system.links}
+    condition: dict[str, float] = {}
+    if len(x) <= _INVERTED:
+        size, at = np.abs(x[:, 0]), matrix.at
+        numbers = np.divide(spread[:, 0], size, out=np.full_like(size, np.inf), where=size != 0).tolist()
+        condition = {link: numbers[at[link]] if link in at else float("inf") for link in system.links}
     return FloatSpeeds(
         _with_frame(system, matrix, x),
         _with_frame(system, matrix, estimate),
         labelled_array(residual, row=[row.label for row in rows], case=[str(case) for case in range(x.shape[1])]),
-        condition if len(x) <= _INVERTED else {},
+        condition,
     )
 
 

@@ -401,8 +401,9 @@ class CrossedWheels:
         places = np.linspace(-back, front, _POINTS)[1:-1].tolist()
         # the ends of the path are excluded: a pair carries no load there
         counts = [self.tooth_pairs(place) for place in places]
-        fewest = [place for place, count in zip(places, counts, strict=True) if count == min(counts)]
-        return max(self.ellipse(place, force, factor) for place in fewest)
+        fewest = min(counts)
+        loaded = (place for place, count in zip(places, counts, strict=True) if count == fewest)
+        return max(self.ellipse(place, force, factor) for place in loaded)
 
 
 # ----------------------------------------------------------------------------------------------------------------- wear

@@ -79,7 +79,7 @@ def _pointed(path: PathOfContact, halves: Halves) -> Iterator[ToothFault]:
     """Yield a fault for each gear whose flanks would intersect below the tip, given both half-thicknesses `halves`."""
     for gear, X in ((1, path.arcs[1]), (2, -path.arcs[0])):
         thickness = partial(tooth_thickness, path, gear, halves)
-        if not X or (at_tip := thickness(X)) >= 0:
+        if not X or not (at_tip := thickness(X)) < 0:
             continue
         # contact on one side only does not reach the pitch point
         foot = path.ends(gear)[0] if path.ends(gear)[0] * X > 0 else 0.0

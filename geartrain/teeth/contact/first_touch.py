@@ -196,9 +196,9 @@ class FirstTouchSearch:
         """Return the segments between adjacent nodes of the driver's flank whose distances from the second axle overlap
         with the radii of the driven flank. The piece of the driven flank is 0 for all of them.
         """
-        of, (piece, u, begins) = tooth_pairs.tooth1, self.first.nodes
-        pieces, us, begins = piece[of], u[of], begins[of, :-1]
-        r, dr, a, da = (each[tooth_pairs.tooth1] for each in self.first.node_values)
+        tooth1, (piece, u, begins) = tooth_pairs.tooth1, self.first.nodes
+        pieces, us, begins = piece[tooth1], u[tooth1], begins[tooth1, :-1]
+        r, dr, a, da = (each[tooth1] for each in self.first.node_values)
         view = DrivenFrame(self.axles, r, a + tooth_pairs.x[:, None])
         change, swing = view.moved(dr, da)
         turning = np.sign(change[:, :-1]) * np.sign(change[:, 1:]) < 0

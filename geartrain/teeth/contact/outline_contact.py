@@ -91,9 +91,11 @@ class OutlinePair:
         # in the mirror image tooth j touches the tooth behind it, whose number counted backward is j + 1
         mate = j if self.sign > 0 else j + 1
         tooth1, tooth2 = (self.sign * j) % self.first.z, (self.sign * mate) % self.second.z
-        turns1, turns2 = (np.array(wheel.turns or (0.0,) * wheel.z) for wheel in (self.first, self.second))
-        x = rest[position] + j * pitch + self.sign * turns1[tooth1]
-        place = mate * self.second.pitch + self.sign * turns2[tooth2]
+        x, place = rest[position] + j * pitch, np.asarray(mate * self.second.pitch, dtype=np.float64)
+        if self.first.turns:
+            x += self.sign * np.array(self.first.turns)[tooth1]
+        if self.second.turns:
+            place += self.sign * np.array(self.second.turns)[tooth2]
         shape1 = tooth1 if len(self.first.teeth) > 1 else np.zeros_like(j)
         shape2 = tooth2 if len(self.second.teeth) > 1 else np.zeros_like(j)
         near = (x >= self.window[0]) & (x <= self.window[1])

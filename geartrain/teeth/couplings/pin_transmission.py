@@ -40,7 +40,7 @@ class PinTransmission(SeriesTransmission):
     """Name of the driving side, "pin" or "slot"."""
 
     def __init__(self, pin_radius: float, offset: float, friction: float = 0.0) -> None:
-        self.r, self.e, self.friction = pin_radius, offset, check_friction(friction)
+        self.r, self.e = pin_radius, offset
         if not (_MINIMUM < pin_radius < 1 / _MINIMUM and (offset == 0 or _MINIMUM < offset < 1 / _MINIMUM)):
             what = f"a pin radius of {pin_radius:g} and an offset of {offset:g} are out of range"
             why = f"both must be between {_MINIMUM:g} and {1 / _MINIMUM:g}, except that the offset may be 0"
@@ -51,6 +51,7 @@ class PinTransmission(SeriesTransmission):
             ratios = "the mean ratio is 1 for a larger radius and 0 for a smaller one"
             why = f"the slot's direction is undetermined there; {ratios}"
             raise RangeError(Problem(what, why, "give a larger or a smaller pin radius"))
+        self.friction = check_friction(friction)
         less, more = min(pin_radius, offset), max(pin_radius, offset)
         ratio, factor = (Fraction(1), 1.0) if pin_radius > offset else (Fraction(0), -1.0)
         super().__init__(ratio, factor, 1, less / more, (more - less) / more)

@@ -377,15 +377,17 @@ def contact_course(
         values = [what(each.phase, x) if each.held is None else np.full_like(x, held(each)) for each, x in at]
         return np.concatenate([np.empty(0), *values])
 
-    def f(phase: str, x: Floats) -> float | Floats:
+    def coefficient(phase: str, x: Floats) -> float | Floats:
         return transmission.coefficient(phase, x, friction)
 
-    first, second = (
-        column(lambda phase, x, wheel=wheel: tooth_pair.moment_arms(phase, x, f(phase, x), np)[wheel], lambda _: nan)  # type: ignore[misc]
-        for wheel in (0, 1)
-    )
+    def arm(wheel: int) -> Floats:
+        return column(
+            lambda phase, x: tooth_pair.moment_arms(phase, x, coefficient(phase, x), np)[wheel], lambda _: nan
+        )
+
+    first, second = arm(0), arm(1)
     # the efficiency is defined only where the force acts with a positive arm on both wheels
-    eta = column(lambda phase, x: tooth_pair.efficiency(phase, x, f(phase, x), np), lambda _: nan)
+    eta = column(lambda phase, x: tooth_pair.efficiency(phase, x, coefficient(phase, x), np), lambda _: nan)
     return ContactCourse(
         tuple(each.phase for each, x in at for _ in x),
         np.concatenate([np.empty(0), *(x for _, x in at)]),

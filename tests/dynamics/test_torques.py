@@ -441,3 +441,19 @@ def test_an_efficiency_of_means_over_teeth_is_a_float_and_a_declared_one_a_fract
     plain = load("planetary-24-18-60").with_changes(gears=[{"pair": ["s", "p"], "efficiency": 0.98}])
     declared = plain.driven("carrier", "sun")
     assert declared.efficiency == (1 + Fraction(5, 2) * Fraction(98, 100)) / Fraction(7, 2)
+
+
+def test_teeth_of_a_pair_that_transmits_no_torque_are_not_built() -> None:
+    train = load("""
+links: {frame: {}, a: {wheels: {P: 20, R: 20}}, b: {wheels: {Q: 40}}, c: {wheels: {S: 30}}}
+revolutes: {X: [frame, a], Y: [frame, b], Z: [frame, c]}
+gears:
+  - {pair: [P, Q], efficiency: 0.97}
+  - {pair: [R, S], efficiency: 0.97, tooth_form: {form: involute, shift: [-3, -3]}}
+inputs: {a: 1}
+loads: {b: 1}
+""")
+    # 20/40 of the load torque, divided by the efficiency
+    assert train.torques().external["a"] == Fraction(50, 97)
+    with pytest.raises(GearTrainError, match="no centre distance"):
+        train.with_changes({"loads": {"b": 0, "c": 1}}).torques()

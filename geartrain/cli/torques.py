@@ -173,7 +173,11 @@ def _table(found: TorqueCycle) -> str:
 
     if found.turns is None or found.torque is None or found.standing is None or found.losses is None:
         raise GearTrainError(
-            Problem("the torque cannot be written", found.verdict.text, "declare loads that the input can move")
+            Problem(
+                "the torque cannot be computed, so no file is written",
+                found.verdict.text,
+                "declare loads that the input can drive",
+            )
         )
     columns = [found.turns, found.torque, found.standing, *found.losses.values]
     header = ["turns", f"torque_{found.link}", "starting", *(f"lost_{name}" for name in found.losses.labels[0])]

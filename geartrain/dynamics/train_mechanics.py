@@ -111,7 +111,9 @@ class TrainMechanics(Shown):
 
     @cached_property
     def meshes(self) -> tuple[GearMesh, ...]:
-        """Gear pairs with a declared tooth form and the driver of the first state in which it is determined."""
+        """Gear pairs with a declared tooth form. The driver of each pair is its driver in the first state in which the
+        driver is determined.
+        """
         ways = self.driven_ways.values()
         return tuple(next((way for way, _ in each if way.who.known), each[0][0]) for each in ways)
 

@@ -107,7 +107,9 @@ def decimal(value: Fraction, digits: int = 10) -> str:
 
 
 _PLAIN, _SHORT = 2000, 600
-"""Maximum bits and maximum digits of integers that Python converts itself; its limit is never below 640 digits."""
+"""Maximum bit length and maximum number of decimal digits of an integer that is converted with `str` or `int`. Python's
+own limit is at least 640 digits, so it is never reached.
+"""
 
 
 def fraction_text(value: Fraction | int) -> str:

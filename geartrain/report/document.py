@@ -17,7 +17,7 @@ from geartrain.numerics.exact import abridged_text, decimal, fraction_text, pi_t
 from geartrain.numerics.results import Shown, field_docs, imported_function, summary_line
 
 MOST_ROWS = 120
-"""Maximum number of table rows in a document; the JSON has all rows."""
+"""Maximum number of table rows in a document; JSON output contains all rows."""
 
 
 class ExactText(str):

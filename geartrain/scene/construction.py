@@ -220,8 +220,8 @@ class _Mounting:
         if self.off:
             yield Problem(
                 f"the teeth of {', '.join(self.off)} are drawn out of phase",
-                "a driver with several mates can be in phase with only one of them; in the other pairs teeth do not "
-                "overlap, but touch only once per pitch, and the motion is exact",
+                "a driver with several mates can be in phase with only one of them. The other pairs are drawn without "
+                "overlap, but not in correct mesh; the computed motion is not affected",
                 "",
             )
 

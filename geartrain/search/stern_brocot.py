@@ -92,7 +92,9 @@ class SternBrocotRun:
     """
 
     def at(self, k: int) -> Fraction:
-        """Return the fraction (p + k P)/(q + k Q) of the run, where (p, q) is `near` and (P, Q) is `far`."""
+        """Return the fraction with index k of the straight run of the path: (p + k P)/(q + k Q), where (p, q) is `near`
+        and (P, Q) is `far`.
+        """
         return coprime(self.near[0] + k * self.far[0], self.near[1] + k * self.far[1])
 
     def kind(self, k: int) -> ApproximantKind:

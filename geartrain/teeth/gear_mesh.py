@@ -350,7 +350,7 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def rigid(self) -> bool:
-        """True if the speed ratio is constant. Only the backlash of such a pair affects the motion."""
+        """True if the speed ratio is constant, so that only backlash makes the transmitted motion nonuniform."""
         return isinstance(self.transmission, ExactRatio)
 
     @property

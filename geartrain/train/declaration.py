@@ -317,8 +317,8 @@ class Train(Declared):
         return friction_in_force(getattr(part, "friction", None))
 
     def stiffness_of(self, gear: GearPair) -> Quantity | None:
-        """Return the tooth stiffness of a gear pair. It is declared for the pair, else for its tooth form, else for the
-        train; None if it is not declared.
+        """Return the tooth stiffness of a gear pair. A value declared for the pair has precedence over a value of its
+        tooth form, and that over a value of the train; None if none of them is declared.
 
         Parameters
         ----------
@@ -329,8 +329,8 @@ class Train(Declared):
         return gear.stiffness or (form.stiffness if form is not None else None) or self.stiffness
 
     def damping_of(self, gear: GearPair) -> Quantity | None:
-        """Return the tooth damping of a gear pair. It is declared for the pair, else for its tooth form, else for the
-        train; None if it is not declared.
+        """Return the tooth damping of a gear pair. A value declared for the pair has precedence over a value of its
+        tooth form, and that over a value of the train; None if it is not declared.
 
         Parameters
         ----------
@@ -610,7 +610,7 @@ class Train(Declared):
 
     @property
     def unit_base(self) -> Fraction | None:
-        """Size of the train's unit [s or m]; None if no unit is declared."""
+        """Size of the time or length of the key `unit` [s or m]; None if `unit` is not declared."""
         quantity = self.unit_quantity
         if quantity is not None:
             return quantity.base
@@ -618,7 +618,9 @@ class Train(Declared):
 
     @property
     def unit_quantity(self) -> Quantity | None:
-        """Unit of the train as a quantity (a time or a length); None for a named period, or if none is declared."""
+        """Time or length of the key `unit` as a quantity, such as 1 d for speeds in turns per day; None if `unit` names
+        a period or is not declared.
+        """
         if self.unit is None or self.unit.per in period_table():
             return None
         try:
@@ -657,7 +659,9 @@ class Train(Declared):
 
     @property
     def cases_declared(self) -> Iterator[tuple[Loc, Train | State]]:
-        """Train itself and all of its states, both of which can declare inputs and loads, with their paths."""
+        """Yield the train and each of its states, with their paths in the declaration. Each of them can declare inputs
+        and loads.
+        """
         yield (), self
         for name, state in self.states.items():
             yield ("states", name), state

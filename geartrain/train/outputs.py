@@ -437,7 +437,7 @@ class Expect(Declared):
     )
 
     def holds(self, speed: Any) -> bool:
-        """Return True if a speed [unit of the train] agrees with the expected value within the tolerance."""
+        """Return True if a speed [the train's unit of speed] agrees with the expected value within the tolerance."""
         return self.value.holds(speed, self.tolerance.value if self.tolerance else None)
 
 

@@ -261,8 +261,8 @@ def _indeterminate(flows: Sequence[FlowPattern], question: LoadedBalance) -> Tor
 
 
 def _describe_flow(question: LoadedBalance, power: Fraction, resisted: bool) -> str:
-    """Return a phrase on the power that the links of unknown torque supply or absorb in one solution. `resisted` is
-    True if they absorb power in the solution with minimum loss.
+    """Return a phrase that describes the power supplied or absorbed by the links whose torque is unknown, in one
+    solution. `resisted` is True if they absorb power in the solution with minimum loss.
     """
     if power < 0:
         return f"power {decimal(-power, 6)} leaves at {question.names}, which resists"

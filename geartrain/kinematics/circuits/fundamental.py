@@ -142,7 +142,7 @@ class WillisEquation(NamedTuple):
     terms: tuple[tuple[str, int], ...]
     """Terms of the left-hand side, as pairs of a link and its non-zero coefficient."""
     right: Fraction = Fraction(0)
-    """Right-hand side of the equation [unit of the train]."""
+    """Right-hand side of the equation [the train's unit of speed]."""
 
 
 @collector_paused()

@@ -218,7 +218,7 @@ def _two_axes(train: Train, axis: str, first: str, second: str, first_loc: Loc, 
     return Problem(
         f"axis label '{axis}' names two axes",
         f"one axis is carried by '{first}' ({train.place(*first_loc)}), the other by '{second}'; "
-        "joints with one label must be coaxial",
+        "joints with the same label must be coaxial",
         "give the second axis a different label",
         train.place(*loc),
     )

@@ -350,9 +350,9 @@ def _order(geometry: SizedGeometry) -> list[int]:
 
 
 class _Placing:
-    """Positions of the groups that are placed so far; `place` adds a group.
+    """Positions of the groups of parallel axes placed so far; `place` adds a group.
 
-    Broadened wheels change `geometry`, so that later groups and diagnostics use their final sizes.
+    If wheels are widened, `geometry` is updated, so that later groups and diagnostics use the final face widths.
     """
 
     def __init__(self, geometry: SizedGeometry) -> None:

@@ -360,12 +360,12 @@ def _check_reach(question: StageProblem) -> None:
         )
 
 
-# ------------------------------------- explanation of short results: nearest miss and constraints to relax
+# ------------------------------------- explanation of short results: closest rejected candidate, constraints to relax
 
 
 def explain(question: StageProblem, outcome: SweepOutcome, sense: int, means: Execution) -> Shortfall:
     """Return the number of rejected pairs of multisets for each reason. If there is no solution, the result also
-    contains the nearest miss and suggestions.
+    contains the closest rejected candidate and suggestions.
     """
     if not outcome.complete:
         return Shortfall(

@@ -74,15 +74,17 @@ class TrainPlace(Result):
     ranks: tuple[int, int]
     """First and last rank of the train by probability. They differ if several trains are equally probable."""
     trains: int
-    """Number of explanations among which the train is ranked."""
+    """Number of candidate trains, all of which explain the evidence, among which the train is ranked."""
     ranks_alike: tuple[int, int]
-    """First and last rank of the train among the explanations with the same number of added wheels."""
+    """First and last rank of the train among the candidate trains with the same number of added wheels. They differ if
+    several trains are equally probable.
+    """
     trains_alike: int
-    """Number of explanations with the same number of added wheels as the train."""
+    """Number of candidate trains with the same number of added wheels as the train."""
     weight: float
     """Posterior probability of the train, 0 to 1."""
     dearer: Fraction
-    """Probability of the most probable explanation divided by the probability of this train, at least 1."""
+    """Probability of the most probable candidate train divided by the probability of this train, at least 1."""
 
 
 @dataclass(frozen=True, slots=True)

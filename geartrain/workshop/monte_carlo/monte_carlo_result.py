@@ -70,7 +70,7 @@ class MonteCarloResult(Tabular, Pictured, Result):
     cleared: Sequence[ClearanceCase] = ()
     """Event probabilities at other clearance factors, from `jamming_map`."""
     courses: Sequence[PointerErrorCourse] = ()
-    """Pointer errors of each studied output along a revolution, from `run_course`."""
+    """Pointer errors of each studied output over one revolution, from `run_course`."""
     indices: Sequence[SobolIndices] = ()
     """Sobol indices of pointer errors, from `find_sobol_indices`."""
 

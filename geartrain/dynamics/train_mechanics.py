@@ -60,7 +60,9 @@ class TrainMechanics(Shown):
 
     @property
     def signs(self) -> Mapping[str, int]:
-        """Sign of each link's axis: -1 if it points against the reference direction of parallel axes, else 1."""
+        """Sign of the axis of each link, keyed by link: -1 if the axis points against the reference direction of the
+        axes parallel to it, otherwise 1.
+        """
         return self.kinematics.signs
 
     # ------------------------------------------------------------------------------------------------- equal planets

@@ -137,7 +137,8 @@ def read_fraction(text: str) -> Fraction:
 
 
 def abridged_text(value: Fraction | int) -> str:
-    """Format a number with all digits if they fit in 40 characters, else give only the number of digits.
+    """Format a number with all its digits if they fit in 40 characters. For a longer number, give only the number of
+    digits.
 
     >>> abridged_text(Fraction(11, 10) ** 5), abridged_text(Fraction(11, 10) ** 5000)
     ('161051/100000', '(5207 digits)/(5001 digits)')

@@ -209,7 +209,8 @@ def check_points(
 def periodic_integral(
     slope: Callable[[Floats], Floats], period: float, breakpoints: Sequence[float] | Floats = ()
 ) -> tuple[PeriodicPieces, float]:
-    """Return the integral of a periodic slope minus its mean, from the first breakpoint or else from 0, and this mean.
+    """Return the integral of a periodic slope minus its mean, and this mean. The integral begins at the first
+    breakpoint, or at 0 if there is none.
 
     slope         function that returns the slope at positions of shape (n,), as an array of the same shape
     period        period

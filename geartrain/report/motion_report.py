@@ -59,7 +59,7 @@ class OutputMotion:
     KEYS = (Key("", "tally"), "setting", "sensitivity", "phases", "spectrum")
 
     tally: RunningStatistics
-    """Extreme values and moments of the deviation, and of the speed, over the run."""
+    """Extreme values and moments of the deviation, and of the speed, over all evaluated positions."""
     setting: float
     """Constant offset of the pointer [rad] by which its deviation at turn 0 becomes 0."""
     sensitivity: Mapping[str, float]
@@ -90,7 +90,7 @@ class MotionFigures(Result):
     input: str
     """Name of the driving link. The number of turns refers to this link."""
     turns: float
-    """Revolutions of the driving link over the run; negative for backward motion."""
+    """Number of evaluated revolutions of the driving link; negative for backward motion."""
     positions: int
     """Number of positions at which the motion was computed."""
     period: Fraction | None

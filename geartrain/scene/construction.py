@@ -216,7 +216,7 @@ class _Mounting:
         return 2 * pi / (self.stage.train.declaration.wheels[wheel][1].count or 1)
 
     def notices(self) -> Iterator[Problem]:
-        """Yield notices on pairs whose teeth are drawn out of phase."""
+        """Yield a warning about the pairs whose teeth are drawn out of phase."""
         if self.off:
             yield Problem(
                 f"the teeth of {', '.join(self.off)} are drawn out of phase",

@@ -157,7 +157,7 @@ class SphereSizing(Result):
     )
 
     configuration: Configuration
-    """Set of gears to which the sizes belong."""
+    """Set of gears whose sizes these are."""
     teeth: NDArray[np.int64]
     """Tooth number of each gear, shape (gears,)."""
     cones: Floats

@@ -190,7 +190,9 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def unit_tips(self) -> Mapping[str, float]:
-        """Tip radii by wheel in the length unit of the teeth, if the teeth have no declared size, else empty."""
+        """Tip radius of each wheel in the length unit of the teeth, keyed by wheel; empty if the teeth have a declared
+        size.
+        """
         return {}
 
     @abstractmethod

@@ -562,7 +562,9 @@ class Train(Declared):
 
     @cached_property
     def input_unit(self) -> str:
-        """Unit of input speeds: that of the first input that is not 0, else of the first input; "" if there is none."""
+        """Unit of the input speeds, which is the unit of the first input that has a unit and is not 0. If all such
+        inputs are 0, it is the unit of the first; "" if no input has a unit.
+        """
         groups = [own.inputs for own in self.states.values() if own.inputs is not None]
         # the train's inputs are unused if every state has its own
         if len(groups) == len(self.states) and groups:
@@ -672,15 +674,21 @@ class Train(Declared):
 
 
 def wheel_thickness(train: Train, wheel: Wheel) -> Quantity | None:
-    """Return the first declared value of: thickness and face width of the wheel, then of the train; else None."""
+    """Return the thickness of a wheel. It is the first of these that is declared: thickness of the wheel, face width of
+    the wheel, thickness of the train, face width of the train; None if none is declared.
+    """
     return wheel.thickness or wheel.face_width or train.thickness or train.face_width
 
 
 def face_width(train: Train, wheel: Wheel) -> Quantity | None:
-    """Return the first declared value of: face width and thickness of the wheel, then of the train; else None."""
+    """Return the face width of a wheel. It is the first of these that is declared: face width of the wheel, thickness
+    of the wheel, face width of the train, thickness of the train; None if none is declared.
+    """
     return wheel.face_width or wheel.thickness or train.face_width or train.thickness
 
 
 def material_named(train: Train, name: str) -> Material:
-    """Return the material with a given name from the declaration of the train, else from the shipped table."""
+    """Return the material with a given name from the declaration of the train, or from the shipped table if the train
+    does not declare it.
+    """
     return train.materials.get(name) or material_table()[name]

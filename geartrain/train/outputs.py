@@ -105,7 +105,7 @@ def is_printed_period(raw: object) -> bool:
 
 
 def year_seconds(unit: Fraction | None) -> Fraction | None:
-    """Return the given unit of time [s] if it is a year, else None."""
+    """Return the given unit of time [s] if it is a year; None for other units."""
     return unit if unit is not None and _YEARS[0] <= unit / 86400 <= _YEARS[1] else None
 
 

@@ -194,7 +194,9 @@ class LoadCase:
         return tuple(link for link in self.train.links if link not in self.speeds)
 
     def sense(self, link: str) -> int:
-        """Return -1 if the link's axis points against the reference direction of its parallel axes, else 1."""
+        """Return -1 if the axis of the link points against the reference direction of the axes parallel to it,
+        otherwise 1.
+        """
         return self.signs.get(link, 1)
 
     def relative(self, link: str, carrier: str) -> Fraction | None:

@@ -344,7 +344,7 @@ def _planet_meshes(
 def _planet_classes(
     meshing: Mapping[str, Sequence[tuple[str, str, _Key]]], known: Mapping[str, Fraction]
 ) -> dict[str, int]:
-    """Return the number of the class of equal planets to which each planet belongs, by planet."""
+    """Return the class of equal planets of each planet as a number, keyed by planet."""
     classes: dict[str, int] = {}
     while True:
         keys: dict[str, _Key] = {}

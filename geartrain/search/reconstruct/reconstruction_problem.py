@@ -272,7 +272,7 @@ class ReconstructionProblem(Shown):
     See Also
     --------
     evidence_question : Convert declared evidence to a problem.
-    find_reconstructions : Find the explanations of a problem.
+    find_reconstructions : Find the trains that solve a problem.
     """
 
     input: SurvivingArbor

@@ -245,7 +245,7 @@ class TrialPlan(Shown):
     name: str
     """Name of the train."""
     wheels: tuple[WheelErrors, ...]
-    """Sizes and cutting errors of the wheels that belong to the pairs of the trials."""
+    """Sizes and cutting errors of all wheels in the pairs of the trials."""
     pairs: tuple[TrialPair, ...]
     """Gear pairs that contain a wheel with cutting errors. Each entry includes the sizes and the mounting errors of the
     pair.

@@ -168,7 +168,9 @@ def _loaded_state(train: GearTrain, found: Sequence[Torques], option: str) -> To
 
 
 def _table(found: TorqueCycle) -> str:
-    """Return CSV text with the torque, the breakaway torque, and the loss of each part at every position of a run."""
+    """Return CSV text with the torque, the breakaway torque, and the loss of each part at every evaluated position of
+    the input.
+    """
     from geartrain.numerics.files import csv_text
 
     if found.turns is None or found.torque is None or found.standing is None or found.losses is None:

@@ -218,7 +218,7 @@ def _draw_key(
     centre: tuple[float, float],
     usual: str,
 ) -> None:
-    """Draw a key below a dial face, with a line for each hand that shows its style and its reading.
+    """Draw a legend below a dial face, with one line of text for each hand that shows its style and its reading.
 
     usual   sense of rotation that is omitted from the readings
     """

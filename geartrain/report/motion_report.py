@@ -1,4 +1,6 @@
-"""Data and document on the transmission errors or anomalies and the speeds of a train's outputs over a run."""
+"""Report on the transmission errors or anomalies and the speeds of a train's outputs over revolutions of the input, as
+data and as a document.
+"""
 
 from __future__ import annotations
 
@@ -26,7 +28,7 @@ _TURNS, _POSITIONS = 20.0, 20_001  # turns and positions of the run in a report
 
 
 class PhaseRange(NamedTuple):
-    """Range of the deviation of one output over several runs with random tooth phases."""
+    """Range of the deviation of one output over several computations with random tooth phases."""
 
     peak_to_peak: tuple[float, float]
     """Minimum and maximum of the peak-to-peak deviation of the output [rad] in all runs."""
@@ -65,7 +67,7 @@ class OutputMotion:
     sensitivity: Mapping[str, float]
     """Rotation of the output per rotation error of the driven wheel of each pair [rad/rad], keyed by pair."""
     phases: PhaseRange | None
-    """Range of the deviation over runs with random tooth phases; None if it was not requested."""
+    """Range of the deviation over all computations with random tooth phases; None if it was not requested."""
     spectrum: Sequence[SpectrumLine] | None
     """Spectral lines of the deviation, by order (cycles per turn of the input); None if not requested."""
 

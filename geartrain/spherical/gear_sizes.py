@@ -67,8 +67,12 @@ def size_gears(configuration: Configuration, mean_pressure: float = MEAN_PRESSUR
     All gears have a common base pitch, so that spherical involutes have a constant ratio at any operating pitch
     (docs/sphere.md, section 4).
 
-    Parameters ---------- configuration : Configuration Set of gears with a tooth number for every kind of gear.
-    mean_pressure : float Mean pressure angle of the meshes [rad]; by default 20 deg.
+    Parameters
+    ----------
+    configuration : Configuration
+        Set of gears with a tooth number for every kind of gear.
+    mean_pressure : float
+        Mean pressure angle of the meshes [rad]; by default 20 deg.
 
     Returns
     -------

@@ -1,4 +1,6 @@
-"""Teeth of uniform temperature: uniform frictional heat per area of the profile, removed locally by the lubricant."""
+"""Teeth of uniform temperature: uniform frictional heat per unit area of the profile, which is removed locally by the
+lubricant.
+"""
 
 from __future__ import annotations
 
@@ -50,7 +52,9 @@ class UniformTemperature(ConjugateToothForm):
         "c (as b, with a minimum pressure angle)",
     )
     heat: Figure | None = Field(
-        None, description="Heat per area divided by friction times tangential force; a smaller value makes taller teeth"
+        None,
+        description="Heat per unit area divided by friction coefficient times tangential force; a smaller value makes "
+        "taller teeth",
     )
     depth: Figure | None = Field(
         None, description="Working depth in modules, instead of heat; default as for the 20 deg involute"

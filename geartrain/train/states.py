@@ -575,7 +575,10 @@ class StateCase(Shown):
     def shown(self, speed: Fraction) -> str:
         """Return a speed as text: a fraction, or a decimal number if the speed is not exact.
 
-        Parameters ---------- speed : Fraction Speed in this state [the train's unit of speed].
+        Parameters
+        ----------
+        speed : Fraction
+            Speed in this state [the train's unit of speed].
         """
         return abridged_text(speed) if self.exact else decimal(speed)
 

@@ -287,8 +287,8 @@ class _DeclaredCoupling(NamedTuple):
         return circuit._replace(i=i, j=j, b=b, bases=(tree.moving(carrier, line), tree.moving(carrier, None)))
 
     def _wrong_angle(self, labels: tuple[str, str]) -> Problem | None:
-        """Return a problem if two axes are perpendicular or their angle differs from the declared angle; None if there
-        is no problem.
+        """Return a problem if two axes are perpendicular or their angle differs from the declared angle; None if
+        neither is the case.
         """
         between, declared = self.axes.angle(labels), getattr(self.coupling, "angle", None)
         what = f"coupling '{self.coupling.name}': "

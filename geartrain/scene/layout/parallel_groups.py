@@ -245,7 +245,7 @@ class AxialSlots(NamedTuple):
 
 
 def find_axial_slots(meshes: Sequence[tuple[str, str]], overlap: Callable[[str, str], bool]) -> dict[str, AxialSlots]:
-    """Return the slots of all wheels that must be axially separated or broadened, by wheel; other wheels are omitted.
+    """Return the slots of all wheels that must be axially separated or widened, by wheel; other wheels are omitted.
 
     meshes   pairs of meshing wheels on parallel axes
     overlap  function that returns True if two wheels at one height would collide
@@ -362,7 +362,7 @@ class _Placing:
         self.stacks: list[WheelStack] = []
 
     def place(self, parallels: Parallels) -> None:
-        """Plan a group of parallel axes, broaden its wheels as the plan requires, and stack its wheels."""
+        """Plan a group of parallel axes, widen its wheels as the plan requires, and stack its wheels."""
         determined = list(self._determined_axes(parallels))
         fixed = self._fixed(parallels, determined)
         places = plan_axes(plan_problem(self.geometry, parallels, fixed, self.points))

@@ -106,7 +106,7 @@ def coupling_discs(
     """Return the separate discs that carry pins or slots, and warnings about couplings that are not modelled.
 
     bores   diameters of the holes for arbors, by link [mm]
-    holed   couplings whose holes are in a wheel
+    holed   names of couplings whose holes are cut into a wheel
     """
     plates: list[Plate] = []
     notices: list[Problem] = []

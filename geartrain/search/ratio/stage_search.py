@@ -419,7 +419,9 @@ def in_words(key: StageRank, value: Fraction) -> str:
 
 
 def _advice(question: StageProblem, miss: SweepOutcome, removed: Mapping[str, int], sense: int) -> Iterator[str]:
-    """Yield suggestions of constraints to be relaxed, in descending order of the certainty that they help."""
+    """Yield suggestions of which constraints to relax, in descending order of the certainty that the suggestion gives a
+    solution.
+    """
     if miss.keys and miss.complete:
         yield f"a tolerance of {decimal(rounded_up(miss.keys[0][1]), 6)} gives a solution"
     for reason, number in removed.items():

@@ -219,7 +219,10 @@ class SearchedDial(Shown):
     def accepts(self, speed: Fraction) -> bool:
         """Return whether a speed is in the required range.
 
-        Parameters ---------- speed : Fraction Speed [turns per unit of time].
+        Parameters
+        ----------
+        speed : Fraction
+            Speed [turns per unit of time].
         """
         return self.minimum <= (speed if self.signed else abs(speed)) <= self.maximum
 

@@ -28,11 +28,13 @@ _ANYTHING_ELSE = (None, Fraction(0)), (Fraction(0), None)
 class SpeedRequirement:
     """One requirement on the speed of an output.
 
-    label description, such as "period 583.92 d" or "expect 2/7" wanted requested speed [the train's unit of speed];
-    positive if only the magnitude is required signed False if only the magnitude is required allowed closed disjoint
-    intervals of admissible speeds [the train's unit of speed]; None if all speeds are admissible graded True if the
-    error of the output is computed from this requirement approached True if no tolerance is given, so that the error is
-    minimised target True for a target; False for an expected or published value
+    label       description, such as "period 583.92 d" or "expect 2/7"
+    wanted      requested speed [the train's unit of speed]; positive if only the magnitude is required
+    signed      False if only the magnitude is required
+    allowed     closed disjoint intervals of admissible speeds [the train's unit of speed]; None if all are admissible
+    graded      True if the error of the output is computed from this requirement
+    approached  True if no tolerance is given, so that the error is minimised
+    target      True for a target; False for an expected or published value
     """
 
     label: str
@@ -81,7 +83,7 @@ class SpeedRequirement:
 
     def half(self, above: bool) -> Fraction | None:
         """Return the magnitude of the difference between the requested speed and the upper (if `above` is True) or
-        lower end of the admissible interval that contains it [the train's unit of speed]. None if this end is
+        lower end of the admissible interval that contains it [the train's unit of speed]; None if this end is
         unbounded, or if the requested speed is not admissible.
         """
         around = [interval for interval in self.allowed or () if is_within(self.wanted, (interval,))]

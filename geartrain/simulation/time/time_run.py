@@ -318,7 +318,7 @@ class ConvergedFigure(Result):
     """
     interval: float | None = None
     """Half-width of the 95 % confidence interval of a mean, computed from batches of whole turns; None for an extreme,
-    and for a run of fewer than 5 turns.
+    and for a simulation of fewer than 5 turns.
     """
 
 

@@ -133,7 +133,9 @@ class WheelEstimate(Result):
 
     @property
     def off(self) -> Floats:
-        """Angle of each measured tooth minus its angle in an even division with the same mean angle [rad]."""
+        """Angle of each measured tooth minus the angle that it would have on an evenly divided wheel with the same mean
+        angle [rad].
+        """
         gamma = 2 * pi * self.numbers / self.teeth
         found: Floats = self.residuals + self.coefficients[1:] @ [np.cos(gamma), np.sin(gamma)]
         return found

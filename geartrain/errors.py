@@ -55,7 +55,9 @@ def nearest_names(name: str, known: Iterable[str], wide: bool = False) -> list[s
 
 
 def suggest(name: str, known: Iterable[str], otherwise: str = "", wide: bool = False) -> str:
-    """Return a suggestion for an unknown name: similar known names, else `otherwise` or the list of known names."""
+    """Return a suggestion for an unknown name: similar known names, or `otherwise` if no known name is similar. If
+    `otherwise` is empty, the suggestion lists all known names.
+    """
     known = tuple(dict.fromkeys(known))
     if close := nearest_names(name, known, wide):
         return f"did you mean {' or '.join(map(repr, close))}?"

@@ -41,7 +41,9 @@ class TrainVariants(Tabular, Result):
     counts: Ints
     """Tooth counts, shape (combinations, wheels); the count of the last wheel varies fastest."""
     speeds: Floats
-    """Speeds of the outputs [unit of the train], shape (combinations, outputs); NaN if locked, free or not closed."""
+    """Speeds of the outputs [the train's unit of speed], shape (combinations, outputs); NaN if locked, free or not
+    closed.
+    """
     errors: Floats
     """Upper bounds on the relative errors of the speeds, shape (combinations, outputs); infinite without digits."""
     formulas: Formulas
@@ -54,7 +56,9 @@ class TrainVariants(Tabular, Result):
         return f"{len(self)} trains by {', '.join(self.wheels)}; {', '.join(self.outputs)}"
 
     def _meaning(self, column: str) -> str:
-        return "Tooth count of the wheel." if column in self.wheels else "Speed of the output [unit of the train]."
+        return (
+            "Tooth count of the wheel." if column in self.wheels else "Speed of the output [the train's unit of speed]."
+        )
 
     def __getitem__(self, name: str) -> Any:
         """Return the column of an output or a wheel. `KeyError` is raised for any other name."""

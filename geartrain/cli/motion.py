@@ -70,7 +70,10 @@ def run(
     json: Json = False,
     plot: Annotated[
         Path | None,
-        typer.Option("--plot", help="Plot the errors of pointers to this file, or the motion of one output (--of)."),
+        typer.Option(
+            "--plot",
+            help="Write a plot of the pointer errors, or of the motion of one output (--of), to this file.",
+        ),
     ] = None,
     resume: Annotated[bool, typer.Option("--resume", help="Resume an interrupted run; requires its -o x.csv.")] = False,
     theme: Theme = "light",

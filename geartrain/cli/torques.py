@@ -168,12 +168,18 @@ def _loaded_state(train: GearTrain, found: Sequence[Torques], option: str) -> To
 
 
 def _table(found: TorqueCycle) -> str:
-    """Return CSV text with the torque, the breakaway torque, and the loss of each part at every position of a run."""
+    """Return CSV text with the torque, the breakaway torque, and the loss of each part at every evaluated position of
+    the input.
+    """
     from geartrain.numerics.files import csv_text
 
     if found.turns is None or found.torque is None or found.standing is None or found.losses is None:
         raise GearTrainError(
-            Problem("the torque cannot be written", found.verdict.text, "declare loads that the input can move")
+            Problem(
+                "the torque cannot be computed, so no file is written",
+                found.verdict.text,
+                "declare loads that the input can drive",
+            )
         )
     columns = [found.turns, found.torque, found.standing, *found.losses.values]
     header = ["turns", f"torque_{found.link}", "starting", *(f"lost_{name}" for name in found.losses.labels[0])]

@@ -218,7 +218,7 @@ def _draw_key(
     centre: tuple[float, float],
     usual: str,
 ) -> None:
-    """Draw a key below a dial face, with a line for each hand that shows its style and its reading.
+    """Draw a legend below a dial face, with one line of text for each hand that shows its style and its reading.
 
     usual   sense of rotation that is omitted from the readings
     """
@@ -232,7 +232,7 @@ def _draw_key(
 
 
 def _sample_length(face: DialPicture) -> float:
-    """Return the length [in] of the sample in the key of a dial face that shows the style of one pointer."""
+    """Return the length [inch] of the line sample that shows the style of one pointer in the legend of a dial."""
     return _SAMPLE if len(face.pointers) == 1 else _DASHED
 
 

@@ -81,7 +81,9 @@ class GraphEdge:
 
 
 def edges_of(train: GearTrain, broken: Sequence[str] = ()) -> list[GraphEdge]:
-    """Return an edge for each joint, gear pair and coupling. Names in `broken` belong to loops that cannot turn."""
+    """Return an edge for each joint, gear pair and coupling. `broken` contains the names of pairs and couplings in
+    loops that cannot turn.
+    """
     declared = train.declaration
     wheels = declared.wheels
     found = [GraphEdge(joint.pair, "revolute", joint.axis) for joint in declared.revolutes]

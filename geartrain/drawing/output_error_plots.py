@@ -69,7 +69,7 @@ class _Trace(NamedTuple):
     """
     slides: bool
     first: tuple[Floats, Floats, Floats]
-    """Input turns, output error and relative output speed at the first positions of the run."""
+    """Input turns, output error and relative output speed at the first positions of the motion run."""
 
 
 def motion_figure(run: MotionRun, on_done: Callable[[int], None] = lambda _: None, title: str = "") -> Figure:

@@ -197,7 +197,9 @@ def _curves(axes: Axes, x: Floats, curves: dict[str, Floats], verdicts: Texts) -
 
 
 def _band_styles(verdicts: Texts) -> dict[str, dict[str, Any]]:
-    """Return the style of the band of each verdict, by verdict: coloured if the pair runs, grey and hatched if not."""
+    """Return the style of the background band of each verdict, keyed by verdict: coloured if the pair runs, grey and
+    hatched if it does not.
+    """
     others = count(1 + max(series for series, _ in _PHASE_STYLES.values()))
     styles: dict[str, dict[str, Any]] = {}
     for kind in dict.fromkeys(verdicts.tolist()):

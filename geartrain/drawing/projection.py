@@ -448,7 +448,7 @@ def draw_side(page: ScaledPage, projected: ProjectedScene, depth: SideScale) -> 
 def _draw_across_side(
     page: ScaledPage, projected: ProjectedScene, wheel: SceneWheel, depth: SideScale, style: dict[str, Any]
 ) -> None:
-    """Draw a wheel that does not face the reader: with its teeth if it faces right, else as a silhouette."""
+    """Draw a wheel that does not face the reader, with its teeth if it faces right, otherwise as a silhouette."""
     ends = [face.points for face in _ends(projected, wheel)]
     places = [np.column_stack([depth.at(points[:, 2]), page.at(points)[:, 1]]) for points in ends]
     if abs(float(projected.seen(projected.axis(wheel))[0])) > _FACES_RIGHT:

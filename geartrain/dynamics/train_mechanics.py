@@ -60,7 +60,9 @@ class TrainMechanics(Shown):
 
     @property
     def signs(self) -> Mapping[str, int]:
-        """Sign of each link's axis: -1 if it points against the reference direction of parallel axes, else 1."""
+        """Sign of the axis of each link, keyed by link: -1 if the axis points against the reference direction of the
+        axes parallel to it, otherwise 1.
+        """
         return self.kinematics.signs
 
     # ------------------------------------------------------------------------------------------------- equal planets
@@ -111,7 +113,9 @@ class TrainMechanics(Shown):
 
     @cached_property
     def meshes(self) -> tuple[GearMesh, ...]:
-        """Gear pairs with a declared tooth form and the driver of the first state in which it is determined."""
+        """Gear pairs with a declared tooth form. The driver of each pair is its driver in the first state in which the
+        driver is determined.
+        """
         ways = self.driven_ways.values()
         return tuple(next((way for way, _ in each if way.who.known), each[0][0]) for each in ways)
 

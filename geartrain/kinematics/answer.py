@@ -194,7 +194,9 @@ class Answer(FrozenFields, Tabular, TrainResult):
     first access; empty if the matrix was not used.
     """
     sliding: frozenset[str] = frozenset()
-    """Links that slide; their speeds are travels [mm per unit of the train, or mm per turn]."""
+    """Links that slide; their speeds are travels [mm per `unit` of the declaration; mm per turn if no `unit` is
+    declared].
+    """
     contains_pi: Mapping[str, bool] = field(default_factory=dict)
     """Flag for each link and output: True if its exact speed depends on pi. It is empty if the train has no racks,
     drums or similar couplings. It is computed at the first access, from a second solution with another rational number

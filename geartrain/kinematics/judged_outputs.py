@@ -32,7 +32,7 @@ class RatioGoal:
     label: str
     """Description of the required speed without its sense of rotation."""
     speed: Fraction
-    """Required speed [unit of the train]; it is positive if only the magnitude is compared."""
+    """Required speed [the train's unit of speed]; it is positive if only the magnitude is compared."""
     signed: bool
     """True if the sign of the speed is compared, False if only its magnitude is compared."""
     sense: str = ""
@@ -68,7 +68,7 @@ class TargetResult(Result):
     )
 
     goal: RatioGoal
-    """Required speed [unit of the train], and whether its sign is compared."""
+    """Required speed [the train's unit of speed], and whether its sign is compared."""
     error: SpeedValue
     """Relative error [1]: speed of the output divided by the target, minus 1. Magnitudes are compared if the target has
     no sign. If the target is 0, the value is the speed of the output.
@@ -78,8 +78,8 @@ class TargetResult(Result):
     time, if the target is 0, or if the value exceeds the range of float64.
     """
     degrees_per_unit: float | None
-    """Angle that the pointer gains on the target during one unit of the train, such as a year [deg]; None if the value
-    exceeds the range of float64.
+    """Angle that the pointer gains on the target during one `unit` of the declaration, such as a year [deg]; None if
+    the value exceeds the range of float64.
     """
     met: bool | None
     """True if `error` is within the declared tolerance; None if no tolerance is declared."""
@@ -91,7 +91,7 @@ class TargetResult(Result):
 
     @property
     def speed(self) -> Fraction:
-        """Required speed [unit of the train]; it is positive if only the magnitude is compared."""
+        """Required speed [the train's unit of speed]; it is positive if only the magnitude is compared."""
         return self.goal.speed
 
     @property
@@ -130,15 +130,18 @@ class SpeedFigures(TypedDict, total=False):
     value: Required[float | None]
     """Float64 number nearest to the speed; None if the speed is beyond the range of float64 or is not determined."""
     unit: str
-    """Unit of the travel of a sliding link, `mm`, per unit of the train or per turn; omitted for turning links."""
+    """Unit of the travel of a sliding link, `mm`, per `unit` of the declaration or per turn; omitted for turning links.
+    """
     decimal: str
     """Speed as a decimal number with twelve digits, given only if the speed is beyond the range of float64."""
     estimate: float | None
-    """Estimated absolute error of a speed that was computed in floats [unit of the train]."""
+    """Estimated absolute error of a speed that was computed in floats [the train's unit of speed]."""
     true_error: float | None
-    """True error of a speed that was computed in floats [unit of the train]; None if the exact speed is not known."""
+    """True error of a speed that was computed in floats [the train's unit of speed]; None if the exact speed is not
+    known.
+    """
     tolerance: float
-    """Tolerance of a speed that depends on a coupling with an approximate `ratio` [unit of the train]."""
+    """Tolerance of a speed that depends on a coupling with an approximate `ratio` [the train's unit of speed]."""
     condition: float | None
     """Component-wise condition number of a speed that was computed in floats [1]; None for a link at rest, omitted in
     trains of more than 400 links.
@@ -198,8 +201,8 @@ class OutputResult(Result):
     relative_to: str
     """Link relative to which the speed is measured."""
     speed: SpeedValue | None
-    """Speed of `of` relative to `relative_to`, about the axis of `of` [unit of the train]; a Fraction, or a float if it
-    was computed in floats. None if it is undetermined.
+    """Speed of `of` relative to `relative_to`, about the axis of `of` [the train's unit of speed]; a Fraction, or a
+    float if it was computed in floats. None if it is undetermined.
     """
     ratio: SpeedValue | None
     """Speed of the output divided by the speed of the input; None unless exactly one input has a non-zero speed."""
@@ -214,10 +217,14 @@ class OutputResult(Result):
     unit_seconds: Fraction | None
     """Time of one turn at a speed of 1 [s]; None if the train has no unit of time."""
     tolerance: Fraction = Fraction(0)
-    """Tolerance of the speed due to couplings with an approximate `ratio` [unit of the train]; 0 if it is exact."""
+    """Tolerance of the speed due to couplings with an approximate `ratio` [the train's unit of speed]; 0 if it is
+    exact.
+    """
 
     slides: bool = False
-    """True if the link slides and `speed` is its travel [mm per unit of the train, or per turn]."""
+    """True if the link slides and `speed` is its travel [mm per `unit` of the declaration; mm per turn if no `unit` is
+    declared].
+    """
 
     @property
     def period(self) -> SpeedValue | None:
@@ -386,7 +393,9 @@ def _expect_holds(output: Output, speed: SpeedValue | None) -> bool | None:
 
 
 def unit_seconds(train: Train) -> Fraction | None:
-    """Return the time [s] of one turn at a speed of 1 [unit of the train]; None if the train has no unit of time."""
+    """Return the time [s] of one turn at a speed of 1 [the train's unit of speed]; None if the train has no unit of
+    time.
+    """
     return 1 / train.unit_speed if train.unit_speed else None
 
 
@@ -398,7 +407,7 @@ def in_plain_units(printed: Figure, unit: Fraction | None) -> Figure:
 
 
 def goal_of(train: Train, target: Target) -> RatioGoal:
-    """Return the speed that a target requires [unit of the train], and whether its sign is compared."""
+    """Return the speed that a target requires [the train's unit of speed], and whether its sign is compared."""
     turns = target.turns.value
     if target.speed is not None:
         return RatioGoal(f"speed {target.speed}", target.speed.value * turns, True)

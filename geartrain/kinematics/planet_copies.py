@@ -262,7 +262,7 @@ class _Expansion:
         return found
 
     def _copied_link(self, link: str, at: int) -> str:
-        """Return the name of the copy of a link with the number `at`. A link without copies keeps its name."""
+        """Return the name of copy number `at` of a link. A link without copies keeps its name."""
         return _copy_name(link, at) if self.declared.links[link].copies > 1 else link
 
     def _link(self, part: Link, at: int) -> Link:
@@ -299,7 +299,9 @@ class _Expansion:
     # ---------------------------------------------------------------------------------------------------------- places
 
     def _axis(self, label: str, at: int) -> Axis:
-        """Return the axis of the copy with the number `at`, rotated about the axis of the carrier."""
+        """Return the axis of copy number `at` of a planet: the declared axis `label`, rotated about the axis of the
+        carrier.
+        """
         carrier, number = self._carriers[label]
         about = self.declared.axes.get(self.tree.axis(carrier) or "", Axis())
         axis, angle = self.declared.axes[label], tau * (at - 1) / number

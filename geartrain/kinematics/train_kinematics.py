@@ -268,7 +268,7 @@ class TrainKinematics(Shown):
         """Return float64 speeds with error estimates, computed by one sparse LU factorisation for all input speeds.
 
         state    name of a declared state; None only for a train without states
-        inputs   speeds by input link, one for each case [unit of the train]; None for the declared speeds
+        inputs   speeds by input link, one for each case [the train's unit of speed]; None for the declared speeds
         """
         from geartrain.kinematics.speeds import solve_floats
 

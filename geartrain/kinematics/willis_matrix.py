@@ -112,7 +112,7 @@ class WillisMatrix(Shown):
     matrix: csc_array
     """Matrix A, axes (row, link), in compressed sparse column format, with integers as float64 numbers."""
     right: Floats
-    """Right-hand side b of each row [unit of the train], rounded to float64."""
+    """Right-hand side b of each row [the train's unit of speed], rounded to float64."""
     rows: tuple[WillisEquation, ...]
     """Equations of the rows, each with its label, kind and exact right-hand side."""
     links: tuple[str, ...]
@@ -131,7 +131,7 @@ class WillisMatrix(Shown):
 
     @property
     def exact_right(self) -> tuple[Fraction, ...]:
-        """Right-hand side of each row before rounding to float64 [unit of the train]."""
+        """Right-hand side of each row before rounding to float64 [the train's unit of speed]."""
         return tuple(row.right for row in self.rows)
 
 

@@ -107,7 +107,9 @@ def decimal(value: Fraction, digits: int = 10) -> str:
 
 
 _PLAIN, _SHORT = 2000, 600
-"""Maximum bits and maximum digits of integers that Python converts itself; its limit is never below 640 digits."""
+"""Maximum bit length and maximum number of decimal digits of an integer that is converted with `str` or `int`. Python's
+own limit is at least 640 digits, so it is never reached.
+"""
 
 
 def fraction_text(value: Fraction | int) -> str:
@@ -135,7 +137,8 @@ def read_fraction(text: str) -> Fraction:
 
 
 def abridged_text(value: Fraction | int) -> str:
-    """Format a number with all digits if they fit in 40 characters, else give only the number of digits.
+    """Format a number with all its digits if they fit in 40 characters. For a longer number, give only the number of
+    digits.
 
     >>> abridged_text(Fraction(11, 10) ** 5), abridged_text(Fraction(11, 10) ** 5000)
     ('161051/100000', '(5207 digits)/(5001 digits)')

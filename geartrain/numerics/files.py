@@ -123,8 +123,8 @@ def _obstacle(path: Path, real: Path, mode: int, force: bool) -> Problem | None:
         return _invalid_name(path, "a file name must consist of printable characters")
     folder = real.parent
     if not folder.is_dir():
-        what = "the folder does not exist"
-        return Problem(what, f"the file would be in {folder}", "create the folder first", str(path))
+        what, why = f"folder {folder} does not exist", "an output file is written only to an existing folder"
+        return Problem(what, why, "create the folder first", str(path))
     if not os.access(folder, os.W_OK | os.X_OK):
         return _unwritable(folder)
     if mode and not force:

@@ -193,7 +193,9 @@ def check_points(
         raise RangeError(Problem(what, why, "give more points over the period"))
     if not all(map(isfinite, (*positions, *values, period))) or period <= 0:
         why = "positions, values and period must be finite, and the period above 0"
-        raise RangeError(Problem("a periodic table contains a number that is not finite", why, "replace this number"))
+        raise RangeError(
+            Problem("a table of a periodic function contains an invalid number", why, "replace this number")
+        )
     for at, x in enumerate(positions):
         if not 0 <= x < period:
             what = f"the position of point {at + 1}, {x:.10g}, is outside the period from 0 to {period:.10g}"
@@ -207,7 +209,8 @@ def check_points(
 def periodic_integral(
     slope: Callable[[Floats], Floats], period: float, breakpoints: Sequence[float] | Floats = ()
 ) -> tuple[PeriodicPieces, float]:
-    """Return the integral of a periodic slope minus its mean, from the first breakpoint or else from 0, and this mean.
+    """Return the integral of a periodic slope minus its mean, and this mean. The integral begins at the first
+    breakpoint, or at 0 if there is none.
 
     slope         function that returns the slope at positions of shape (n,), as an array of the same shape
     period        period

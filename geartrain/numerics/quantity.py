@@ -544,7 +544,7 @@ Time = Annotated[Quantity, Dimension("time")]
 Span = Annotated[Quantity, Dimension("time or length")]
 Speed = Annotated[Quantity, Dimension("speed", plain=True)]
 InputSpeed = Annotated[Quantity, Dimension("speed or length or velocity", plain=True)]
-"""Prescribed speed of a link: a speed of rotation, or a travel per unit of the train or per unit of time."""
+"""Prescribed speed of a link: a speed of rotation, or a travel per `unit` of the declaration or per unit of time."""
 Rate = Annotated[Quantity, Dimension("speed or velocity", plain=True)]
 Velocity = Annotated[Quantity, Dimension("velocity")]
 Torque = Annotated[Quantity, Dimension("torque", plain=True)]

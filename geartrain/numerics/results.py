@@ -37,7 +37,9 @@ class Shown:
     PAGE: ClassVar[str] = ""
     """Name `package.module:function` of the function that describes the result as a document; "" without a page."""
     TEXT: ClassVar[str] = ""
-    """Name of the function that returns the text of the command, if this is not the text of the document; else ""."""
+    """Name of the function that returns the text that the command prints; "" if the command prints the document as
+    text.
+    """
 
     def __init_subclass__(cls, **options: Any) -> None:
         """Make each subclass keep the inherited `__repr__`, which the decorator `dataclass` would otherwise replace."""

@@ -282,7 +282,9 @@ def result_words(result: OutputResult) -> str:
 
 
 def only_sign(result: OutputResult) -> str:
-    """Return a remark and a remedy if an output has the expected magnitude in the opposite sense, else ""."""
+    """Return a remark and a remedy if an output has the expected magnitude but turns in the opposite sense; "" if it
+    does not.
+    """
     if not result.differs_in_sign:
         return ""
     published = result.output.published
@@ -326,7 +328,9 @@ def _as_read(declared: Train, result: OutputResult) -> str:
 
 
 def _span(declared: Train, units: Fraction | float, digits: int = 7) -> str:
-    """Return a time as a string: in years if these are the train's unit, else in days, hours, minutes or seconds."""
+    """Return a number of the train's units of time as a string: in years if the unit is a year and the time is at least
+    one year, otherwise in days, hours, minutes or seconds.
+    """
     if declared.unit_days is None:
         return figure(units, 7)
     if declared.unit_days > _YEAR and units >= 1:
@@ -461,7 +465,9 @@ def _marks(answer: Answer, link: str, oblique: frozenset[str]) -> str:
 
 
 def _pi(answer: Answer, name: str) -> str:
-    """Return a note that the speed of an output or link contains pi, if its printed value does not show pi, else ""."""
+    """Return a note that the speed of an output or link contains pi; "" if it does not, or if the printed value shows
+    pi.
+    """
     speed = answer.speeds.get(name) if name not in answer.outputs else answer.outputs[name].speed
     if speed is None or not answer.contains_pi.get(name) or "π" in exact(speed):
         return ""

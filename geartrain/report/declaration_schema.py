@@ -94,7 +94,9 @@ def _body(part: Schema) -> Schema:
 
 
 def _example_values(models: Schema) -> dict[tuple[str, str], Any]:
-    """Return an example of each key of each part: the shortest one in that part's examples, else in all examples."""
+    """Return the shortest example of each key of each part. Examples of the part itself are preferred to examples of
+    other parts that contain it.
+    """
     found: dict[tuple[str, str], tuple[bool, int, Any]] = {}
     for source, data in example_data():
         for part, key, value in _values(models, models, data, "Train"):
@@ -226,7 +228,9 @@ def _chapters(models: Schema, name: str, depth: int, seen: set[str]) -> Iterator
 
 
 def _kind_title(models: Schema, name: str) -> str:
-    """Return the key and value that select one kind of part, such as `form: involute`, else the part's first key."""
+    """Return the key and value that select one kind of part, such as `form: involute`; the first key of the part if no
+    key selects it.
+    """
     keys = _body(_part(models, name))["properties"]
     return next((f"{key}: {shape['const']}" for key, shape in keys.items() if "const" in shape), next(iter(keys)))
 

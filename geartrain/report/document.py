@@ -17,7 +17,7 @@ from geartrain.numerics.exact import abridged_text, decimal, fraction_text, pi_t
 from geartrain.numerics.results import Shown, field_docs, imported_function, summary_line
 
 MOST_ROWS = 120
-"""Maximum number of table rows in a document; the JSON has all rows."""
+"""Maximum number of table rows in a document; JSON output contains all rows."""
 
 
 class ExactText(str):
@@ -53,14 +53,14 @@ class SceneText(str):
     _scene: int
 
     def __new__(cls, text: str, scene: int) -> SceneText:
-        """Return text that refers to the scene with the number `scene`."""
+        """Return text that refers to scene number `scene` of the viewer."""
         made = super().__new__(cls, text)
         made._scene = scene
         return made
 
     @property
     def scene(self) -> int:
-        """Number of the scene in the viewer. The first scene has the number 1."""
+        """Number of the scene in the viewer, from 1."""
         return self._scene
 
 

@@ -1,4 +1,6 @@
-"""Data and document on the transmission errors or anomalies and the speeds of a train's outputs over a run."""
+"""Report on the transmission errors or anomalies and the speeds of a train's outputs over revolutions of the input, as
+data and as a document.
+"""
 
 from __future__ import annotations
 
@@ -26,7 +28,7 @@ _TURNS, _POSITIONS = 20.0, 20_001  # turns and positions of the run in a report
 
 
 class PhaseRange(NamedTuple):
-    """Range of the deviation of one output over several runs with random tooth phases."""
+    """Range of the deviation of one output over several computations with random tooth phases."""
 
     peak_to_peak: tuple[float, float]
     """Minimum and maximum of the peak-to-peak deviation of the output [rad] in all runs."""
@@ -59,13 +61,13 @@ class OutputMotion:
     KEYS = (Key("", "tally"), "setting", "sensitivity", "phases", "spectrum")
 
     tally: RunningStatistics
-    """Extreme values and moments of the deviation, and of the speed, over the run."""
+    """Extreme values and moments of the deviation, and of the speed, over all evaluated positions."""
     setting: float
     """Constant offset of the pointer [rad] by which its deviation at turn 0 becomes 0."""
     sensitivity: Mapping[str, float]
     """Rotation of the output per rotation error of the driven wheel of each pair [rad/rad], keyed by pair."""
     phases: PhaseRange | None
-    """Range of the deviation over runs with random tooth phases; None if it was not requested."""
+    """Range of the deviation over all computations with random tooth phases; None if it was not requested."""
     spectrum: Sequence[SpectrumLine] | None
     """Spectral lines of the deviation, by order (cycles per turn of the input); None if not requested."""
 
@@ -90,7 +92,7 @@ class MotionFigures(Result):
     input: str
     """Name of the driving link. The number of turns refers to this link."""
     turns: float
-    """Revolutions of the driving link over the run; negative for backward motion."""
+    """Number of evaluated revolutions of the driving link; negative for backward motion."""
     positions: int
     """Number of positions at which the motion was computed."""
     period: Fraction | None

@@ -253,7 +253,9 @@ def find_profiles(stage: SceneContext) -> tuple[dict[str, ToothProfile], tuple[P
 
 
 def _notices(stage: SceneContext, toothed: TrainTeeth) -> Iterator[Problem]:
-    """Yield notices on planar wheels drawn with approximate teeth, and on flexible wheels without a wave generator."""
+    """Yield warnings about planar wheels that are drawn with approximate teeth, and about flexible wheels without a
+    wave generator.
+    """
     by_reason: dict[tuple[str, str, str, bool], list[str]] = {}
     for wheel, problems in toothed.problems.items():
         if wheel in toothed.flat:
@@ -373,7 +375,9 @@ def _wheel(
 
 
 def flip(stage: SceneContext, place: WheelPlace) -> int:
-    """Return -1 if an axis is declared opposite to the reference direction of its parallel axes, else 1."""
+    """Return -1 if the declared direction of an axis is opposite to the reference direction of the axes parallel to it,
+    or 1 if it is not.
+    """
     return 1 if stage.along(place.axis) == stage.reference(place.axis) else -1
 
 

@@ -216,12 +216,12 @@ class _Mounting:
         return 2 * pi / (self.stage.train.declaration.wheels[wheel][1].count or 1)
 
     def notices(self) -> Iterator[Problem]:
-        """Yield notices on pairs whose teeth are drawn out of phase."""
+        """Yield a warning about the pairs whose teeth are drawn out of phase."""
         if self.off:
             yield Problem(
                 f"the teeth of {', '.join(self.off)} are drawn out of phase",
-                "a driver with several mates can be in phase with only one of them; in the other pairs teeth do not "
-                "overlap, but touch only once per pitch, and the motion is exact",
+                "a driver with several mates can be in phase with only one of them. The other pairs are drawn without "
+                "overlap, but not in correct mesh; the computed motion is not affected",
                 "",
             )
 

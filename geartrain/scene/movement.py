@@ -276,7 +276,7 @@ def _check_positions(composition: ErrorComposition, turns: float) -> None:
 
 
 def _backward(stage: SceneContext, motion: Motion, ahead: Movement) -> tuple[Movement | None, tuple[Problem, ...]]:
-    """Return the movement when the driving link is reversed, and notices.
+    """Return the movement with the driving link reversed, and warnings.
 
     The movement is None if it equals `ahead`, and the mean motion if the reversed movement cannot be computed.
     """
@@ -291,7 +291,9 @@ def _backward(stage: SceneContext, motion: Motion, ahead: Movement) -> tuple[Mov
 
 
 def _movement(stage: SceneContext, composition: ErrorComposition, way: int) -> Movement:
-    """Return the movement with the given errors of pairs; `way` is -1 if the driving link turns backwards, else 1."""
+    """Return the movement with the given errors of pairs. `way` is 1 if the driving link turns forwards, and -1 if it
+    turns backwards.
+    """
     transmissions, sources = tables_and_sources(composition, way)
     links = tuple(stage.train.declaration.links)
     return Movement(

@@ -67,9 +67,9 @@ class SceneContact(Result):
     at: Vector
     """Position of the contact point in the zero pose [mm]."""
     apart: float
-    """Fraction of the replayed time during which no flank is in contact."""
+    """Fraction of the displayed simulation time during which no flank is in contact, 0 to 1."""
     coast: float
-    """Fraction of the replayed time during which the coast flank is in contact."""
+    """Fraction of the displayed simulation time during which the coast flank is in contact, 0 to 1."""
     impact_rate: float
     """Mean number of impacts per second [1/s]."""
     hardest: float

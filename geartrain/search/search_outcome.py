@@ -24,12 +24,12 @@ class Shortfall(Result):
     it.
     """
     nearest: str = ""
-    """Description of the nearest miss: the rejected candidate with the smallest violation of a constraint, with its
-    tooth counts and ratio error, or a constraint that no candidate satisfies. Empty if there is a solution or if the
+    """Description of the rejected candidate with the smallest violation of a constraint, with its tooth counts and
+    ratio error, or description of a constraint that no candidate satisfies. Empty if there is a solution or if the
     search was interrupted.
     """
     advice: str = ""
-    """Suggestions of constraints to be relaxed, with the effect of each suggestion; empty if there is a solution."""
+    """Suggestions of which constraints to relax, with the effect of each suggestion; empty if there is a solution."""
 
 
 class CountSizes(ABC):

@@ -75,8 +75,8 @@ class SternBrocotRun:
     """
 
     near: IntegerPair
-    """Numerator and denominator (p, q) of the fraction before the run. It is on the same side of the approximated
-    number as the fractions in the run.
+    """Numerator and denominator (p, q) of the last fraction before the straight run. It is on the same side of the
+    approximated number as the fractions in the run.
     """
     far: IntegerPair
     """Numerator and denominator (P, Q) of the fraction on the opposite side of the approximated number."""
@@ -85,18 +85,20 @@ class SternBrocotRun:
     and the denominator. The fraction with this index k is a convergent.
     """
     length: int
-    """Number of fractions in the run that are within the bounds."""
+    """Number of fractions in the straight run whose numerator and denominator are within the bounds."""
     best: int
     """Minimum index k from which all fractions in the run are best approximations of the first kind; `length` + 1 if no
     fraction in the run is one.
     """
 
     def at(self, k: int) -> Fraction:
-        """Return the fraction (p + k P)/(q + k Q) of the run, where (p, q) is `near` and (P, Q) is `far`."""
+        """Return the fraction with index k of the straight run of the path: (p + k P)/(q + k Q), where (p, q) is `near`
+        and (P, Q) is `far`.
+        """
         return coprime(self.near[0] + k * self.far[0], self.near[1] + k * self.far[1])
 
     def kind(self, k: int) -> ApproximantKind:
-        """Return the type of the fraction with index k in the run."""
+        """Return the type of the approximation by the fraction with index k in the straight run."""
         if k == self.whole:
             return "convergent"
         return "best" if k >= self.best else "intermediate"

@@ -99,8 +99,8 @@ def describe_approximants(found: Approximants) -> Document:
 
 
 def _shortfall(shortfall: Shortfall) -> list[Section]:
-    """Return a list with one section on rejected candidates, the nearest miss and suggestions; an empty list if there
-    is nothing to report.
+    """Return a list with one section on rejected candidates, the closest of them, and suggestions; an empty list if
+    there is nothing to report.
     """
     lines = [f"Nearest: {shortfall.nearest}."] if shortfall.nearest else []
     lines += [f"Suggestions: {shortfall.advice}."] if shortfall.advice else []

@@ -241,7 +241,9 @@ def to_train(configuration: Configuration, name: str = "") -> dict[str, Any]:
 
 
 def _direction(axis: list[float]) -> list[str]:
-    """Return the coordinates of an axis as text: fractions if they are short, else floats with all digits."""
+    """Return the coordinates of an axis as text: fractions if they are short, otherwise decimals with all digits of the
+    floats.
+    """
     # a decimal would be regarded as accurate only to its last digit
     exact = [Fraction(part) for part in axis]
     return [str(part) if part.denominator < _SHORT else f"{float(part):.17g}" for part in exact]

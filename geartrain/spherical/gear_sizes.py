@@ -70,7 +70,7 @@ def size_gears(configuration: Configuration, mean_pressure: float = MEAN_PRESSUR
     Parameters
     ----------
     configuration : Configuration
-        Set with a tooth number for every kind.
+        Set of gears with a tooth number for every kind of gear.
     mean_pressure : float
         Mean pressure angle of the meshes [rad]; by default 20 deg.
 
@@ -161,7 +161,7 @@ class SphereSizing(Result):
     )
 
     configuration: Configuration
-    """Set of gears to which the sizes belong."""
+    """Set of gears whose sizes these are."""
     teeth: NDArray[np.int64]
     """Tooth number of each gear, shape (gears,)."""
     cones: Floats

@@ -149,7 +149,7 @@ def angle_rows(axes: Floats, pairs: Sequence[tuple[int, int]]) -> tuple[Floats, 
     `moved`.
 
     The derivative is dS = -tau_ij . dn_i - tau_ji . dn_j, where dn_i is the displacement of axis i and tau_ij the unit
-    tangent at i towards j. Columns 2 i and 2 i + 1 belong to axis i.
+    tangent at i towards j. Columns 2 i and 2 i + 1 are the derivatives with respect to the position of axis i.
     """
     i, j = np.array(pairs, dtype=int).reshape(-1, 2).T
     a, b = axes[i], axes[j]

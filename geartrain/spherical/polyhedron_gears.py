@@ -158,7 +158,9 @@ def _placed(
     counts: Mapping[str, int],
     exact: bool,
 ) -> Floats:
-    """Return the axes, moved to equal pitches: all axes if `exact`, else axes on edges with known teeth."""
+    """Return the axes, moved so that the pitches of their meshes are equal. All axes are moved if `exact` is True,
+    otherwise only the axes on edges of which the teeth and the teeth of all mates are known.
+    """
     teeth = [counts.get(kind, 0) for kind in kinds]
     if exact:
         require_tooth_numbers(
@@ -336,7 +338,9 @@ def teeth_of(teeth: TeethByKind | None, kinds: Sequence[str]) -> dict[str, int]:
 
 
 def _matching_kinds(word: str, kinds: Iterable[str]) -> list[str]:
-    """Return the kind with the given name, or else all kinds with a further letter, such as 4a and 4b for 4."""
+    """Return a list with the kind of the given name. If there is none, return all kinds with this name and a further
+    letter, such as 4a and 4b for 4.
+    """
     known = list(dict.fromkeys(kinds))
     return [word] if word in known else [kind for kind in known if letter_of(kind) == word]
 

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from geartrain.teeth.conjugate.wheel_pair import WheelPair
 
 USUAL = ("involute", "uniform_stress", "uniform_temperature_b", "least_friction", "cycloidal", "lantern")
-"""Names of the tooth forms compared by default, with one variant (reading) of each form."""
+"""Names of the tooth forms compared by default, with one variant of each form."""
 _MOST_PITCHES = 100.0  # upper limit of an arc of contact
 _EIGHTH = 0.125  # turn: from 45 deg on, the pressure angle does not determine teeth of uniform stress
 
@@ -38,7 +38,7 @@ class MeasuredForm(Result):
     KEYS = (*(Key("form", "name"), "runs", Key("arcs", "pitches"), "ratios", "faults"),)
 
     name: str
-    """Name of the tooth form as requested, including the variant (reading)."""
+    """Name of the requested tooth form, including the variant, such as `uniform_temperature_b`."""
     path: PathOfContact | None
     """Path of contact; None if the tooth form rejects the wheels."""
     measures: PathMeasures | None
@@ -100,11 +100,10 @@ class FormComparison(Pictured, Result):
 
 
 def comparable_forms() -> dict[str, tuple[type[ConjugateToothForm], dict[str, str]]]:
-    """Return the class and the parameters of each conjugate form, or variant (reading) of a form, that can be compared,
-    keyed by name.
+    """Return the class and the parameters of each conjugate tooth form that can be compared, keyed by name.
 
-    A form with several readings is listed once without a reading and once for each reading, such as
-    `uniform_temperature_b`.
+    A form with several variants (values of `reading`) is listed once with its default variant and once for each
+    variant, such as `uniform_temperature_b`.
     """
     found: dict[str, tuple[type[ConjugateToothForm], dict[str, str]]] = {}
     for name, model in tooth_forms().items():

@@ -159,7 +159,7 @@ class BuckinghamFriction(FrictionLaw):
         return True
 
     def coefficient(self, speed: Floats) -> Floats:
-        """Return the coefficient of friction at pitch-line speeds [m/s], docs/shapes.md (17).
+        """Return the coefficient of friction at pitch-line speeds [m/s], by equation (17) of docs/shapes.md.
 
         It is c2 exp(-c1 sqrt v) + c3 sqrt v, with v the speed in ft/min and the constants of `buckingham_constants`.
         """

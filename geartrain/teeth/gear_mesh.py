@@ -190,7 +190,9 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def unit_tips(self) -> Mapping[str, float]:
-        """Tip radii by wheel in the length unit of the teeth, if the teeth have no declared size, else empty."""
+        """Tip radius of each wheel in the length unit of the teeth, keyed by wheel; empty if the teeth have a declared
+        size.
+        """
         return {}
 
     @abstractmethod
@@ -350,7 +352,7 @@ class GearMesh(Pictured, Shown, ABC):
 
     @property
     def rigid(self) -> bool:
-        """True if the speed ratio is constant. Only the backlash of such a pair affects the motion."""
+        """True if the speed ratio is constant, so that only backlash makes the transmitted motion nonuniform."""
         return isinstance(self.transmission, ExactRatio)
 
     @property

@@ -145,7 +145,7 @@ class TransmissionFunction(Shown, ABC):
     at_once: bool = False
     """True if the driven side moves in instantaneous steps, so that the transmission error is discontinuous."""
     measured: bool = False
-    """True if the function belongs to wheels with measured teeth."""
+    """True if the wheels have measured teeth."""
 
     @property
     def pitch(self) -> float:

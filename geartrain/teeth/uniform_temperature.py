@@ -1,4 +1,6 @@
-"""Teeth of uniform temperature: uniform frictional heat per area of the profile, removed locally by the lubricant."""
+"""Teeth of uniform temperature: uniform frictional heat per unit area of the profile, which is removed locally by the
+lubricant.
+"""
 
 from __future__ import annotations
 
@@ -22,12 +24,13 @@ _INVOLUTE = pi / 9  # 20 deg: the working depth of this involute is the default
 
 
 class UniformTemperature(ConjugateToothForm):
-    """Teeth of uniform temperature: the frictional heat per area of profile is constant.
+    """Teeth of uniform temperature: the frictional heat per unit area of the profile is constant.
 
-    There are three readings of the source. In reading a, the heat is uniform on the profile of the first wheel. In
-    reading b, it is uniform on the hotter of the two profiles, which is always the dedendum. Reading c is reading b,
-    except that the pressure angle is constant from the pitch point until that heat is reached, so that the stress at
-    the pitch point is finite (docs/shapes.md).
+    The publication that proposed this form can be interpreted in three ways (docs/shapes.md). In interpretation a, the
+    heat is uniform on the profile of the first wheel. In interpretation b, it is uniform on the hotter of the two
+    profiles, which is always the dedendum. Interpretation c differs from b near the pitch point: there the pressure
+    angle is constant, up to the point where the heat reaches the uniform value, so that the stress at the pitch point
+    is finite.
 
     See Also
     --------
@@ -49,7 +52,9 @@ class UniformTemperature(ConjugateToothForm):
         "c (as b, with a minimum pressure angle)",
     )
     heat: Figure | None = Field(
-        None, description="Heat per area divided by friction times tangential force; a smaller value makes taller teeth"
+        None,
+        description="Heat per unit area divided by friction coefficient times tangential force; a smaller value makes "
+        "taller teeth",
     )
     depth: Figure | None = Field(
         None, description="Working depth in modules, instead of heat; default as for the 20 deg involute"

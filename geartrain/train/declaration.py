@@ -317,8 +317,8 @@ class Train(Declared):
         return friction_in_force(getattr(part, "friction", None))
 
     def stiffness_of(self, gear: GearPair) -> Quantity | None:
-        """Return the tooth stiffness of a gear pair. It is declared for the pair, else for its tooth form, else for the
-        train; None if it is not declared.
+        """Return the tooth stiffness of a gear pair. A value declared for the pair has precedence over a value of its
+        tooth form, and that over a value of the train; None if none of them is declared.
 
         Parameters
         ----------
@@ -329,8 +329,8 @@ class Train(Declared):
         return gear.stiffness or (form.stiffness if form is not None else None) or self.stiffness
 
     def damping_of(self, gear: GearPair) -> Quantity | None:
-        """Return the tooth damping of a gear pair. It is declared for the pair, else for its tooth form, else for the
-        train; None if it is not declared.
+        """Return the tooth damping of a gear pair. A value declared for the pair has precedence over a value of its
+        tooth form, and that over a value of the train; None if it is not declared.
 
         Parameters
         ----------
@@ -562,7 +562,9 @@ class Train(Declared):
 
     @cached_property
     def input_unit(self) -> str:
-        """Unit of input speeds: that of the first input that is not 0, else of the first input; "" if there is none."""
+        """Unit of the input speeds, which is the unit of the first input that has a unit and is not 0. If all such
+        inputs are 0, it is the unit of the first; "" if no input has a unit.
+        """
         groups = [own.inputs for own in self.states.values() if own.inputs is not None]
         # the train's inputs are unused if every state has its own
         if len(groups) == len(self.states) and groups:
@@ -610,7 +612,7 @@ class Train(Declared):
 
     @property
     def unit_base(self) -> Fraction | None:
-        """Size of the train's unit [s or m]; None if no unit is declared."""
+        """Size of the time or length of the key `unit` [s or m]; None if `unit` is not declared."""
         quantity = self.unit_quantity
         if quantity is not None:
             return quantity.base
@@ -618,7 +620,9 @@ class Train(Declared):
 
     @property
     def unit_quantity(self) -> Quantity | None:
-        """Unit of the train as a quantity (a time or a length); None for a named period, or if none is declared."""
+        """Time or length of the key `unit` as a quantity, such as 1 d for speeds in turns per day; None if `unit` names
+        a period or is not declared.
+        """
         if self.unit is None or self.unit.per in period_table():
             return None
         try:
@@ -657,7 +661,9 @@ class Train(Declared):
 
     @property
     def cases_declared(self) -> Iterator[tuple[Loc, Train | State]]:
-        """Train itself and all of its states, both of which can declare inputs and loads, with their paths."""
+        """Yield the train and each of its states, with their paths in the declaration. Each of them can declare inputs
+        and loads.
+        """
         yield (), self
         for name, state in self.states.items():
             yield ("states", name), state
@@ -668,15 +674,21 @@ class Train(Declared):
 
 
 def wheel_thickness(train: Train, wheel: Wheel) -> Quantity | None:
-    """Return the first declared value of: thickness and face width of the wheel, then of the train; else None."""
+    """Return the thickness of a wheel. It is the first of these that is declared: thickness of the wheel, face width of
+    the wheel, thickness of the train, face width of the train; None if none is declared.
+    """
     return wheel.thickness or wheel.face_width or train.thickness or train.face_width
 
 
 def face_width(train: Train, wheel: Wheel) -> Quantity | None:
-    """Return the first declared value of: face width and thickness of the wheel, then of the train; else None."""
+    """Return the face width of a wheel. It is the first of these that is declared: face width of the wheel, thickness
+    of the wheel, face width of the train, thickness of the train; None if none is declared.
+    """
     return wheel.face_width or wheel.thickness or train.face_width or train.thickness
 
 
 def material_named(train: Train, name: str) -> Material:
-    """Return the material with a given name from the declaration of the train, else from the shipped table."""
+    """Return the material with a given name from the declaration of the train, or from the shipped table if the train
+    does not declare it.
+    """
     return train.materials.get(name) or material_table()[name]

@@ -220,7 +220,9 @@ def _pairs(written: _SectionSource, write: Callable[[_SectionSource, yaml.Node],
 
 
 def _section(key: str, entries: Sequence[_Entry], head: str, brackets: str, bullet: str) -> Iterator[str]:
-    """Yield the lines of a rewritten section: one line if it is short and has no comments, else one line per entry."""
+    """Yield the lines of a rewritten section: a single line if it is short and has no comments, otherwise one line for
+    each entry.
+    """
     if brackets and not head and not any(each.before or each.behind for each in entries):
         line = f"{key}: {brackets[0]}{', '.join(each.text for each in entries)}{brackets[1]}"
         if len(line) <= _WIDTH:

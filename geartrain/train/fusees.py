@@ -15,10 +15,12 @@ from typing import NamedTuple
 
 
 class FuseeRun(NamedTuple):
-    """Torque of a spring at its fusee from fully wound to the end of the chain, and the chain and winding required."""
+    """Torque at a fusee from the fully wound spring until the chain has left the fusee, and the chain and winding
+    required.
+    """
 
     first: float
-    """Torque at the beginning, with the spring fully wound [N m]; `last` is the torque at the end of the run."""
+    """Torque with the fully wound spring [N m]; `last` is the torque when the chain has left the fusee."""
     last: float
     maximum: float
     """Maximum torque [N m], reached after `maximum_at` turns of the fusee."""
@@ -29,13 +31,13 @@ class FuseeRun(NamedTuple):
     mean: float
     """Mean torque over the angle of the fusee [N m]."""
     radii: tuple[float, float]
-    """Radius of the fusee at the beginning of the run, and at its end [m]."""
+    """Radius of the fusee with the fully wound spring, and when the chain has left the fusee [m]."""
     chain: float
     """Length of the chain that passes from the fusee to the barrel [m]."""
     left: float
-    """Number of turns by which the spring is still wound at the end of the run."""
+    """Number of turns by which the spring is still wound when the chain has left the fusee."""
     energy: float
-    """Energy that the spring delivers over the run [J]."""
+    """Energy that the spring delivers from fully wound until the chain has left the fusee [J]."""
 
 
 class ConicalSection(NamedTuple):
@@ -83,11 +85,11 @@ class FuseeSpring(NamedTuple):
     wound: float
     barrel: float
     turns: float
-    """Number of turns of the fusee over the run."""
+    """Number of turns of the fusee from the fully wound spring until the chain has left the fusee."""
     constant: float | None
     """Constant torque at the fusee [N m]; None if the fusee is declared by its radii."""
     radii: tuple[float, ...] = ()
-    """Radii of the fusee at equally spaced angles, from the beginning to the end of the run [m]."""
+    """Radii of the fusee at equally spaced angles [m], from the fully wound spring to the end of the chain."""
 
     @property
     def angle(self) -> float:
@@ -118,7 +120,9 @@ class FuseeSpring(NamedTuple):
         return self.stiffness * wound * radius / self.barrel
 
     def run(self) -> FuseeRun:
-        """Return the torque at the fusee over the whole run, and the chain and winding that the run requires."""
+        """Return the torque at the fusee from the fully wound spring to the end of the chain, and the length of chain
+        and the winding that this requires.
+        """
         left, last = self.state(self.angle)
         energy = self.stiffness * (self.wound - left) * (self.wound + left) / 2
         places = [0.0, self.angle]

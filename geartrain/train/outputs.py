@@ -105,7 +105,7 @@ def is_printed_period(raw: object) -> bool:
 
 
 def year_seconds(unit: Fraction | None) -> Fraction | None:
-    """Return the given unit of time [s] if it is a year, else None."""
+    """Return the given unit of time [s] if it is a year; None for other units."""
     return unit if unit is not None and _YEARS[0] <= unit / 86400 <= _YEARS[1] else None
 
 
@@ -437,7 +437,7 @@ class Expect(Declared):
     )
 
     def holds(self, speed: Any) -> bool:
-        """Return True if a speed [unit of the train] agrees with the expected value within the tolerance."""
+        """Return True if a speed [the train's unit of speed] agrees with the expected value within the tolerance."""
         return self.value.holds(speed, self.tolerance.value if self.tolerance else None)
 
 

@@ -33,12 +33,12 @@ def mixed_inputs(train: Train) -> Iterator[Problem]:
     if named is None:
         return
     if plain is not None:
-        kind = "number without a unit" if plain[1].unit is None else "travel per unit of the train, not per time"
+        kind = "number without a unit" if plain[1].unit is None else "travel per `unit`, not per time"
         why = f"'{plain[1]}' is a {kind} and '{named[1]}' has a unit"
         what, fix = "inputs with and without units are mixed", "give all inputs a unit, or none"
         yield Problem(what, why, fix, train.place(*plain[0]))
     if train.unit is not None and train.unit_days is None:
-        what = f"the input '{named[1]}' does not match the unit of the train"
+        what = f"the input '{named[1]}' does not match the `unit` of the train"
         why = f"the input is a speed per time, but `unit` is one turn per {train.unit.per}, which is not a time"
         fix = "write all inputs as numbers without a unit, or give a time, such as `unit: {per: 1 h}`"
         yield Problem(what, why, fix, train.place(*named[0]))
@@ -114,7 +114,7 @@ def published_units(train: Train, published: Published, loc: Loc) -> Iterator[Pr
         yield Problem(what, why, fix, train.place(*loc))
     elif printed.years and year_seconds(unit) is None:
         what = f"the length of the years of '{printed}' is not known"
-        why = "years have several lengths, and y is the unit of the train only if that is a year"
+        why = "there are several kinds of year, and y is the `unit` of the train only if this unit is a year"
         yield Problem(what, why, "write the period in days, or declare `unit: {per: 365.25 d}`", train.place(*loc))
 
 
@@ -552,7 +552,7 @@ def _sliding_inputs(train: Train, loc: Loc, inputs: Mapping[str, Quantity]) -> I
             yield Problem(what, why, "give the speed in turn/s, turn/min or rpm", place)
 
 
-_PER_UNIT = "the speed of a sliding link is its travel per unit of the train, or per turn if the train has no unit"
+_PER_UNIT = "the speed of a sliding link is its travel per `unit`, or per turn if the train declares no `unit`"
 
 
 def _sliding_loads(train: Train, loc: Loc, loads: Mapping[str, Quantity]) -> Iterator[Problem]:
@@ -583,7 +583,7 @@ def _sliding_outputs(train: Train, loc: Loc, part: Train | State) -> Iterator[Pr
                 yield Problem(what, "a turning link has a speed in turns", "give a number", train.place(*place, key))
         printed = output.published is not None and output.published.as_ == "period"
         if slides and (printed or any(target.speed is None for target in output.targets)):
-            fix = "give a travel per unit of the train, such as `{speed: 5 mm}`"
+            fix = "give a travel per `unit`, such as `{speed: 5 mm}`"
             yield Problem(f"'{name}' slides and has no period", _PER_UNIT, fix, train.place(*place))
         if slides and output.dial is not None:
             what, why = f"'{name}' slides and cannot be read on a dial", "the hand of a dial turns"

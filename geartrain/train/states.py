@@ -229,7 +229,9 @@ class Drive(Declared):
 
     @property
     def torques(self) -> tuple[Quantity, ...]:
-        """Torques that the drive declares directly; empty for a rate."""
+        """Torques that are declared for the drive as numbers or with a unit; empty if the drive prescribes a speed, or
+        is a weight or a spring.
+        """
         hand = () if self.hand is None else (self.hand.torque, *(self.hand.range or ()))
         return tuple(torque for torque in (self.torque, *hand) if torque is not None)
 
@@ -240,8 +242,8 @@ class Drive(Declared):
 
     @property
     def steady_torque(self) -> float | None:
-        """Constant torque of a drive [N m]: as declared, of an equalising fusee, or of a weight (mass times
-        gravity times descent per radian); None for other drives.
+        """Constant torque of a drive [N m]: the declared torque, the torque of an equalising fusee, or the torque of a
+        weight (mass times gravitational acceleration times descent per radian); None for other drives.
 
         For a weight that is a link of the train, it is the torque equivalent to its force; see `as_torque`.
         """
@@ -452,8 +454,8 @@ class OneWayAction(Result):
     holds: bool
     """True if the clutch holds, False if it overruns."""
     slip: Fraction | None
-    """Speed of the second link relative to the first, in the sense in which the clutch overruns [unit of the train]; 0
-    if the clutch holds, None if undetermined.
+    """Speed of the second link relative to the first, in the sense in which the clutch overruns [the train's unit of
+    speed]; 0 if the clutch holds, None if undetermined.
     """
     torque: Fraction | None
     """Torque of the clutch on its second link, or on the link that it fixes; 0 if the clutch overruns, None if
@@ -576,7 +578,7 @@ class StateCase(Shown):
         Parameters
         ----------
         speed : Fraction
-            Speed in this state [unit of the train].
+            Speed in this state [the train's unit of speed].
         """
         return abridged_text(speed) if self.exact else decimal(speed)
 

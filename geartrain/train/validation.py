@@ -151,7 +151,12 @@ def _problem_of(error: Mapping[str, Any], place: Marks) -> Problem:
         fix = suggest(key, allowed, otherwise=f"`{key}` is a key of {' or of '.join(homes)}" if homes else "")
         if key == "teeth" and "wheels" in allowed:
             fix = f"write `{loc[-2]}: {{wheels: {{w: {error['input']}}}}}`: teeth belong to a wheel, here named w"
-        return Problem(f"unknown key '{key}'", f"{_where(loc[:-1])} has no such key", fix, place(loc))
+        return Problem(
+            f"unknown key '{key}'",
+            f"{_where(loc[:-1])} accepts only known keys, so that a misspelt key is not ignored",
+            fix,
+            place(loc),
+        )
     if kind == "missing" and isinstance(loc[-1], int):
         what, why = f"{_where(loc[:-1])} is too short", f"entry {loc[-1] + 1} is missing"
         return Problem(what, why, "add the missing entry", place(loc[:-1]))

@@ -109,7 +109,7 @@ error: my.yaml:3: `links.a.wheels.p.teeth`: '20 teeth' is not a tooth count
 
 # teeth of a link: |a: {wheels: {p: 20}}|a: {teeth: 20}|
 error: my.yaml:3: unknown key 'teeth'
-  why: `links.a` has no such key
+  why: `links.a` accepts only known keys, so that a misspelt key is not ignored
   fix: write `a: {wheels: {w: 20}}`: teeth belong to a wheel, here named w
 
 # a link as a number: |a: {wheels: {p: 20}}|a: 20|
@@ -187,7 +187,7 @@ error: my.yaml:8: unknown astronomical period '5/19'
 
 # a key that is misspelt: |inputs:|input:|
 error: my.yaml:7: unknown key 'input'
-  why: the declaration has no such key
+  why: the declaration accepts only known keys, so that a misspelt key is not ignored
   fix: did you mean 'inputs'?
 """  # noqa: E501
 """Each mistake: its name, the replaced text in the declaration and its replacement, then the message in full."""

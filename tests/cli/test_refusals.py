@@ -141,7 +141,7 @@ export watch-going-train --to d --as svg --sheet 300x200x1mm | --sheet
 view planetary-24-18-60 -o . | folder | why:
 draw planetary-24-18-60 -o . | folder | why:
 draw planetary-24-18-60 -o .. | folder | why:
-view planetary-24-18-60 -o missing/train.html | the folder does not exist | why:
+view planetary-24-18-60 -o missing/train.html | missing does not exist | why:
 view planetary-24-18-60 -o train.txt | not a suffix of an HTML page | why:
 view planetary-24-18-60 -o train.png | pictures and films can be saved from the page | why:
 view planetary-24-18-60 -o train | no suffix | why:
@@ -234,7 +234,7 @@ mesh 24 36 --module 2mm --profile w.svg --blank fillet=9mm | --blank fillet | at
 mesh 24 36 --module 2mm --profile w.svg --blank bore=43mm | --blank bore | 43 mm
 mesh 24 36 --module 2mm --profile w.svg --blank rim=4mm | --blank rim | omit --blank rim
 mesh 24 36 --module 2mm --profile w.svg --blank tolerance=0mm | --blank tolerance | above 0
-mesh 24 36 --module 2mm --profile /no/where/w.svg | /no/where | the folder does not exist
+mesh 24 36 --module 2mm --profile /no/where/w.svg | folder /no/where does not exist
 mesh 24 36 --shaft-angle 90deg --module 2mm --profile w.svg | --profile | on a sphere
 mesh 8 60 --module 2mm --profile w.svg | --profile | addendum of at most
 mesh 24 36 --form involut | involut | did you mean 'involute'?

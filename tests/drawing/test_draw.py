@@ -516,7 +516,7 @@ def test_the_name_of_a_train_never_leads_out_of_the_folder(here: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("path", "said"), [("nowhere/x.svg", "the folder does not exist"), ("x\x07.svg", "not a valid file name")]
+    ("path", "said"), [("nowhere/x.svg", "nowhere does not exist"), ("x\x07.svg", "not a valid file name")]
 )
 @pytest.mark.parametrize("force", [False, True])
 def test_what_cannot_be_a_file_is_refused_with_a_reason_and_a_way_out(

@@ -207,7 +207,10 @@ def test_an_unknown_form_or_key_is_told_with_those_there_are() -> None:
     with pytest.raises(GearTrainError) as caught:
         pair("{form: involute, presure_angle: 20 deg}")
     (problem,) = caught.value.problems
-    assert (problem.why, problem.fix) == ("`tooth_form` has no such key", "did you mean 'pressure_angle'?")
+    assert (problem.why, problem.fix) == (
+        "`tooth_form` accepts only known keys, so that a misspelt key is not ignored",
+        "did you mean 'pressure_angle'?",
+    )
 
 
 CHAIN = """

@@ -377,7 +377,7 @@ def test_a_wheel_has_teeth_of_one_shape(counts: tuple[int, int], first: str, sec
         text = text.replace(f"{{pair: {named}}}", f"{{pair: {named}{form}}}")
     assert found(text) == ([("W3", "note")] if how else [])
     if how:
-        assert "wheel 'b' is not cut: its pairs 'a~b' and 'b~c' require different teeth; they require" in words(text)
+        assert "wheel 'b' is not cut: pairs 'a~b' and 'b~c' require different teeth; they require" in words(text)
         assert how in words(text)
 
 

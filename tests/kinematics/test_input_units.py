@@ -163,7 +163,7 @@ def test_a_picture_steps_by_the_turns_of_one_unit_of_time(rest: str, turns: floa
         ("inputs: {a: 1 rad/sec}", "did you mean 'rad/s'?"),
         ("inputs: {a: 1}\nloads: {b: 3 nm}", "did you mean 'Nm'?"),
         ("inputs: {a: 2 rpm, b: 1}", "inputs with and without units are mixed"),
-        ("inputs: {a: 2 rpm}\nunit: {per: 18 ft}", "does not match the unit of the train"),
+        ("inputs: {a: 2 rpm}\nunit: {per: 18 ft}", "does not match the `unit` of the train"),
         ("inputs: {a: 2 N m}", "is a torque, but a speed, a length or a velocity is required"),
         ("states:\n  one: {inputs: {a: 2 rpm}}\n  two: {inputs: {a: 1}}", "inputs with and without units are mixed"),
         ("inputs: {a: 1}\nloads: {a: 5, b: 10 N mm}", "torques with and without units are mixed"),

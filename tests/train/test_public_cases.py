@@ -36,7 +36,7 @@ CHECKED = {
     "04": (0, "all 2 expectations hold; without findings: 4 planets 'planet'"),
     # 6 h over 6.0874 h is 1 - 0.0143575
     "05": (1, "target period 6 h in either sense missed by -14357.5 ppm (tolerance 1 %)"),
-    "06": (0, "wheel 'n40' is not cut: its pairs 'n30~n40' and 'n40~n50' require different teeth"),
+    "06": (0, "wheel 'n40' is not cut: pairs 'n30~n40' and 'n40~n50' require different teeth"),
     "08": (1, "found -25000; only the sign differs (`magnitude: true` ignores it)"),
     "10": (0, "wheel 'finger' has one tooth, which cannot drive continuously"),
     "11": (0, "all 2 expectations hold"),

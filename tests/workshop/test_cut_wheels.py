@@ -213,7 +213,7 @@ PLAIN = "{form: involute}"
 def test_pairs_that_ask_for_different_teeth_of_one_wheel_are_named(second: str) -> None:
     work = SolidModel(geartrain.load(IDLER.format(first=PLAIN, second=second)), ManufacturingSizes())
     assert set(work.blanks.wheels) == {"p", "x"}
-    told = "wheel 'w' is not cut: its pairs 'one' and 'two' require different teeth"
+    told = "wheel 'w' is not cut: pairs 'one' and 'two' require different teeth"
     assert [each.what for each in notices(work, ["svg"])] == [told]
     assert [(each.rule, each.level, each.problem.what) for each in work.train.build_findings] == [("W3", "note", told)]
     with pytest.raises(GearTrainError, match="'one' and 'two'"):

@@ -1,7 +1,7 @@
-"""Extreme errors and rates of outputs over a run of the input, at kinks and between them.
+"""Extreme errors and rates of outputs over a range of input positions, at kinks and between them.
 
-The kinks of all transmission functions divide the run into smooth pieces, which are evaluated at their ends and in the
-middle. A maximum between these positions is located only if it may exceed all of them.
+The kinks of all transmission functions divide the evaluated range into smooth pieces, which are evaluated at their ends
+and in the middle. A maximum between these positions is located only if it may exceed all of them.
 """
 
 from __future__ import annotations

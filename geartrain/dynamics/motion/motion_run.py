@@ -70,8 +70,9 @@ def find_spectrum(
 ) -> dict[str, list[SpectrumLine]]:
     """Return at most `_MOST_LINES` spectral lines of every output, in descending order of their first-order amplitudes.
 
-    Two lines are resolved if their numbers of periods over the run differ by at least 2. If the run is an integer
-    number of common periods, the amplitudes are exact except for aliases of harmonics above half the sampling rate.
+    Two lines are resolved if their numbers of periods within the evaluated revolutions differ by at least 2. If these
+    revolutions are an integer number of common periods, the amplitudes are exact except for aliases of harmonics above
+    half the sampling rate.
     """
     from geartrain.dynamics.motion.superposition import Superposition
 
@@ -212,7 +213,7 @@ class MotionRun(Tabular, Pictured):
     declared sense, and the coast flanks are in contact.
     """
     samples: int
-    """Number of positions, 2 or more, including both ends of the run."""
+    """Number of evaluated positions, 2 or more, including the first and the last position."""
     statistics: list[RunningStatistics] = field(default_factory=list)
     """Extremes, mean and root mean square of each output's error, and extremes of its speed."""
     phase_statistics: list[list[RunningStatistics]] = field(default_factory=list)
@@ -299,7 +300,7 @@ class MotionRun(Tabular, Pictured):
         self.reversing_drivers |= count_extremes(compositions, sampler, self.turns, self.statistics)
 
     def run_random_phases(self, count: int, seed: int, on_done: OnDone = lambda _: None) -> None:
-        """Repeat the run with random phases of the pairs that declare no phase.
+        """Repeat the computation with random tooth phases of the pairs that declare no phase.
 
         Parameters
         ----------

@@ -138,7 +138,7 @@ class LoadCase:
     """
     case: StateCase
     speeds: Mapping[str, Fraction]
-    """Speed of each link whose speed is determined [unit of the train]."""
+    """Speed of each link whose speed is determined [the train's unit of speed]."""
     meshes: Mapping[str, ToothMesh] = field(default_factory=dict)
     """Meshing teeth of each gear pair that has a declared tooth form, by name of the pair."""
     varying: Sequence[CouplingMesh] = ()
@@ -194,12 +194,14 @@ class LoadCase:
         return tuple(link for link in self.train.links if link not in self.speeds)
 
     def sense(self, link: str) -> int:
-        """Return -1 if the link's axis points against the reference direction of its parallel axes, else 1."""
+        """Return -1 if the axis of the link points against the reference direction of the axes parallel to it,
+        otherwise 1.
+        """
         return self.signs.get(link, 1)
 
     def relative(self, link: str, carrier: str) -> Fraction | None:
-        """Return the speed of a link relative to `carrier`, about the reference direction [unit of the train]; None if
-        it is undetermined.
+        """Return the speed of a link relative to `carrier`, about the reference direction [the train's unit of speed];
+        None if it is undetermined.
 
         The relative speed of two links may be determined even if neither absolute speed is determined.
         """

@@ -42,7 +42,8 @@ class ClutchPattern:
     setting: LoadCase | None
     """Load case of the pattern; None if the speeds contradict each other."""
     slips: Mapping[str, Fraction | None]
-    """Slip speed of each clutch that does not hold [unit of the train], by clutch; None if it is undetermined."""
+    """Slip speed of each clutch that does not hold [the train's unit of speed], by clutch; None if it is undetermined.
+    """
 
     moves: bool
     """True if all clutches that do not hold can overrun for some values of the undetermined speeds."""

@@ -262,8 +262,8 @@ def _indeterminate(flows: Sequence[FlowPattern], question: LoadedBalance) -> Tor
 
 
 def _describe_flow(question: LoadedBalance, power: Fraction, resisted: bool) -> str:
-    """Return a phrase on the power that the links of unknown torque supply or absorb in one solution. `resisted` is
-    True if they absorb power in the solution with minimum loss.
+    """Return a phrase that describes the power supplied or absorbed by the links whose torque is unknown, in one
+    solution. `resisted` is True if they absorb power in the solution with minimum loss.
     """
     if power < 0:
         return f"power {decimal(-power, 6)} leaves at {question.names}, which resists"
@@ -345,7 +345,7 @@ def _planet_meshes(
 def _planet_classes(
     meshing: Mapping[str, Sequence[tuple[str, str, _Key]]], known: Mapping[str, Fraction]
 ) -> dict[str, int]:
-    """Return the number of the class of equal planets to which each planet belongs, by planet."""
+    """Return the class of equal planets of each planet as a number, keyed by planet."""
     classes: dict[str, int] = {}
     while True:
         keys: dict[str, _Key] = {}

@@ -315,7 +315,7 @@ class Torques(FrozenFields, Tabular, TrainResult):
     loads, requested torques and brakes.
     """
     speeds: Mapping[str, Fraction] = field(default_factory=dict)
-    """Speed of each link whose speed is determined [unit of the train]."""
+    """Speed of each link whose speed is determined [the train's unit of speed]."""
     pairs: Mapping[str, PairTorque] = field(default_factory=dict)
     """Torques and power of each gear pair and coupling, by name."""
     bearings: tuple[BearingTorque, ...] = ()
@@ -329,8 +329,8 @@ class Torques(FrozenFields, Tabular, TrainResult):
     reaction acts, such as the link of the pallets, and the torque on that link, which is included in `external`.
     """
     overrunning: Mapping[str, Fraction | None] = field(default_factory=dict)
-    """Slip speed of each overrunning one-way clutch [unit of the train], by clutch; None if it is undetermined. An
-    overrunning clutch transmits no torque.
+    """Slip speed of each overrunning one-way clutch [the train's unit of speed], by clutch; None if it is undetermined.
+    An overrunning clutch transmits no torque.
     """
     arms: Mapping[str, Fraction] = field(default_factory=dict)
     """Lever arm of the force on each link that slides [m]. The power is the force times this arm times the angular
@@ -357,7 +357,7 @@ class Torques(FrozenFields, Tabular, TrainResult):
     def _units(self) -> Mapping[str, str]:
         """Units of torque, speed and power in the table of torques, as text, by name of the column."""
         declared = self._declaration
-        torque, speed = "N m, or the unit of the loads", "unit of the train"
+        torque, speed = "N m, or the unit of the loads", "the train's unit of speed"
         if declared is not None:
             torque = "N m" if declared.has_torque_units(self.state) else "numbers without a unit"
             speed = declared.unit_name or "numbers without a unit"

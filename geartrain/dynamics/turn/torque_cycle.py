@@ -23,18 +23,18 @@ class TorqueExtreme(NamedTuple):
     sense of rotation.
     """
     turns: float
-    """Position in the run [revolutions of the input]."""
+    """Position of the input from the start of the evaluated range [revolutions]."""
     days: float | None = None
-    """Time since the beginning of the run [d]; None if the train's speeds have no unit of time."""
+    """Time since the start of the evaluated range [d]; None if the train's speeds have no unit of time."""
 
 
 class PlaceInRun(NamedTuple):
     """Position of the input since the start of the evaluated range, in revolutions and in days."""
 
     turns: float
-    """Revolutions of the input since the beginning of the run."""
+    """Revolutions of the input since the start of the evaluated range."""
     days: float | None = None
-    """Time since the beginning of the run [d]; None if the train's speeds have no unit of time."""
+    """Time since the start of the evaluated range [d]; None if the train's speeds have no unit of time."""
 
 
 @dataclass(frozen=True)
@@ -108,7 +108,9 @@ class PairCycle(Result):
     kind: str
     """Kind of the pair: `mesh`, `pin` or `bearing`."""
     loss: float
-    """Energy lost in the pair, coupling or bearing over the run [J, or rad if torques are numbers without a unit]."""
+    """Energy lost in the pair, coupling or bearing over the evaluated revolutions [J, or rad if torques are numbers
+    without a unit].
+    """
     passed: float
     """Energy input of the driving side relative to the carrier [J, or rad if torques are numbers without a unit]; for a
     bearing, it equals the loss.
@@ -117,7 +119,7 @@ class PairCycle(Result):
     """Number of sign changes of the torque that the pair transmits. The teeth traverse their backlash at each sign
     change.
 
-    If the run is an integer number of periods, a change between the end and the beginning of the run is included.
+    If the evaluated range is an integer number of periods, a change between its end and its start is included.
     """
     maximum: float = 0.0
     """Maximum magnitude of the torque on the driven link [N m, or a number without a unit]; 0 for a bearing."""
@@ -185,7 +187,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     newton_metres: bool = True
     """True if torques are in N m, False if they are numbers without a unit."""
     span: float = 0.0
-    """Length of the run [revolutions of the input]."""
+    """Length of the evaluated range [revolutions of the input]."""
     period: float | None = None
     """Revolutions of the input after which all positions repeat; None if the torque is constant."""
     turns: Floats | None = None
@@ -215,7 +217,9 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     array labelled by part and position.
     """
     mean: float | None = None
-    """Mean torque at `link` over the run [N m, or number without a unit]; None if the train locks at some position."""
+    """Mean torque at `link` over the evaluated range [N m, or number without a unit]; None if the train locks at some
+    position.
+    """
     maximum: TorqueExtreme | None = None
     """Maximum torque of all solutions at all positions, with its position; None if the train locks at some position."""
     minimum: TorqueExtreme | None = None
@@ -225,17 +229,19 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
     torque starts it at some position.
     """
     energy: CycleEnergy | None = None
-    """Energy balance of the run; None if the train locks at some position."""
+    """Energy balance over the evaluated range; None if the train locks at some position."""
     parts: Mapping[str, PairCycle] = field(default_factory=dict)
     """Loss and torque of each gear pair and coupling by name, and of each bearing as `bearing LINK`."""
     locked_share: float = 0.0
-    """Fraction of the run in which no torque balances the loads, so that the train is locked."""
+    """Fraction of the input revolutions in which no torque balances the loads, so that the train is locked, 0 to 1."""
     held_share: float = 0.0
-    """Fraction of the run in which loads and the requested link supply power, all of which is lost to friction."""
+    """Fraction of the input revolutions in which the loads and the requested link all supply power, which is lost to
+    friction, 0 to 1.
+    """
     ambiguous_share: float = 0.0
-    """Fraction of the run in which several patterns of power flow balance the loads."""
+    """Fraction of the input revolutions in which several patterns of power flow balance the loads, 0 to 1."""
     locked: tuple[tuple[PlaceInRun, PlaceInRun], ...] = ()
-    """Beginning and end of each part of the run in which no torque balances the loads."""
+    """Start and end of each interval of the input position in which no torque balances the loads."""
     complete: bool = True
     """False if there were too many patterns of power flow to examine all of them."""
     neglected: tuple[NeglectedEffect, ...] = ()
@@ -297,7 +303,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
 
     @property
     def minimum_place(self) -> PlaceInRun | None:
-        """Position of the minimum torque in the run; None if the train is locked at all positions."""
+        """Input position of the minimum torque; None if the train is locked at all positions."""
         return _place(self.minimum)
 
     @property
@@ -307,7 +313,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
 
     @property
     def starting_place(self) -> PlaceInRun | None:
-        """Position of the maximum breakaway torque in the run; None if no torque starts the train at some position."""
+        """Input position of the maximum breakaway torque; None if no torque starts the train at some position."""
         return _place(self.starting)
 
     @property
@@ -336,7 +342,7 @@ class TorqueCycle(FrozenFields, Tabular, Pictured, TrainResult):
         return {name: share for name, share in shares.items() if share > 1 + 1e-9}
 
     def at(self, turns: float) -> float:
-        """Return the torque at any position of the run, by linear interpolation.
+        """Return the torque at any position of the input in the evaluated range, by linear interpolation.
 
         Parameters
         ----------

@@ -383,7 +383,9 @@ class BearingTorques(NamedTuple):
     static: float
     drag: float = 0.0
     radius: float = 0.0
-    """Load-dependent friction torque divided by the bearing load [m]; it is added to both friction torques."""
+    """Load-dependent friction torque per unit of bearing load [m]. This torque is added to the sliding and to the
+    static friction torque.
+    """
 
 
 def find_bearings(setting: LoadCase) -> dict[str, BearingTorques]:

@@ -319,7 +319,7 @@ class _RunResults:
         driving, loading = found.powers[:requested], found.powers[requested:]
 
         def summed(powers: Floats) -> float:
-            """Return the integral over the run of the positive parts of the given powers."""
+            """Return the integral of the positive parts of the given powers over the evaluated revolutions."""
             return float(weights @ np.maximum(powers, 0).sum(axis=0))
 
         lost = dict.fromkeys(("mesh", "pin", "bearing"), 0.0)

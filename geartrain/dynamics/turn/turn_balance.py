@@ -591,7 +591,7 @@ class TurnBalance:
 
     @cached_property
     def requested_columns(self) -> list[int]:
-        """Indices of the columns of the balance matrix that belong to unknown external torques."""
+        """Indices of the columns of the balance matrix that multiply the unknown external torques."""
         first = next(at for at, column in enumerate(self.columns) if not column.meshes)
         return list(range(first, first + len(self.requested)))
 

@@ -94,7 +94,7 @@ def _parallel_axes_problem(pair: PitchPair, shape: str, declared: bool) -> Probl
 
 
 def _crossing_axes_problem(pair: PitchPair, shape: str, offset: float | None) -> Problem | None:
-    """Return a problem if a pair of the kind `shape` cannot mesh on axes that are `offset` [m] apart; else None."""
+    """Return a problem if a pair of the kind `shape` cannot mesh on axes at a distance `offset` [m]; None if it can."""
     first, second = pair.axes
     if shape == "spur":
         return Problem(

@@ -581,7 +581,9 @@ class _EqualPlanets:
         return self._clearance_finding((wheel, wheel), gap, what, why, f"use at most {most} planets, or smaller ones")
 
     def _clearance_finding(self, wheels: tuple[str, str], gap: float, what: str, why: str, fix: str) -> BuildFinding:
-        """Return a finding on the tip clearance `gap` [modules]: an error if even stub teeth overlap, else a note."""
+        """Return a finding on the tip clearance `gap` [modules]: an error if even stub teeth overlap, or a note if they
+        do not.
+        """
         free = sum(wheel not in self.tips for wheel in wheels)
         # addendum at which the tips just touch if all undeclared teeth are shortened equally
         fits = _FULL + gap / free if free else 0.0

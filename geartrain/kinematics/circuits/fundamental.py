@@ -98,7 +98,7 @@ class Circuit(NamedTuple):
 
         Speeds are positive about the reference direction of parallel axes. The transposed row gives the torques of a
         pair without losses. Applied to the link angles, the row gives the phase of the mesh, modulo one pitch. If
-        `bases` contains two links, the coefficients -a and -b belong to these links instead of the carrier.
+        `bases` contains two links, they replace the carrier: their coefficients are -a and -b.
         """
         if self.bases:
             row: dict[str, int] = {}
@@ -142,7 +142,7 @@ class WillisEquation(NamedTuple):
     terms: tuple[tuple[str, int], ...]
     """Terms of the left-hand side, as pairs of a link and its non-zero coefficient."""
     right: Fraction = Fraction(0)
-    """Right-hand side of the equation [unit of the train]."""
+    """Right-hand side of the equation [the train's unit of speed]."""
 
 
 @collector_paused()
@@ -287,7 +287,9 @@ class _DeclaredCoupling(NamedTuple):
         return circuit._replace(i=i, j=j, b=b, bases=(tree.moving(carrier, line), tree.moving(carrier, None)))
 
     def _wrong_angle(self, labels: tuple[str, str]) -> Problem | None:
-        """Return a problem if two axes are perpendicular or their angle differs from the declared one; else None."""
+        """Return a problem if two axes are perpendicular or their angle differs from the declared angle; None if
+        neither is the case.
+        """
         between, declared = self.axes.angle(labels), getattr(self.coupling, "angle", None)
         what = f"coupling '{self.coupling.name}': "
         if between is not None and between > pi / 2 - _SAME_ANGLE:
@@ -314,7 +316,9 @@ def _turning(tree: Tree, circuit: Circuit) -> Circuit:
 
 
 def _shared_axis(tree: Tree, i: str, j: str) -> str | None:
-    """Return the label of the axis that both links are on, or that one is on and the other carries; else None."""
+    """Return the label of the axis about which both links turn, or about which one turns and which the other carries;
+    None if there is no such axis.
+    """
     for link, other in ((i, j), (j, i)):
         axis = tree.axis(link)
         if axis is not None and (tree.axis(other) == axis or tree.top[link] == other):

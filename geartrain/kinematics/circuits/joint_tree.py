@@ -218,7 +218,7 @@ def _two_axes(train: Train, axis: str, first: str, second: str, first_loc: Loc, 
     return Problem(
         f"axis label '{axis}' names two axes",
         f"one axis is carried by '{first}' ({train.place(*first_loc)}), the other by '{second}'; "
-        "joints with one label must be coaxial",
+        "joints with the same label must be coaxial",
         "give the second axis a different label",
         train.place(*loc),
     )
@@ -423,7 +423,7 @@ class Axes:
         return min(angle, pi - angle)
 
     def sense(self, labels: tuple[str, str]) -> int:
-        """Return 1 if the angle between the reference directions of two axes is less than 90 degrees, else -1."""
+        """Return 1 if the angle between the reference directions of two axes is less than 90 degrees; otherwise -1."""
         first, second = (self.direction(label) for label in labels)
         return self.sign(labels[0]) * self.sign(labels[1]) * (-1 if dot(first, second) < 0 else 1)
 

@@ -328,7 +328,7 @@ class Formulas(Mapping[str, Formula], Result):
     """
 
     outputs: Mapping[str, Formula]
-    """Exact speed of each output [unit of the train]; a difference of speeds if `relative_to` is declared."""
+    """Exact speed of each output [the train's unit of speed]; a difference of speeds if `relative_to` is declared."""
     conditions: tuple[Formula, ...]
     """Functions that must all be 0 for the train to turn: conditions on loops, and on links that several parts drive or
     fix.

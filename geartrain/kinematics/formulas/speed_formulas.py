@@ -26,7 +26,7 @@ class InputShare(Result):
     input: str
     """Name of the input link."""
     speed: Fraction
-    """Declared speed of the input [unit of the train]."""
+    """Declared speed of the input [the train's unit of speed]."""
     ratio: ClosedForm
     """Speed of the output divided by the speed of the input while all other inputs are at rest."""
 
@@ -82,7 +82,9 @@ class OutputFormula(Result):
 
     @property
     def value(self) -> Fraction | None:
-        """Speed at the declared tooth counts and input speeds [unit of the train]; None if it is not determined."""
+        """Speed at the declared tooth counts and input speeds [the train's unit of speed]; None if it is not
+        determined.
+        """
         values = [share.ratio.value for share in self.shares]
         if any(value is None for value in values):
             return None

@@ -393,7 +393,9 @@ class MeshPhasing(Result):
 
     @cached_property
     def kind(self) -> PhaseKind:
-        """Verdict: "closes", "misses", "unclear" (a loop cannot be decided), or "open" (no loop can be checked)."""
+        """Result of checking whether the tooth phases of all loops of meshes are compatible: "closes" (all are),
+        "misses" (a loop is not), "unclear" (the check of a loop is inconclusive), or "open" (no loop can be checked).
+        """
         if self.missing:
             return "misses"
         if not self.problem.conditions:

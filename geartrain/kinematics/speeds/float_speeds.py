@@ -64,7 +64,7 @@ class FloatSpeeds(FrozenFields, Shown):
     """
 
     speeds: LabelledArray
-    """Speeds with axes (link, case) [unit of the train]; a case is one set of input speeds."""
+    """Speeds with axes (link, case) [the train's unit of speed]; a case is one set of input speeds."""
     estimate: LabelledArray
     """Estimated absolute error of each speed, with the axes and the unit of `speeds`."""
     residual: LabelledArray
@@ -193,7 +193,9 @@ def _with_frame(system: WillisSystem, matrix: PaddedRows, values: NDArray[Any]) 
 def _right_hand_sides(
     rows: Sequence[WillisEquation], inputs: Mapping[str, Sequence[float]] | None
 ) -> list[list[Fraction]]:
-    """Return the right-hand side of every row, with one number for each set of input speeds [unit of the train]."""
+    """Return the right-hand side of every row, with one number for each set of input speeds [the train's unit of
+    speed].
+    """
     cases = len(next(iter(inputs.values()))) if inputs else 1
     return [
         [Fraction(value) for value in inputs[row.terms[0][0]]]

@@ -55,11 +55,15 @@ class Mobility(Result):
     redundant: int
     """Number of redundant circuits, whose equations follow from the equations of other circuits."""
     loops: tuple[Loop, ...]
-    """Loops with ratio product 1, each of which has one redundant pair; at most 1000 are listed."""
+    """Closed loops of wheels whose product of gear ratios is 1. Each loop has one redundant pair. At most 1000 are
+    listed.
+    """
     shared: tuple[str, ...]
     """Links that occur in two components and for which the condition of equal speeds in both is redundant."""
     locked: tuple[Loop, ...]
-    """Loops with a ratio product other than 1, which lock their component to its carrier; at most 1000 are listed."""
+    """Closed loops of wheels whose product of gear ratios is not 1. Each loop locks the wheels connected to it to their
+    common carrier. At most 1000 are listed.
+    """
     still: tuple[str, ...]
     """Links that cannot move, regardless of which link drives; empty if the system is too dense to determine them."""
     idle: tuple[str, ...]

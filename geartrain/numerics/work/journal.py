@@ -257,7 +257,9 @@ def _only_writer(path: Path) -> Iterator[None]:
 
 
 def another_question(path: Path, question: Mapping[str, Any]) -> Problem:
-    """Return the problem of a journal from another run, with the first difference of its question from `question`."""
+    """Return a problem which reports that the journal belongs to a run with other inputs, and names the first input
+    that differs from `question`.
+    """
     try:
         with path.open("rb") as file:
             theirs = json.loads(file.readline(_MOST_HEADER_BYTES))["question"]

@@ -322,8 +322,8 @@ def _killer_error(submission: _Submission) -> GearTrainError:
     return GearTrainError(
         Problem(
             f"task {submission.index} terminated its worker: {shown}",
-            f"{submission.deaths} worker processes died while they ran this task, the last one without other tasks. "
-            "Possible causes are too little memory, a signal from another process, and an error at the start",
+            f"{submission.deaths} worker processes died while they ran this task; the last one ran no other task. "
+            "Possible causes are too little memory, a signal from another process, and an error at start-up",
             "provide more memory, or use smaller tasks or fewer workers. A script that starts workers needs the line "
             'if __name__ == "__main__": before its code',
         )

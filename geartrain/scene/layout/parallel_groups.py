@@ -245,7 +245,7 @@ class AxialSlots(NamedTuple):
 
 
 def find_axial_slots(meshes: Sequence[tuple[str, str]], overlap: Callable[[str, str], bool]) -> dict[str, AxialSlots]:
-    """Return the slots of all wheels that must be axially separated or broadened, by wheel; other wheels are omitted.
+    """Return the slots of all wheels that must be axially separated or widened, by wheel; other wheels are omitted.
 
     meshes   pairs of meshing wheels on parallel axes
     overlap  function that returns True if two wheels at one height would collide
@@ -350,9 +350,9 @@ def _order(geometry: SizedGeometry) -> list[int]:
 
 
 class _Placing:
-    """Positions of the groups that are placed so far; `place` adds a group.
+    """Positions of the groups of parallel axes placed so far; `place` adds a group.
 
-    Broadened wheels change `geometry`, so that later groups and diagnostics use their final sizes.
+    If wheels are widened, `geometry` is updated, so that later groups and diagnostics use the final face widths.
     """
 
     def __init__(self, geometry: SizedGeometry) -> None:
@@ -362,7 +362,7 @@ class _Placing:
         self.stacks: list[WheelStack] = []
 
     def place(self, parallels: Parallels) -> None:
-        """Plan a group of parallel axes, broaden its wheels as the plan requires, and stack its wheels."""
+        """Plan a group of parallel axes, widen its wheels as the plan requires, and stack its wheels."""
         determined = list(self._determined_axes(parallels))
         fixed = self._fixed(parallels, determined)
         places = plan_axes(plan_problem(self.geometry, parallels, fixed, self.points))

@@ -406,7 +406,9 @@ class _BeamSearch:
         return []
 
     def _rotated(self, step: PlanStep, points: Floats) -> list[Point]:
-        """Return the point of an axis in a repeated group of planets, rotated from the first group; else empty."""
+        """Return the position of an axis in a repeated group of planets as a list with one point, rotated from the
+        first group; an empty list if the axis is not in such a group or the first group is not placed.
+        """
         first, turn = self.order.rotated.get(step.axis, (None, 0.0))
         placed = set(step.placed.tolist())
         if first not in placed or self.order.pivot[step.axis] not in placed:

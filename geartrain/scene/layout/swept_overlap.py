@@ -108,7 +108,7 @@ class WheelBlock:
     axis: int
     """Index of the wheel's axis."""
     link: str
-    """Link to which the wheel belongs; empty for a crossing wheel."""
+    """Name of the link of which the wheel is a part; empty for a wheel on a crossing axis."""
     stack: int
     """Index of the wheel's stack: a set of wheels with fixed relative heights because they mesh."""
     offset: float

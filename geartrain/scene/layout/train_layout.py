@@ -73,7 +73,7 @@ def _gap(found: Arrangement, contact: PitchContact) -> float:
 def notices(
     train: GearTrain, found: Arrangement, gaps: Mapping[str, float], misses: Mapping[str, float]
 ) -> Iterator[Problem]:
-    """Yield all notices on a layout. Notices on faults that prevent a build come first.
+    """Yield all warnings about a layout. Warnings about faults that prevent construction come first.
 
     gaps     gaps of pairs whose pitch circles do not touch [mm]
     misses   phase errors of pairs whose teeth do not mesh [pitches]
@@ -114,7 +114,7 @@ def _not_touching(contact: PitchContact, gap: float, place: str) -> Problem:
 
 
 def _misplaced(train: GearTrain, found: Arrangement) -> Iterator[Problem]:
-    """Yield notices on dials whose pointers turn about a point other than the declared centre."""
+    """Yield warnings about dials whose pointers turn about a point other than the declared centre."""
     declared = found.geometry.declared
     for name, axis, centre in declared.centres:
         off = size(across(minus(found.points[axis], centre), declared.lines[axis].direction))
@@ -128,7 +128,7 @@ def _misplaced(train: GearTrain, found: Arrangement) -> Iterator[Problem]:
 
 
 def _crowding(found: Arrangement, stack: WheelStack) -> Iterator[Problem]:
-    """Yield notices on wheels that collide, and on arbors that pass through wheels."""
+    """Yield warnings about wheels that collide, and about arbors that pass through wheels."""
     mates = {frozenset(contact.wheels) for contact in found.geometry.declared.contacts}
     height = {block.wheel: dot(found.centres[block.wheel], stack.up) for block in stack.upright}
     # mates overlap by the depth of their teeth

@@ -336,10 +336,10 @@ class WheelSize:
     slot: float = 0.0
     """Height of the middle of the wheel above the lowest slot of its level [mm]; 0 for a level without slots."""
     plain: float = 0.0
-    """Thickness of the wheel before it was broadened to mesh with several mates [mm]."""
+    """Thickness of the wheel before it was widened to mesh with several wheels [mm]."""
 
     def across_slots(self, low: int, high: int) -> WheelSize:
-        """Return the wheel broadened to extend over the axial positions (slots) `low` to `high`, counted from 0."""
+        """Return the wheel widened to extend over the axial positions (slots) `low` to `high`, numbered from 0."""
         step = _SLOT * self.thickness
         broad = (high - low) * step + self.thickness
         return replace(self, thickness=broad, slot=(low + high) / 2 * step)

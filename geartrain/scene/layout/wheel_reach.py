@@ -76,5 +76,7 @@ def web(cone: float, radius: float, thickness: float, root: float) -> tuple[floa
 
 
 def span(facing: int, away: float, towards: float) -> tuple[float, float]:
-    """Return the extents of `reach` as positions along the axis [mm]; `facing` is 1 for an apex below, else -1."""
+    """Return the extents of `reach` as positions of both ends along the axis [mm]. `facing` is 1 if the apex is below,
+    and -1 if it is above.
+    """
     return (-towards, away) if facing > 0 else (-away, towards)

@@ -162,8 +162,8 @@ def _stepped(near: AxisColumn, far: AxisColumn, others: Sequence[StackDisc]) -> 
 
 
 def seen_from_carrier(carrier: str, middle: Point, disc: StackDisc) -> StackDisc:
-    """Return a disc as seen from a turning carrier: at rest if it turns with the carrier, else revolving about its
-    axis.
+    """Return a disc as seen from a turning carrier. It is at rest if it turns with the carrier; otherwise it revolves
+    about the axis of the carrier.
 
     middle   position of the axis of the carrier [mm]
     """

@@ -425,7 +425,7 @@ class FramePlan:
 
     @cached_property
     def notices(self) -> tuple[Problem, ...]:
-        """Notices on parts that cannot be made as laid out."""
+        """Warnings about parts that cannot be made as they are laid out."""
         return tuple(self._problems())
 
     def _problems(self) -> Iterator[Problem]:

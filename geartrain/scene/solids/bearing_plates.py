@@ -1,4 +1,6 @@
-"""Full-scale drawings of flat parts, curves around holes, and discs of pins and slots. Lengths are in mm, y is up."""
+"""Full-scale drawings of flat parts, curves around holes, and discs that carry pins or slots. Lengths are in mm, y is
+up.
+"""
 
 from __future__ import annotations
 
@@ -75,7 +77,7 @@ def wheel_drawing(wheel: WheelOutline) -> FlatDrawing:
 
 Point = tuple[float, float]
 
-_DISC = 3.0  # mm: thickness of discs of pins and slots
+_DISC = 3.0  # mm: thickness of discs that carry pins or slots
 _LAND = 3.0  # mm: width of plate round a hole
 _PIN = 0.25  # diameter of a pin divided by its distance from the axis, at most 2 mm
 
@@ -92,7 +94,7 @@ class Plate:
 
 @dataclass(frozen=True, slots=True)
 class Plates:
-    """Plates of the couplings of a train, and notices on parts that could not be drawn."""
+    """Plates of the couplings of a train, and warnings about parts that could not be drawn."""
 
     plates: tuple[Plate, ...]
     notices: tuple[Problem, ...]
@@ -101,10 +103,10 @@ class Plates:
 def coupling_discs(
     couplings: Sequence[PinCoupling], bores: Mapping[str, float], holed: frozenset[str] = frozenset()
 ) -> Plates:
-    """Return the discs of pins and slots that are not part of wheels, and notices on couplings that are not modelled.
+    """Return the separate discs that carry pins or slots, and warnings about couplings that are not modelled.
 
     bores   diameters of the holes for arbors, by link [mm]
-    holed   couplings whose holes are in a wheel
+    holed   names of couplings whose holes are cut into a wheel
     """
     plates: list[Plate] = []
     notices: list[Problem] = []

@@ -183,7 +183,7 @@ class SolidModel(Shown):
 
     @cached_property
     def couplings(self) -> Plates:
-        """Discs of the pins and slots that are not cut into wheels, with notices on couplings that are not modelled."""
+        """Separate discs that carry pins or slots, with warnings about couplings that are not modelled."""
         whole = {name for name, each in self.cut_couplings.items() if each.pin is not None}
         if self.plan is not None:
             whole |= self.plan.plated_pins.keys() & self.cut_couplings.keys()
@@ -216,7 +216,7 @@ class SolidModel(Shown):
 
     @cached_property
     def parts(self) -> tuple[SolidPart, ...]:
-        """All solids: wheels, structural parts, and parts that hang on the train."""
+        """All solids: wheels, structural parts, and parts suspended from the train, such as weights."""
         wheels = map(self._wheel, self.scene.wheels)
         if (hanging := self.hanging) is None:
             return *wheels, *self.structure

@@ -154,7 +154,7 @@ class Blank:
 
 @dataclass(frozen=True, slots=True)
 class Blanks:
-    """Flat shapes of wheels by name, with notices, and the backlash of every pair whose teeth are cut."""
+    """Flat shapes of wheels by name, with warnings, and the backlash of every pair whose teeth are cut."""
 
     wheels: Mapping[str, Blank]
     notices: tuple[Problem, ...]
@@ -231,7 +231,7 @@ def with_seats(blank: Blank, wider: float) -> Blank:
 
 
 def crossed_out(blank: Blank, arms: int) -> tuple[Blank, list[Problem]]:
-    """Return the blank, and notices. A plain spur wheel with sufficient space has openings between spokes."""
+    """Return the blank, and warnings. A plain spur wheel with sufficient space has openings between spokes."""
     own = 1 + (blank.bore > 0)
     if blank.kind != "external" or blank.helix:
         return blank, []
@@ -244,7 +244,9 @@ def crossed_out(blank: Blank, arms: int) -> tuple[Blank, list[Problem]]:
 
 
 def bored(blank: Blank, bore: float, holes: Sequence[Contour] = ()) -> tuple[Blank, list[Problem]]:
-    """Return the blank with holes for other parts and, if there is space, for its arbor; and a list of notices."""
+    """Return the blank with holes for other parts and, if there is space, for its arbor. Also return a list of
+    warnings.
+    """
     inner = min(blank.root_radius, blank.tip_radius)
     blank = replace(blank, contours=(*blank.contours, *holes)) if holes else blank
     if not bore or blank.kind == "ring":

@@ -99,7 +99,7 @@ class CombinedOutput:
     KEYS = (Key("exact", "speed"), Key("value", "speed", as_float), Key("error", to=float))
 
     speed: Fraction
-    """Exact speed of the output [unit of the train]."""
+    """Exact speed of the output [the train's unit of speed]."""
     error: Fraction
     """Relative error of the speed with respect to the observed speed."""
 
@@ -113,7 +113,7 @@ class CountCombination(Result):
     teeth: Mapping[str, int]
     """Tooth count of each wheel, keyed by wheel in the order of declaration."""
     speeds: Mapping[str, Fraction]
-    """Exact speed of each output [unit of the train]."""
+    """Exact speed of each output [the train's unit of speed]."""
     errors: Mapping[str, Fraction]
     """Relative error of the speed of each output with respect to the observation that has the largest misfit. If this
     observed speed is 0, the value is the speed itself.
@@ -142,9 +142,9 @@ class VarianceShares(Result):
     output: str
     """Name of the output."""
     mean: Fraction | float
-    """Prior mean of the speed [unit of the train]."""
+    """Prior mean of the speed [the train's unit of speed]."""
     spread: float | None
-    """Prior standard deviation of the speed [unit of the train]; None if it is out of the range of float64."""
+    """Prior standard deviation of the speed [the train's unit of speed]; None if it is out of the range of float64."""
     own: Mapping[str, Fraction | float]
     """First-order Sobol index of each wheel, 0 to 1: fraction of the variance that is removed if the tooth count of
     this wheel is known.

@@ -49,8 +49,8 @@ class StageConstraints(Result):
     the mating wheel.
     """
     reverted: bool = False
-    """True to require that all stages have equal centre distances if they have the same module. The two tooth counts
-    must then have the same sum in all external stages, equal to their difference in stages with a ring.
+    """True to require that all stages have equal centre distances if they have the same module. This requires that the
+    sum of the tooth counts of each external stage, and their difference in each internal stage, have one common value.
     """
     different: bool = False
     """True to require that all tooth counts are distinct."""
@@ -210,9 +210,10 @@ def pairings(tops: Ints, beneaths: Ints, fit: StageConstraints) -> tuple[Bools, 
 
 @lru_cache(maxsize=32)
 def _arrangements(size: int, internal: int) -> tuple[Ints, Bools]:
-    """Return every combination of a permutation of the denominator counts and a choice of the internal stages.
+    """Return all combinations of an order of the denominator tooth counts and a choice of the internal stages.
 
-    The two arrays contain the permutations and the choices, shape (arrangements, size) each.
+    The first array contains the orders as permutations of indices, the second is True for internal stages. Both have
+    the shape (combinations, size).
     """
     choices = [[stage in chosen for stage in range(size)] for chosen in combinations(range(size), internal)]
     both = list(product(permutations(range(size)), choices))

@@ -360,12 +360,12 @@ def _check_reach(question: StageProblem) -> None:
         )
 
 
-# ------------------------------------- explanation of short results: nearest miss and constraints to relax
+# ------------------------------------- explanation of short results: closest rejected candidate, constraints to relax
 
 
 def explain(question: StageProblem, outcome: SweepOutcome, sense: int, means: Execution) -> Shortfall:
     """Return the number of rejected pairs of multisets for each reason. If there is no solution, the result also
-    contains the nearest miss and suggestions.
+    contains the closest rejected candidate and suggestions.
     """
     if not outcome.complete:
         return Shortfall(
@@ -419,7 +419,9 @@ def in_words(key: StageRank, value: Fraction) -> str:
 
 
 def _advice(question: StageProblem, miss: SweepOutcome, removed: Mapping[str, int], sense: int) -> Iterator[str]:
-    """Yield suggestions of constraints to be relaxed, in descending order of the certainty that they help."""
+    """Yield suggestions of which constraints to relax, in descending order of the certainty that the suggestion gives a
+    solution.
+    """
     if miss.keys and miss.complete:
         yield f"a tolerance of {decimal(rounded_up(miss.keys[0][1]), 6)} gives a solution"
     for reason, number in removed.items():

@@ -1,5 +1,5 @@
-"""Sensitivity of the number of explanations to each hard constraint of the evidence. The search is repeated without
-each of the constraints.
+"""Sensitivity of the number of trains that explain the evidence to each of its hard constraints. The search is repeated
+without each of the constraints.
 """
 
 from __future__ import annotations
@@ -168,8 +168,8 @@ class LoneDial(Result):
 
 @dataclass(frozen=True, slots=True)
 class MissingExplanation(Result):
-    """Reasons why a problem has no explanation: results for each single dial, and changes of the evidence that would
-    permit an explanation.
+    """Reasons why a problem has no solution: results for each single dial, and changes of the evidence that would
+    permit a solution.
     """
 
     dials: tuple[LoneDial, ...]
@@ -185,7 +185,7 @@ class MissingExplanation(Result):
 
 
 def explain_missing(problem: ReconstructionProblem, execution: Execution) -> MissingExplanation:
-    """Return the reasons why a problem has no explanation."""
+    """Return the reasons why a reconstruction problem has no solution."""
     dials = tuple(_lone_dial(problem, dial) for dial in problem.dials)
     changed = without_each_fact(problem)
     for dial in problem.dials if len(problem.dials) > 1 else ():

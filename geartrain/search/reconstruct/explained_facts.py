@@ -407,10 +407,11 @@ class CandidateFindings(Result):
     family: tuple[FamilyBranch, ...] = ()
     """Family tree of the listed candidates. Its probabilities are normalised over these candidates."""
     assumptions: tuple[ChangedCount, ...] = ()
-    """Number of explanations without each hard constraint of the evidence; empty if this was not requested."""
+    """Number of trains that explain the evidence if one hard constraint is omitted, for each constraint; empty if this
+    was not requested.
+    """
     missing: MissingExplanation | None = None
-    """Reasons why the evidence has no explanation; None if there is an explanation, or if the reasons were not searched
-    for.
+    """Reasons why no train explains the evidence; None if a train explains it, or if the reasons were not searched for.
     """
 
 

@@ -29,25 +29,25 @@ from geartrain.train import Train
 
 @dataclass(frozen=True, slots=True)
 class TellingFact(Result):
-    """Distinguishing fact: a fact that is true of a given explanation, but not of all explanations."""
+    """Fact that distinguishes a given train from some other trains that explain the evidence."""
 
     kind: FactKind
     """Kind of the fact, one of `LOOKED_FOR`."""
     subject: str
     """Subject of the fact: names of wheels, name of an arbor or a dial, or a tooth count."""
     answer: str
-    """Answer to the fact in the given explanation."""
+    """Value of the fact in the given train."""
     solutions: int
-    """Number of trains with this answer, including the given explanation."""
+    """Number of trains that explain the evidence and have this value, including the given train."""
 
 
 def find_telling_facts(
     evidence: Train, problem: ReconstructionProblem, found: Reconstructions, candidate: Arbor
 ) -> tuple[TellingFact, ...]:
-    """Return the observable facts that distinguish one explanation from others, in ascending order of the number of
-    trains in which the fact has the same answer.
+    """Return the observable facts that distinguish one train from other trains that explain the evidence, in ascending
+    order of the number of trains in which the fact has the same value.
 
-    The result is empty unless all explanations are listed.
+    The result is empty unless all trains that explain the evidence are listed.
     """
     if not is_all_listed(found):
         return ()
@@ -67,27 +67,29 @@ def find_telling_facts(
 
 @dataclass(frozen=True, slots=True)
 class TrainPlace(Result):
-    """Rank and probability of one explanation among all explanations."""
+    """Rank and probability of one train among all trains that explain the evidence."""
 
     KEYS = ("ranks", "trains", "ranks_alike", "trains_alike", Key("weight", to=float), Key("dearer", to=float))
 
     ranks: tuple[int, int]
     """First and last rank of the train by probability. They differ if several trains are equally probable."""
     trains: int
-    """Number of explanations among which the train is ranked."""
+    """Number of candidate trains, all of which explain the evidence, among which the train is ranked."""
     ranks_alike: tuple[int, int]
-    """First and last rank of the train among the explanations with the same number of added wheels."""
+    """First and last rank of the train among the candidate trains with the same number of added wheels. They differ if
+    several trains are equally probable.
+    """
     trains_alike: int
-    """Number of explanations with the same number of added wheels as the train."""
+    """Number of candidate trains with the same number of added wheels as the train."""
     weight: float
     """Posterior probability of the train, 0 to 1."""
     dearer: Fraction
-    """Probability of the most probable explanation divided by the probability of this train, at least 1."""
+    """Probability of the most probable candidate train divided by the probability of this train, at least 1."""
 
 
 @dataclass(frozen=True, slots=True)
 class KnownRank(Result):
-    """Rank of a known train among the explanations of a problem, or the rules that the train breaks."""
+    """Rank of a known train among all trains that explain the evidence, or the rules that the train breaks."""
 
     train: str
     """Name of the known train."""
@@ -98,14 +100,14 @@ class KnownRank(Result):
     arbors: int
     """Number of arbors that the train adds to the surviving arbors."""
     broken: tuple[BrokenRule, ...]
-    """Rules that the train breaks; empty if the train is an explanation of the evidence."""
+    """Rules of the problem that the train breaks; empty if the train explains the evidence."""
     notes: tuple[str, ...] = ()
     """Descriptions of features of the train that are ignored."""
     place: TrainPlace | None = None
     """Rank and probability of the train; None if it breaks rules or adds more wheels than permitted."""
     telling: tuple[TellingFact, ...] = ()
-    """Facts that distinguish the train from other explanations; empty unless the train is an explanation and all
-    explanations are listed.
+    """Facts that distinguish the train from other trains that explain the evidence; empty unless the train explains the
+    evidence and all such trains are listed.
     """
 
 
@@ -116,9 +118,10 @@ def rank_known_train(
     found: Reconstructions,
     same: Mapping[str, str] | None = None,
 ) -> KnownRank:
-    """Return the rank of a known train among the explanations of a problem whose arbors turn in the frame.
+    """Return the rank of a known train among all trains that solve a reconstruction problem whose arbors turn in the
+    frame.
 
-    found   all explanations of the problem
+    found   all trains that solve the problem
     same    name in the problem of each part that is named differently in the train; see `find_known_train`
     """
     known = find_known_train(train, problem, same)
@@ -129,7 +132,7 @@ def rank_known_train(
 
 
 def find_place(candidate: Arbor, problem: ReconstructionProblem, found: Reconstructions) -> TrainPlace | None:
-    """Return the rank and probability of one explanation among all explanations.
+    """Return the rank and probability of one train among all trains that explain the evidence.
 
     Return None if it adds more wheels than permitted, or if trains with its number of wheels were not searched
     completely. If the prior depends only on the topology, the rank follows from the number of trains for each weight,

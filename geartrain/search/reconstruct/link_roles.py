@@ -68,7 +68,7 @@ def base_problems(evidence: Train) -> Iterator[Problem]:
     carrier = _carrier(evidence)
     if not evidence.case(None).exact:
         place = evidence.place("inputs")
-        fix = "give the speed as a fraction in the unit of the train, such as `1/19`"
+        fix = "give the speed as a fraction in the train's unit of speed, such as `1/19`"
         yield Problem("the speed of an input is not a fraction", "a reconstruction needs exact speeds", fix, place)
     elif carrier is None:
         yield from _frame_problems(evidence)
@@ -171,7 +171,9 @@ def _carrier_part_problems(evidence: Train, carrier: str) -> Iterator[Problem]:
             yield Problem(what, why, "remove the output, or correct its `of`", place)
     if evidence.reconstruct is not None and evidence.reconstruct.geometry is not None:
         what, place = "`geometry` is not supported for arbors on a carrier", evidence.place("reconstruct", "geometry")
-        yield Problem(what, "measured distances are compared only with fixed axes", "delete `geometry`", place)
+        yield Problem(
+            what, "measured centre distances can be checked only if all axes are fixed", "delete `geometry`", place
+        )
 
 
 def carrier_axis(evidence: Train, carrier: str) -> str | None:

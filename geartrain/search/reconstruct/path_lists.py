@@ -144,7 +144,7 @@ class PathGrowth(NamedTuple):
     path avoids the arbor.
     """
     ratio: Floats
-    """Magnitude of the speed at the end of each path if the ratio of the added wheels is 1 [turns per unit]."""
+    """Magnitude of the speed at the end of each path if the ratio of the added wheels is 1 [turns per unit of time]."""
     powers: NDArray[np.int8]
     """Exponents of the large primes in the quotient of tooth counts required from the added wheels, shape (paths,
     primes).

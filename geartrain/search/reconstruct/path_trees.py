@@ -111,7 +111,7 @@ class DialPath(NamedTuple):
 
     @property
     def is_at_end(self) -> bool:
-        """True if the remaining part of the path contains no arbor, or only an added last arbor."""
+        """True if the rest of the path contains no arbor except possibly an added arbor at its end."""
         return not (self.arbors or self.compounds or self.idlers)
 
 

@@ -77,7 +77,7 @@ class ReconstructionRequest(Shown):
     assumptions: bool = False
     """True to count the trains again without each hard constraint of the evidence, one constraint at a time."""
     known: tuple[Train, ...] = ()
-    """Known trains whose ranks among the explanations are computed."""
+    """Known trains whose ranks among the reconstructed trains are computed."""
     same: Mapping[str, str] = field(default_factory=dict)
     """Name in the evidence of each wheel or output that has a different name in a known train, keyed by its name in the
     known train.
@@ -168,19 +168,21 @@ class ReconstructionAnswer(Result):
     problem: ReconstructionProblem
     """Reconstruction problem that was searched."""
     counts: tuple[ExplanationCount, ...]
-    """Number of explanations for each number of added wheels."""
+    """Number of trains that explain the evidence, for each number of added wheels."""
     complete: bool
     """True if the search covered all candidates."""
     unused: tuple[str, ...]
     """Descriptions of declared facts that the search does not use, one line for each."""
     best: tuple[RankedTrain, ...]
-    """Best explanations in descending order of probability. Their number is at most the requested number."""
+    """Most probable trains in descending order of probability, at most as many as requested."""
     original: tuple[int, int] | None = None
     """First and last rank of the original train by probability, if arbors of it were treated as lost. None if no arbors
     were treated as lost, or if the train is not listed.
     """
     findings: CandidateFindings = field(default_factory=CandidateFindings)
-    """Facts derived from the explanations: common facts, most informative facts, and the family tree."""
+    """Facts derived from the listed trains: facts that all trains share, the most informative facts, and the family
+    tree of the trains.
+    """
     base: BaseLink | None = None
     """Base of the train, which is the link that carries the arbors (the frame or a carrier), and input link of the
     train.
@@ -208,7 +210,7 @@ class ReconstructionAnswer(Result):
 
     @property
     def total(self) -> int:
-        """Total number of explanations over all numbers of added wheels."""
+        """Number of all trains that explain the evidence, summed over the numbers of added wheels."""
         return sum(count.solutions for count in self.counts)
 
 

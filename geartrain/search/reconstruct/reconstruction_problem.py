@@ -1,7 +1,7 @@
 """Reconstruction problem: surviving arbors with wheels and measured sizes, dials with speeds, and limits on added
 parts.
 
-Speeds are exact and signed [turns per unit of the input]. The input arbor turns at `input_speed`. Lengths are exact, in
+Speeds are exact and signed, in turns per unit of time; `input_speed` defines the unit. Lengths are exact, in
 millimetres. All axes are parallel, so the position of an arbor is a point in the plan.
 """
 
@@ -199,9 +199,9 @@ class SearchedDial(Shown):
     name: str
     """Name of the pointer."""
     minimum: Fraction
-    """Minimum speed [turns per unit of the input]; equal to `maximum` if the speed is exact."""
+    """Minimum speed [turns per unit of time]; equal to `maximum` if the speed is exact."""
     maximum: Fraction
-    """Maximum speed [turns per unit of the input]."""
+    """Maximum speed [turns per unit of time]."""
     signed: bool = True
     """True if the sense of rotation is known; False if `minimum` and `maximum` are bounds of the magnitude of the
     speed.
@@ -222,7 +222,7 @@ class SearchedDial(Shown):
         Parameters
         ----------
         speed : Fraction
-            Speed [turns per unit of the input].
+            Speed [turns per unit of time].
         """
         return self.minimum <= (speed if self.signed else abs(speed)) <= self.maximum
 
@@ -260,11 +260,12 @@ class PriorFactors:
     """
 
     wheel: Fraction = Fraction(10)
-    """Factor for each added wheel, at least 1."""
+    """Number by which the prior weight is divided for each added wheel, at least 1."""
     arbor: Fraction = Fraction(10)
-    """Factor for each added arbor, at least 1."""
+    """Number by which the prior weight is divided for each added arbor, at least 1."""
     unused: Fraction = Fraction(100)
-    """Factor for each surviving wheel that does not mesh with another wheel, at least 1."""
+    """Number by which the prior weight is divided for each surviving wheel that meshes with no other wheel, at least 1.
+    """
 
 
 @dataclass(frozen=True)
@@ -274,7 +275,7 @@ class ReconstructionProblem(Shown):
     See Also
     --------
     evidence_question : Convert declared evidence to a problem.
-    find_reconstructions : Find the explanations of a problem.
+    find_reconstructions : Find the trains that solve a problem.
     """
 
     input: SurvivingArbor
@@ -286,7 +287,7 @@ class ReconstructionProblem(Shown):
     additions: Additions
     """Limits on added wheels and arbors."""
     input_speed: Fraction = Fraction(1)
-    """Speed of the input arbor [turns per unit]."""
+    """Speed of the input arbor [turns per unit of time]. It defines the unit of all other speeds."""
     meshes: frozenset[frozenset[str]] = field(default_factory=frozenset)
     """Pairs of names of wheels that are known to mesh."""
     apart: frozenset[frozenset[str]] = field(default_factory=frozenset)

@@ -1,5 +1,5 @@
-"""Exact number of explanations of a reconstruction problem, and list of its candidates. Topologies are weighted, and
-the most probable trains are listed or sampled.
+"""Exact number of trains that solve a reconstruction problem, and list of the most probable ones. Topologies are
+weighted, and the most probable trains are listed or sampled.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ class ExplanationCount(Result):
 
     See Also
     --------
-    find_reconstructions : Find the explanations of a problem.
+    find_reconstructions : Find the trains that solve a problem.
     """
 
     added: int
@@ -75,7 +75,7 @@ class Candidate(Result):
 
     See Also
     --------
-    find_reconstructions : Find the explanations of a problem.
+    find_reconstructions : Find the trains that solve a problem.
     """
 
     KEYS = ("added", Key("weight", to=float), "ranks")
@@ -94,29 +94,31 @@ class Candidate(Result):
 
 @dataclass(frozen=True, slots=True)
 class WeightClass(Result):
-    """Class of explanations with the same number of added wheels and the same weight."""
+    """Class of reconstructed trains with the same number of added wheels and the same weight."""
 
     added: int
-    """Number of added wheels in each explanation."""
+    """Number of added wheels in each train of the class."""
     weight: Fraction
-    """Weight of each explanation, up to a factor common to all explanations."""
+    """Weight of each train of the class, up to a factor common to all trains. Weights are proportional to
+    probabilities.
+    """
     solutions: int
-    """Number of explanations in this class."""
+    """Number of trains in the class."""
 
 
 @dataclass(frozen=True, slots=True)
 class Reconstructions(Result):
-    """Number of all explanations of a problem, and the most probable explanations.
+    """Number of all trains that solve a reconstruction problem, and the most probable of these trains.
 
     See Also
     --------
-    find_reconstructions : Find the explanations of a problem.
+    find_reconstructions : Find the trains that solve a problem.
     """
 
     KEYS = ("counts", "complete", "candidates")
 
     counts: tuple[ExplanationCount, ...]
-    """Number of explanations for each number of added wheels, starting with 0."""
+    """Number of trains that solve the problem, for each number of added wheels, starting with 0."""
     complete: bool
     """True if the search covered all candidates."""
     candidates: tuple[Candidate, ...]
@@ -139,7 +141,8 @@ def find_reconstructions(
     listed: int = 1000,
     prior_of: Literal["solution", "class"] = "solution",
 ) -> Reconstructions:
-    """Count all explanations with up to the maximum number of added wheels, and list the most probable explanations.
+    """Count all trains that solve a reconstruction problem with at most the permitted number of added wheels, and list
+    the most probable trains.
 
     Parameters
     ----------
@@ -194,8 +197,8 @@ def find_reconstructions(
 
 
 def _weight_classes(weighed: Iterable[tuple[int, Fraction, int]]) -> Iterator[WeightClass]:
-    """Yield the classes of explanations with equal weight, computed from triples (number of added wheels, weight,
-    number of explanations).
+    """Yield the classes of trains with equal weight, computed from triples (number of added wheels, weight, number of
+    trains).
     """
     alike = Counter[tuple[int, Fraction]]()
     for added, weight, number in weighed:
@@ -257,8 +260,8 @@ def _order(arbor: Arbor) -> tuple[int, str]:
 def _weighed_one_by_one(
     problem: ReconstructionProblem, found: dict[int, list[CountedTopology]], complete: bool, prior_of: str
 ) -> Reconstructions:
-    """Return the explanations, each with a weight computed from its likelihood. If `prior_of` is "class", the weight
-    also depends on the size of the ratio class. Candidates with likelihood 0 are omitted.
+    """Return all trains that solve the problem, each with a weight computed from its likelihood. If `prior_of` is
+    "class", the weight also depends on the size of the ratio class. Candidates with likelihood 0 are omitted.
     """
     number = sum(each.solutions for some in found.values() for each in some)
     if number > _LISTED:
@@ -299,7 +302,7 @@ def rank_of(arbor: Arbor, found: Reconstructions) -> tuple[int, int] | None:
 
 
 def is_all_listed(found: Reconstructions) -> bool:
-    """Return whether the list contains all explanations that were counted."""
+    """Return whether the list contains all trains that were counted."""
     return found.complete and len(found.candidates) == sum(count.solutions for count in found.counts)
 
 

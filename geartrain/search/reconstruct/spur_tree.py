@@ -443,7 +443,7 @@ class _Parts:
         return None
 
     def _speed(self, link: str) -> Fraction | None:
-        """Return the exact speed of a link [turns per unit]; None if the speed is not determined."""
+        """Return the exact speed of a link [turns per unit of time]; None if the speed is not determined."""
         if link == self.train.frame or link in self.train.fixed:
             return Fraction(0)
         if link in self._inputs:

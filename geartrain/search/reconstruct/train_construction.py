@@ -187,7 +187,7 @@ class TrainConstruction:
             self._joint(self.evidence.frame, link, self.revolutes[0]["axis"])
 
     def _joint(self, bearing: str, link: str, axis: str | None = None) -> None:
-        """Add the turning pair of a link: the declared pair if there is one, or else a new pair.
+        """Add the turning pair of a link: the declared pair, or a new pair if none is declared.
 
         bearing   link on which the new pair is, that is, the frame or the carrier
         axis      label of the axis of the new pair; None for a new axis

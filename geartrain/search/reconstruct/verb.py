@@ -128,8 +128,8 @@ def run(
         Names,
         typer.Option(
             "--same",
-            help="Identify a wheel or output of the ranked train (--rank) with one of the evidence, such as E4=e3; may "
-            "be repeated.",
+            help="Match a wheel or output of the ranked train (--rank) to one in the evidence, such as E4=e3; may be "
+            "repeated.",
             metavar="ITS=OURS",
         ),
     ] = None,

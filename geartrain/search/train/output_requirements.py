@@ -29,9 +29,9 @@ class SpeedRequirement:
     """One requirement on the speed of an output.
 
     label       description, such as "period 583.92 d" or "expect 2/7"
-    wanted      requested speed [unit of the train]; positive if only the magnitude is required
+    wanted      requested speed [the train's unit of speed]; positive if only the magnitude is required
     signed      False if only the magnitude is required
-    allowed     closed disjoint intervals of admissible speeds [unit of the train]; None if all speeds are admissible
+    allowed     closed disjoint intervals of admissible speeds [the train's unit of speed]; None if all are admissible
     graded      True if the error of the output is computed from this requirement
     approached  True if no tolerance is given, so that the error is minimised
     target      True for a target; False for an expected or published value
@@ -83,8 +83,8 @@ class SpeedRequirement:
 
     def half(self, above: bool) -> Fraction | None:
         """Return the magnitude of the difference between the requested speed and the upper (if `above` is True) or
-        lower end of the admissible interval that contains it [unit of the train]. None if this end is unbounded, or if
-        the requested speed is not admissible.
+        lower end of the admissible interval that contains it [the train's unit of speed]; None if this end is
+        unbounded, or if the requested speed is not admissible.
         """
         around = [interval for interval in self.allowed or () if is_within(self.wanted, (interval,))]
         # a magnitude has equal tolerances, even if its interval extends to negative speeds

@@ -31,7 +31,7 @@ class ReachedSpeed(Result):
     )
 
     speed: Fraction
-    """Exact speed of the output [unit of the train]."""
+    """Exact speed of the output [the train's unit of speed]."""
     label: str
     """Description of the requirement with the maximum error, such as "period 583.92 d"."""
     error: Fraction

@@ -90,12 +90,12 @@ def _list_limit(search: PartSearch) -> int:
     return max(_LISTED, 4 * search.order.best)
 
 
-# Explanation of short results: rejected assignments, nearest miss, constraints to relax.
+# Explanation of short results: rejected assignments, closest rejected candidate, constraints to relax.
 
 
 def find_shortfall(search: PartSearch, passed: PassResult) -> Shortfall:
     """Return the number of assignments rejected by each constraint and requirement, in the order of evaluation. If
-    there is no solution, the result also contains the nearest miss and suggestions.
+    there is no solution, the result also contains the closest rejected candidate and suggestions.
     """
     removed = dict(search.removed_first)
     for reason, number in passed.removed.items():
@@ -112,8 +112,8 @@ def find_shortfall(search: PartSearch, passed: PassResult) -> Shortfall:
 
 
 def _explain(search: PartSearch) -> tuple[str, str]:
-    """Return a description of the nearest miss, and suggestions of constraints to be relaxed. Either text is empty if
-    there is none.
+    """Return a description of the rejected candidate with the smallest error, and a suggestion of which constraints to
+    relax. Either text may be empty.
     """
     wrong = [requirement for requirement in search.part.requirements if _has_wrong_sense(search, requirement)]
     if wrong:
@@ -128,7 +128,7 @@ def _explain(search: PartSearch) -> tuple[str, str]:
         f"{name} {'meets' if reached.met else 'misses'} {reached.label} by {decimal(reached.error, 3)}"
         for name, reached in best.outputs.items()
     )
-    # with one output it would repeat the nearest miss
+    # with one output it would repeat the closest candidate
     alone = "; ".join(_individual_errors(search)) if len(search.part.requirements) > 1 else ""
     nearest = f"{counts}: {errors}" + (f" (individually, {alone})" if alone else "")
     advice = f"a relative tolerance of {_rounded_up(best.error)} includes it"
@@ -221,12 +221,15 @@ def search_train(
 ) -> TrainFindings:
     """Find, count and rank all tooth counts of the varied wheels of a train that satisfy all requirements.
 
-    The algorithm is an exact join of lists of products of tooth counts, on the factors that several outputs have in
-    common. The join can count many more assignments than it can list. All comparisons use integers. The requirements on
-    an output are its `expect` and `published` values, to the precision of their written digits and with their signs,
-    and every target with a tolerance. If no target has a tolerance and `tolerance` is given, the first target is a
-    requirement. If an output has targets but none of these requirements, its error is minimised. The `best` assignments
-    with the smallest errors are found by increasing a common tolerance, which proves that they are the best.
+    The algorithm lists the products of tooth counts for each output, and joins the lists on the factors that several
+    outputs have in common (bucket elimination). The join is exact, because all comparisons use integers. It can count
+    many more assignments than it can list.
+
+    The requirements on an output are its `expect` and `published` values and every target with a tolerance. Values are
+    signed and are compared to the number of digits written. If no target has a tolerance and `tolerance` is given, the
+    first target is a requirement. If an output has targets but no requirement, its error is minimised. The `best`
+    assignments with the smallest errors are found by increasing a common tolerance, which proves that they are the
+    best.
 
     Parameters
     ----------
@@ -340,8 +343,8 @@ def _found(search: PartSearch) -> PartFindings:
 
 
 def _reason(search: PartSearch, passed: PassResult, ranked: bool) -> str:
-    """Return the reason why a search is not complete, or why its listed solutions are not proved to be the best; empty
-    if it is complete and they are.
+    """Return the reason why a search is incomplete or its listed solutions are not proved to be the best; empty if the
+    search is complete and the solutions are proved to be the best.
     """
     if passed.stopped:
         return "interrupted: the count covers only the finished part"

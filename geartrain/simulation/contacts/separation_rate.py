@@ -197,7 +197,7 @@ class SeparationRates(Result):
     complete: bool
     """True if the searched range is a full period of the train."""
     pairs: tuple[PairSeparation, ...]
-    """Separation speeds of the pairs and couplings, in ascending order of the input speed."""
+    """Pairs and couplings, each with the input speed at which its flanks separate, in ascending order of this speed."""
     inertias: tuple[LinkInertia, ...]
     """Moments of inertia of the links, as used in the computation."""
     uncounted: tuple[str, ...] = ()
@@ -207,7 +207,7 @@ class SeparationRates(Result):
 
     @property
     def first(self) -> PairSeparation | None:
-        """Separation speed of the pair that separates first; None if no pair separates."""
+        """Pair that separates first, with the input speed at which it separates; None if no pair separates."""
         return self.pairs[0] if self.pairs and self.pairs[0].rate is not None else None
 
     @property

@@ -146,8 +146,8 @@ def _refuse_rate_beyond_beats(train: Train, problem: MotionProblem, drive: Power
 def _declared_rate(
     train: Train, case: StateCase, problem: MotionProblem, passed: Fraction | None, scale: float | None
 ) -> float:
-    """Return the speed of the driving link [rad/s]. It follows from a declared rate, else from the escapement, else
-    from the speed of a hand, else it is `scale`.
+    """Return the speed of the driving link [rad/s]. It is derived from the first of these that is declared: an input
+    speed with a unit, the escapement, the speed of a hand. If none is declared, it is `scale`.
 
     passed   speed of the escape wheel relative to its pallets divided by the speed of the driving link
     """

@@ -170,7 +170,9 @@ class TrainModel:
 
     @cached_property
     def _efficiencies(self) -> Mapping[str, Any]:
-        """Declared efficiency of each gear pair and of each Willis equation of a coupling, by name; else None."""
+        """Declared efficiency of each gear pair and of each Willis equation of a coupling, by name; None if no
+        efficiency is declared.
+        """
         gears = {gear.name: gear.efficiency for gear in self.train.gears}
         return gears | {name: each.efficiency for each in self.train.couplings for name in each.row_names}
 

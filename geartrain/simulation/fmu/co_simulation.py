@@ -1,5 +1,5 @@
-"""Gear train as a co-simulation unit (FMU, FMI 2.0). The unit contains the declaration and a slave that runs
-geartrain.
+"""Gear train as a functional mock-up unit (FMU, FMI 2.0) for co-simulation. The FMU contains the declaration and a
+slave that runs geartrain.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from geartrain.analysis.gear_train import GearTrain
 
 DECLARATION, CASE = "train.yaml", "case.json"
-"""Names of files in the unit: the declaration, and the `CoSimulationCase` as JSON."""
+"""Names of the files in the FMU: the declaration, and the `CoSimulationCase` as JSON."""
 _SCRIPT = f'''"""Co-simulation slave of the train in {DECLARATION} next to this file, stepped by geartrain."""
 
 from geartrain.simulation.fmu.co_simulation_slave import TrainSlave, keep_alive

@@ -132,7 +132,9 @@ class Service:
 
 
 def _input_speed(train: TrainMechanics, state: str | None) -> float:
-    """Return the magnitude of the crank's speed, else of the first input that turns, in the train's unit; else 0."""
+    """Return the magnitude of the speed of the crank [the train's unit of speed], or of the first input that turns if
+    no turning crank is declared; 0 if no input turns.
+    """
     case, crank = train.kinematics.case(state), train.declaration.crank
     speeds = train.kinematics.solution(case).speeds
     if crank is not None and speeds.get(crank):

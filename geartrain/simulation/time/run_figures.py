@@ -221,7 +221,7 @@ class RunFigures:
         )
 
     def means(self) -> Iterator[_Figure]:
-        """Yield each mean value of the run as its name, its unit, its value and the word "mean"."""
+        """Yield the name, the unit and the value of each mean result of the simulation, and the word "mean"."""
         yield "torque of the drive", "N m", self.torque, "mean"
         yield "impact power", "W", self.energy.impact_loss / self.duration, "mean"
         for each in self.contacts:
@@ -229,12 +229,14 @@ class RunFigures:
             yield f"{each.name} on the coast flank", "", each.coast, "mean"
 
     def intervals(self) -> list[float | None]:
-        """Return the half-width of each mean's 95 % confidence interval; None for each if the run is too short."""
+        """Return the half-width of the 95 % confidence interval of each mean; each is None if the simulation is too
+        short.
+        """
         blocks = [[each[2] for each in replace(self, run=part).means()] for part in self.run.blocks]
         return [batch_half_width(np.array(each)) for each in zip(*blocks, strict=True)]
 
     def extremes(self) -> Iterator[_Figure]:
-        """Yield each maximum value of the run as its name, its unit, its value and the word "extreme"."""
+        """Yield the name, the unit and the value of each maximum of the simulation, and the word "extreme"."""
         for each in self.contacts:
             if each.impact_rate:
                 yield f"{each.name} hardest impact", "rad/s", each.hardest, "extreme"

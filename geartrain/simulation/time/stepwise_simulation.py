@@ -287,7 +287,8 @@ class Simulation(Shown):
         self._read(record, steps)
 
     def _apply_new_speed(self) -> int:
-        """Set the prescribed coordinate speeds to the speed of the drive. Return 1 if a speed changes, else 0.
+        """Set the prescribed coordinate speeds to the speed of the drive. Return 1 if a speed changes, or 0 if none
+        does.
 
         After a change, the torque in the next time step compensates the sudden change of momentum.
         """

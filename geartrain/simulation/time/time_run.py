@@ -70,7 +70,7 @@ class TimeRun(Tabular, Pictured, TrainResult):
     step: float
     """Time step [s]."""
     skip: float
-    """Duration of the run before the evaluated part [s]."""
+    """Simulated time before the evaluated part begins [s]."""
     duration: float
     """Duration of the evaluated part of the run [s]."""
     time: Floats
@@ -115,7 +115,7 @@ class TimeRun(Tabular, Pictured, TrainResult):
     notes: tuple[str, ...]
     """Descriptions of the effects that the simulation neglects."""
     complete: bool = True
-    """False if the run was stopped before its end.
+    """False if the simulation was interrupted before its end.
 
     If it is False, all data are from the completed part of the run with the longer step, without a comparison.
     """
@@ -318,7 +318,7 @@ class ConvergedFigure(Result):
     """
     interval: float | None = None
     """Half-width of the 95 % confidence interval of a mean, computed from batches of whole turns; None for an extreme,
-    and for a run of fewer than 5 turns.
+    and for a simulation of fewer than 5 turns.
     """
 
 

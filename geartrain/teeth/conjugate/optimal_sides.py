@@ -151,8 +151,8 @@ def _slope(pitch: PitchSurfaces, f: ValueAndSlope, v: Chebyshev) -> Callable[[Fl
 
 
 def uniform_heat(pitch: PitchSurfaces, beta: float, gamma: float, X: float) -> PathSide:
-    """Return one side of a path of contact with uniform frictional heat per area of a profile, and an arc of length X
-    on the pitch surfaces.
+    """Return one side of a path of contact with uniform frictional heat per unit area of a profile, and an arc of
+    length X on the pitch surfaces.
 
     With the distance d from the pitch point and S = d, or sin d on cones, the derivative of S sin psi with respect to d
     is beta S + gamma S / cos psi. The pressure angle psi is 0 at the pitch point. `beta` is the curvature of the pitch

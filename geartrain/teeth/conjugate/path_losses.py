@@ -84,7 +84,7 @@ class PathLosses(Result):
     point; 0 if there are no such contacts.
     """
     heat: float
-    """Maximum frictional heat per area of a profile, divided by friction coefficient and tangential force."""
+    """Maximum frictional heat per unit area of a profile, divided by friction coefficient and tangential force."""
     flash: float
     """Maximum of F_n^(3/4) kr^(1/4) |sqrt U1 - sqrt U2| along the path of contact. Blok's flash temperature is
     proportional to this quantity. F_n is the normal force, kr is the relative curvature, and U1 and U2 are the contact
@@ -301,8 +301,8 @@ def peak(f: Callable[[Floats], Floats], first: float, last: float) -> float:
 
 
 def powers(pitch: PitchSurfaces, contact: PathContact, friction: float, driver: int = 1) -> tuple[Floats, Floats]:
-    """Return the input and the output power of a contact, divided by normal force and pitch-line speed, if the gear
-    with the number `driver` drives.
+    """Return the input and the output power of a contact, divided by normal force and pitch-line speed, if gear number
+    `driver` drives.
     """
     rising, S = pitch.S_slope(contact.d) * contact.sin_psi, pitch.S(contact.d)
     rub = np.sign(contact.d) * (friction if driver == 1 else -friction)

@@ -207,9 +207,9 @@ class PathContact(Shown):
     H: Floats
     """Relative curvature `kr` divided by cos psi; the Hertzian pressure is proportional to its square root."""
     Q1: Floats
-    """Frictional heat per area of the profile of gear 1, divided by friction coefficient and tangential force."""
+    """Frictional heat per unit area of the profile of gear 1, divided by friction coefficient and tangential force."""
     Q2: Floats
-    """Frictional heat per area of the profile of gear 2, divided by friction coefficient and tangential force."""
+    """Frictional heat per unit area of the profile of gear 2, divided by friction coefficient and tangential force."""
     flash: Floats
     """Quantity F_n^(3/4) kr^(1/4) |sqrt U1 - sqrt U2|, where F_n is the normal force at unit tangential force. Blok's
     flash temperature of equal materials is proportional to this quantity.

@@ -30,7 +30,9 @@ _MOST_MOVES = 10_000  # entries of a list of moves: a calendar of four years has
 
 
 def _moves(raw: object) -> object:
-    """Return the declared moves `raw` as a sequence: a list is unchanged, a single number becomes a tuple."""
+    """Return the declared moves `raw` as a sequence. A list is returned unchanged, a single number as a tuple with one
+    element.
+    """
     return raw if isinstance(raw, list | tuple) else (raw,)
 
 

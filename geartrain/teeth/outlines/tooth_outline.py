@@ -81,7 +81,7 @@ def fillet(
 
 
 Vertex = tuple[float, float, float]
-"""Vertex (x, y, bulge). The bulge belongs to the edge from this vertex to the next one."""
+"""Vertex (x, y, bulge) of an outline. The bulge is that of the edge from this vertex to the next vertex."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -124,7 +124,9 @@ class ToothRequirement(WheelRequirement):
         return self.pins == other.pins if self.has_pins or other.has_pins else alike(self, other)
 
     def cut(self, others: Sequence[WheelRequirement] = ()) -> CutTooth:
-        """Return the pins, or a tooth whose root clears the mates of this requirement and of the `others`."""
+        """Return the pins, or a tooth whose root clears all mating teeth that this requirement and the requirements in
+        `others` describe.
+        """
         demands = (self, *(each for each in others if isinstance(each, ToothRequirement)))
         for demand in demands:
             check_flat(demand.pair)

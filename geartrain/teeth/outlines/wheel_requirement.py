@@ -89,7 +89,7 @@ class PairRequirement:
 
 
 def disagreement(requested: Sequence[PairRequirement]) -> Problem | None:
-    """Return the problem of a wheel whose pairs require different teeth; None if one wheel satisfies them all."""
+    """Return a problem if the pairs of a wheel require different teeth; None if the same teeth satisfy all pairs."""
     odd = (other for other in requested[1:] if not requested[0].requirement.agrees(other.requirement))
     return next((_conflict(requested[0], other) for other in odd), None)
 
@@ -103,7 +103,7 @@ def _conflict(first: PairRequirement, other: PairRequirement) -> Problem:
     else:
         how = f"{first.words} flanks of two shapes"
     return Problem(
-        f"its pairs '{first.pair}' and '{other.pair}' require different teeth",
+        f"pairs '{first.pair}' and '{other.pair}' require different teeth",
         f"they require {how}, but a wheel has one kind of teeth",
-        "declare teeth that run with both mates, or declare a separate wheel for each mate",
+        "declare teeth that mesh with both wheels, or declare a separate wheel for each pair",
     )

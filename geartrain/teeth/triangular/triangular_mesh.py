@@ -101,7 +101,9 @@ class TriangularMesh(GearMesh):
 
     @property
     def pitch_radius(self) -> float | None:
-        """Pitch radius of the first wheel [m], from a centre distance in metres, or else from the modules."""
+        """Pitch radius of the first wheel [m]. It is computed from the centre distance if this is declared as a length,
+        otherwise from the modules.
+        """
         if not self.tooth_form.in_metres(self.wheels.module):
             return super().pitch_radius
         return self.transmission.sizes.D * self.wheels.counts[0] / self.transmission.sizes.pitch_sum

@@ -108,7 +108,7 @@ class PointerBudget(Result):
     relative_to: str
     """Name of the link relative to which the pointer is read."""
     speed: SpeedValue | None
-    """Mean speed of the pointer relative to the link `relative_to`, in the unit of the train."""
+    """Mean speed of the pointer relative to the link `relative_to`, in the train's unit of speed."""
     degrees_per_day: float | None
     """Magnitude of the mean speed [deg/d]; None if the train's unit is not a unit of time."""
     causes: tuple[BudgetCause, ...]

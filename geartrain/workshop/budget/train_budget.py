@@ -190,7 +190,8 @@ def find_budget(
 
 
 def pointer_names(answer: Answer, requested: BudgetQuestion) -> tuple[str, ...]:
-    """Return the names of the requested outputs; by default the outputs with a target or a dial, or else all outputs.
+    """Return the names of the requested outputs. If none is requested, return the outputs with a target or a dial, or
+    all outputs if there are none.
 
     Raises `QuestionError` if a requested output does not exist or the train declares no outputs.
     """

@@ -177,7 +177,8 @@ def check_names(settings: Sequence[ErrorOverride], wheels: Sequence[str], pairs:
 
 
 def wheel_errors(train: Train, even: WheelErrors, settings: Sequence[ErrorOverride]) -> WheelErrors:
-    """Return the errors of the wheel `even`, as declared for it or else for the train, with the overrides `settings`.
+    """Return the wheel `even` with its declared errors. Errors declared for the train apply if none are declared for
+    the wheel, and `settings` overrides both.
 
     Raises `RangeError` if an error is larger than a tooth, or is a length that cannot be converted to a fraction.
     """
@@ -212,7 +213,8 @@ def wheel_errors(train: Train, even: WheelErrors, settings: Sequence[ErrorOverri
 def _with_measured_angles(wheel: WheelErrors, measured: MeasuredTeeth) -> WheelErrors:
     """Return the wheel with pitch deviations and eccentricity estimated from the measured angles of its teeth.
 
-    An unmeasured tooth is assumed to follow the fitted eccentricity if it is significant, or else an even division.
+    Each unmeasured tooth is assumed to have only the fitted eccentricity if that is significant, and no error if it is
+    not.
     """
     found = estimate_measured(measured, wheel.z)
     depth = wheel.depth / wheel.angle_radius

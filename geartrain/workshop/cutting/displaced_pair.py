@@ -130,7 +130,7 @@ class SideTerms:
     driven: Any
     """Terms of the lag that depend on the driven wheel."""
     pitches: int
-    """Offset of the tooth numbers: entry n of `driver` belongs to driver tooth n - `pitches`."""
+    """Offset of the tooth numbers: entry n of `driver` is the term of driver tooth n - `pitches`."""
 
 
 @dataclass(frozen=True)
@@ -188,7 +188,8 @@ class DisplacedPair:
     # ------------------------------------------------------------------------------------------------- pair by pair
 
     def side_terms(self, u: float, back: bool) -> Iterator[SideTerms]:
-        """Yield the lag terms of all tooth pairs that can touch at the driver angle u, 0 <= u < pitch [rad].
+        """Yield the lag of the driven wheel that each possible tooth contact would cause at the driver angle u, 0 <= u
+        < pitch [rad], as two terms: one depends on the driver, the other on the driven wheel.
 
         back   True for the coast flanks, False for the drive flanks
         """
@@ -222,7 +223,7 @@ class DisplacedPair:
         return [self._along(each, x) for each in (*at.across, *at.along, *at.tilt, at.normal, at.even, at.apart)]
 
     def _side(self, u: float, x: float, j: int, back: bool, late: Any = None) -> SideTerms:
-        """Return the lag terms of both wheels [rad], by equation (2) of docs/cut-by-hand.md.
+        """Return the lag of the driven wheel [rad] as one term for each wheel, by equation (2) of docs/cut-by-hand.md.
 
         u      angle of the driver within a pitch (rad)
         x      driver angle at which the contact of these tooth pairs is evaluated (rad)
@@ -271,7 +272,9 @@ class DisplacedPair:
     # --------------------------------------------------------------------------------------------- backlash, and jams
 
     def _opposite_pairs(self) -> Iterator[tuple[SideTerms, SideTerms]]:
-        """Yield the lag terms on drive flanks and on coast flanks for all tooth pairs that can touch together."""
+        """Yield the lags of the driven wheel caused by drive flanks and by coast flanks, for all combinations of tooth
+        pairs that can touch simultaneously.
+        """
         pitch, (start, end) = self.contact.pitches[0], (self.contact.start, self.contact.end)
         ends = np.mod([start, end, -start, -end], pitch)
         phases = _UNEVEN_PHASES if self._lag_varies else _PHASES

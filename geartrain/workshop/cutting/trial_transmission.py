@@ -1,4 +1,4 @@
-"""Transmission functions of many pairs of cut wheels, computed together: each driver angle belongs to one trial."""
+"""Transmission functions of many pairs of cut wheels, computed together. Each driver angle applies to one trial."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ class TrialTransmissionFunction(TransmissionFunction):
 
     @property
     def measured(self) -> bool:  # type: ignore[override]
-        """True if all angles belong to one trial, as in the motion of a train with measured wheels."""
+        """True if all driver angles apply to the same trial, as in the motion of a train with measured wheels."""
         return not np.ndim(self.rows)
 
     def reversed_motion(self) -> TrialTransmissionFunction:

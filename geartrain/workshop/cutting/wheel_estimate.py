@@ -85,7 +85,9 @@ class WheelEstimate(Result):
     numbers: Ints
     """Indices of the measured teeth, from 0."""
     law: DeviationLaw
-    """Assumed model of the tooth deviations: independent deviations, or deviations due to division by stepping."""
+    """Assumed model of the tooth deviations: independent deviations, or deviations that add up because each division
+    was stepped off from the previous one with dividers.
+    """
     coefficients: Floats
     """Mean angle c and coefficients A and B of the first harmonic [rad]."""
     covariance: Floats
@@ -114,10 +116,11 @@ class WheelEstimate(Result):
     detectable: float
     """Eccentricity that would be found significant with a probability of 95 % [1]."""
     q: float
-    """Von Neumann's ratio of the residuals [1]: about 2 for independent deviations, smaller for division by stepping.
+    """Von Neumann ratio of the residuals [1]: about 2 for independent deviations; smaller if each division was stepped
+    off from the previous one with dividers, so that the deviations add up.
     """
     q_limit: float
-    """Five per cent quantile of q for wheels with independent deviations [1]."""
+    """5 % quantile of q for wheels with independent deviations [1]."""
 
     def _summary(self) -> str:
         found = f"eccentricity {self.eccentricity.value:.3g} of the radius" if self.eccentric else "not eccentric"
@@ -130,7 +133,9 @@ class WheelEstimate(Result):
 
     @property
     def off(self) -> Floats:
-        """Angle of each measured tooth minus its angle in an even division with the same mean angle [rad]."""
+        """Angle of each measured tooth minus the angle that it would have on an evenly divided wheel with the same mean
+        angle [rad].
+        """
         gamma = 2 * pi * self.numbers / self.teeth
         found: Floats = self.residuals + self.coefficients[1:] @ [np.cos(gamma), np.sin(gamma)]
         return found

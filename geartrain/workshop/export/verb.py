@@ -113,7 +113,8 @@ def run(
     step: Annotated[
         Size,
         typer.Option(
-            "--time-step", help="Time step of the FMU, such as 0.0001s; the default depends on the tooth frequency."
+            "--time-step",
+            help="Time step of the FMU, such as 0.0001s; the default depends on the tooth mesh frequency.",
         ),
     ] = None,
     without: Without = None,

@@ -70,7 +70,7 @@ class MonteCarloResult(Tabular, Pictured, Result):
     cleared: Sequence[ClearanceCase] = ()
     """Event probabilities at other clearance factors, from `jamming_map`."""
     courses: Sequence[PointerErrorCourse] = ()
-    """Pointer errors of each studied output along a revolution, from `run_course`."""
+    """Pointer errors of each studied output over one revolution, from `run_course`."""
     indices: Sequence[SobolIndices] = ()
     """Sobol indices of pointer errors, from `find_sobol_indices`."""
 
@@ -165,7 +165,7 @@ def _sizes(errors: Mapping[str, Mapping[str, Any]]) -> ErrorSizes:
 
 
 _FEW = 4  # outputs whose course and indices are computed: each costs as much as the trials
-_POSITIONS, _COURSES = 120, 128  # positions along a turn, and trials of a course
+_POSITIONS, _COURSES = 120, 128  # positions over one turn, and trials of a course
 _SHARES = (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)  # fractions of clearance windows, if no clearances are given
 _SCALES = (0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0)  # factors of the declared errors
 
@@ -176,7 +176,7 @@ def study_trials(
     """Return the trials together with further studies of the same plan.
 
     clearances   clearance factors at which the trials are repeated; empty for none
-    courses      True to compute the errors of the first outputs along a turn
+    courses      True to compute the errors of the first outputs over one turn
     sobol        True to compute the Sobol indices of the first outputs
     """
     plan, seed, count = trials.plan, trials.seed, trials.wanted

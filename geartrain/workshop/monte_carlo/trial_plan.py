@@ -245,7 +245,7 @@ class TrialPlan(Shown):
     name: str
     """Name of the train."""
     wheels: tuple[WheelErrors, ...]
-    """Sizes and cutting errors of the wheels that belong to the pairs of the trials."""
+    """Sizes and cutting errors of all wheels in the pairs of the trials."""
     pairs: tuple[TrialPair, ...]
     """Gear pairs that contain a wheel with cutting errors. Each entry includes the sizes and the mounting errors of the
     pair.
@@ -274,9 +274,9 @@ class TrialPlan(Shown):
 
     @property
     def position(self) -> int:
-        """Number of the random stream for the positions of the input.
+        """Index of the random stream from which the positions of the input are drawn.
 
-        The first streams belong to the wheels, the next streams to the pairs, and the last stream to the positions.
+        Each wheel has a stream, then each pair, and the last stream is used for the positions.
         """
         return len(self.wheels) + len(self.pairs)
 

@@ -93,7 +93,7 @@ class RexsDocument:
 
 
 def written(attributes: Attributes) -> list[Model]:
-    """Return attributes, without those that are None, as a list in which each has its REXS type and unit."""
+    """Return all attributes whose value is not None as a list of REXS attributes with their types and units."""
     found = []
     for name, value in attributes.items():
         kind, unit = _ATTRIBUTES[name]

@@ -177,7 +177,9 @@ class _GearUnit:
         return bodies
 
     def link_of(self, part: int) -> int:
-        """Return the id of the link to which a shaft, gear, side plate or casing belongs, or else its own id."""
+        """Return the id of the link of which a shaft, gear, side plate or casing is a part. The result is the id of the
+        part itself if it is joined to no other part.
+        """
         return self.bodies.find(self.mount.get(part, part))
 
     @cached_property

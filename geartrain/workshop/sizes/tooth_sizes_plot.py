@@ -1,4 +1,6 @@
-"""Plots of the best sizes of triangular teeth: all designs of a pair, and the improvement of each pair of a train."""
+"""Plots of the best sizes of triangular teeth: all designs of a pair, and the objective of each pair of a train before
+and after optimisation.
+"""
 
 from __future__ import annotations
 
@@ -70,7 +72,9 @@ def tooth_sizes_figure(found: BestToothSizes) -> Figure:
 
 
 def train_sizes_figure(found: BestTrainSizes) -> Figure:
-    """Draw the improvement of each pair of a train, with the pair of the worst declared sizes on top."""
+    """Draw the objective of each pair of a train for its declared and its best sizes. The pair with the worst declared
+    value is at the top.
+    """
     sign = -1.0 if found.aim == "jam" else 1.0
     pairs = sorted(found.pairs, key=lambda pair: -sign * _shown(pair.declared or pair.together, found.aim))
     rows = []

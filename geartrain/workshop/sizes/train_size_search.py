@@ -440,7 +440,9 @@ class BestTrainSizes(Tabular, Pictured, Result):
 
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
-        """Columns of a table of the sizes of each pair: as declared (if it turns), separately, and together."""
+        """Columns of a table with up to three designs of each pair: its declared sizes (only if these teeth can turn),
+        the best sizes of the pair on its own, and the best sizes for the whole train.
+        """
         rows = [
             (pair.name, name, sizes)
             for pair in self.pairs

@@ -76,7 +76,12 @@ def run(
         ),
     ] = None,
     state: FirstState = None,
-    plot: Annotated[Path | None, typer.Option("--plot", help="Plot the improvement of each pair to this file.")] = None,
+    plot: Annotated[
+        Path | None,
+        typer.Option(
+            "--plot", help="Write a plot of the objective of each pair, declared and optimised, to this file."
+        ),
+    ] = None,
     json: Json = False,
     theme: Theme = "light",
     out: Out = None,

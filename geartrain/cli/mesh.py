@@ -221,11 +221,12 @@ def run(
     to = sink(out, force, (".csv", ".json") if vary else (".md", ".html", ".json"))
     if compare and not keys:
         _refuse(context, {*_COMPARED}, "a comparison")
+        counts = _counts(z1, z2)
         from geartrain.report.conjugate_pair_page import describe_form_comparison
 
         picture = picture_sink(plot, force, theme)
         check_distinct_outputs(to, picture)
-        found = _compare(_counts(z1, z2), internal, shaft_angle, form or (), parameter or ())
+        found = _compare(counts, internal, shaft_angle, form or (), parameter or ())
         give(to, json, lambda: found, lambda: [describe_form_comparison(found)])
         if plot is not None:
             draw(found.plot(), picture)

@@ -111,6 +111,7 @@ def run(
         sound = bool(over_turn.verdict)
     tried = None
     if trials is not None and over_turn is not None and over_turn.turns is not None:
+        wing("workshop.monte_carlo.trial_run").check_trials(trials)
         plan = wing("workshop").FrictionPlan(train.declaration, over_turn.span, samples, over_turn.state, link)
         tried = _friction_trials(plan, trials, seed, out, RunOptions(workers, resume))
     if plot is not None:
@@ -144,7 +145,6 @@ def _over_turn(train: GearTrain, found: Sequence[Torques], turns: str, samples: 
 
 def _friction_trials(plan: Any, trials: int, seed: int, out: Path | None, options: RunOptions) -> Any:
     """Compute the torques over the revolutions of a plan in trials with random friction coefficients."""
-    wing("workshop.monte_carlo.trial_run").check_trials(trials)
     with long_run("torques", plan.question(trials, seed), out, options) as given:
         found = wing("workshop").try_frictions(plan, trials, seed, given)
         close_journal(given.journal, cut=not found.complete)

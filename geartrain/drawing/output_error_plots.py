@@ -170,7 +170,9 @@ def _thinned(error: Floats, speed: Floats, bins: int) -> NDArray[np.intp]:
 
 
 def _angle(panel: Axes, trace: _Trace) -> None:
-    line = (lambda x, travel: (x, travel)) if trace.slides else _dial_line
+    def line(turns: Floats, values: Floats) -> tuple[Floats, Floats]:
+        return (turns, values) if trace.slides else _dial_line(turns, values)
+
     looks: tuple[dict[str, Any], ...] = (
         {"color": GREY, "linewidth": 0.8, "linestyle": "--", "label": "mean"},
         {"color": BLUE, "linewidth": 1.2, "label": "true"},

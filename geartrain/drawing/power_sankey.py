@@ -54,7 +54,7 @@ def power_figure(flow: PowerFlow | Torques, title: str, watts: float | None = No
         why, fix = f"at most {_MOST} are legible in a picture", "draw a train with fewer shafts and pairs"
         raise GearTrainError(Problem(what, why, fix))
     words = _NodeLabels(flow, watts)
-    placed = lay_out_sankey(flow, words.width, lambda *lost: len(words.loss(*lost)) * SMALL * LETTER, WIDTH)
+    placed = lay_out_sankey(flow, words.width, words.loss_width, WIDTH)
     title = fill(title, int(placed.width / (TEXT * LETTER)) + 8)
     head = _HEAD + 0.17 * title.count("\n")
     height = placed.height + head + _FOOT
@@ -102,6 +102,10 @@ class _NodeLabels:
     def loss(self, node: PowerNode, power: Fraction) -> str:
         """Return the label of the power lost at a node."""
         return percent_text(power / self.whole, 3)
+
+    def loss_width(self, node: PowerNode, power: Fraction) -> float:
+        """Return the width of the label of the power lost at a node [in]."""
+        return len(self.loss(node, power)) * SMALL * LETTER
 
 
 # --------------------------------------------------------------------------------------------------------------- bands

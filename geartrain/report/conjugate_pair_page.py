@@ -161,7 +161,7 @@ def describe_form_comparison(found: FormComparison) -> Document:
     sections = [Section("Ratios", (text,), [table]), _sharing(found), _base(found)]
     faults = [(form.name, fault) for form in found.forms for fault in form.faults]
     if faults:
-        reasons = [f"{name}: {'; '.join(filter(None, (f.what, f.why, f.fix)))}." for name, f in faults]
+        reasons = [f"{name}: {'; '.join(filter(None, (fault.what, fault.why, fault.fix)))}." for name, fault in faults]
         sections.append(Section("Forms that cannot run", reasons))
     return Document(f"Tooth forms, {pair_name(found.path)}", [found.matched], sections)
 

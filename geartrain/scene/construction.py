@@ -261,10 +261,10 @@ def find_count_formulas(
     every = (*requested, *filter(None, links))
     outputs = FrozenDict({_name(each): Output(of=each[0], relative_to=each[1]) for each in every})
     states = dict(unfolded.declaration.states)
-    if state in states:
-        states[state] = states[state].changed(outputs=FrozenDict({}))
-    changed = unfolded.declaration.changed(outputs=outputs, states=FrozenDict(states))
     try:
+        if state in states:
+            states[state] = states[state].changed(outputs=FrozenDict({}))
+        changed = unfolded.declaration.changed(outputs=outputs, states=FrozenDict(states))
         found = find_formulas(changed, state, {name: free[of] for name, of in counted.items() if of in free})
     except GearTrainError:
         return None

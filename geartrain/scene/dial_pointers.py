@@ -209,10 +209,10 @@ def with_balls(dials: Sequence[DialFace], pointers: Sequence[Pointer]) -> tuple[
     """Return the dials, with each ball that shows the Moon's phase moved into the hand that carries it."""
     found = list(dials)
     for at, face in enumerate(dials):
-        own = (each for each in pointers if each.body == face.body and each.dial is not None)
-        hand = next((each for each in own if dials[each.dial or 0].look == "scale"), None)
-        if face.look == "ball" and hand is not None:
-            under = dials[hand.dial or 0]
+        if face.look != "ball":
+            continue
+        own = [(each, dials[each.dial]) for each in pointers if each.body == face.body and each.dial is not None]
+        for hand, under in [pair for pair in own if pair[1].look == "scale"][:1]:
             foot = plus(under.centre, under.normal, hand.level)
             centre, radius = plus(foot, face.normal, _OUT * under.radius), _BALL * under.radius
             found[at] = replace(face, centre=centre, radius=radius)

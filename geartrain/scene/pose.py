@@ -78,12 +78,12 @@ def scene_pose(scene: Scene, turns: Fraction = Fraction(0)) -> ScenePose:
     3.1416
     """
     error = body_errors(scene, turns)
+    exact = [turns_of(body.speed, turns) for body in scene.bodies]
     angles = np.array(
         [
             # reduced to one turn as a fraction: the float of many turns would lose digits of the angle
-            body.sense * (body.start + 2 * pi * float(each if body.travels else each % 1) + error[at])
-            for at, body in enumerate(scene.bodies)
-            for each in (turns_of(body.speed, turns),)
+            body.sense * (body.start + 2 * pi * float(turned if body.travels else turned % 1) + error[at])
+            for at, (body, turned) in enumerate(zip(scene.bodies, exact, strict=True))
         ]
     )
     turned, moved = np.zeros((len(scene.bodies), 3, 3)), np.zeros((len(scene.bodies), 3))

@@ -260,6 +260,11 @@ def test_an_offset_that_is_not_the_eccentricity_cannot_be_built() -> None:
     assert not geartrain.load(text).build_findings
 
 
+def test_the_command_writes_the_load_of_a_pin() -> None:
+    out = ended("mesh", 11, 12, "--form", "pin_ring", "--friction", 0.05, "--json")
+    assert '"maximum_load": 0.33' in out.stdout
+
+
 def test_the_command_takes_clearance_and_deflection() -> None:
     for options, bearing in (((), "5 to 6"), (("-p", "deflection=0.01"), "3 to 4")):
         done = ended("mesh", 11, 12, "--form", "pin_ring", "-p", "clearance=0.01", *options, "-o", "-")

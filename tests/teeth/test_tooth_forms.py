@@ -665,3 +665,7 @@ def test_at_a_wrong_distance_other_teeth_have_a_transmission_of_their_own() -> N
     assert transmission.verdict
     tight = shape("uniform_stress", arcs="0.6", centre_distance="29.97").transmission(24, 36)
     assert tight.verdict.kind == "jam"
+
+
+def test_equal_pairs_of_a_long_train_share_one_path() -> None:
+    assert shape("least_friction").path(24, 36) is shape("least_friction").path(24, 36)

@@ -265,7 +265,9 @@ def dial_feet(
     low, high = (plate[1], faces[0]) if above else (faces[1], plate[0])
     turning = list(_between(plan, low, high))
     tried = list(corners)
-    for ((x, y), radius), share, way in product(circles, _SHARES, range(_WAYS) if not corners else ()):
+    # declared corners replace the positions in the dials
+    candidates = [] if corners else product(circles, _SHARES, range(_WAYS))
+    for ((x, y), radius), share, way in candidates:
         away, turn = min(share * radius, radius - FOOT_RADIUS - _EDGE), 2 * pi * (way + 0.5) / _WAYS
         tried.append((x + away * cos(turn), y + away * sin(turn)))
     free = [spot for spot in tried if clear_of(spot, turning) > FOOT_RADIUS + _GAP]

@@ -13,8 +13,24 @@ exact_join              the join: bucket elimination (Dechter 1999)
 inside_outside          sums over all assignments of a recorded join, and the best assignments (A* search)
 """
 
-from geartrain.search.join.inside_outside import AssignmentSums, BestFirst, record_join
-from geartrain.search.join.join_plan import find_join_problem
-from geartrain.search.join.wheel_monomials import IntervalConstraint
+from __future__ import annotations
 
-__all__ = ["AssignmentSums", "BestFirst", "IntervalConstraint", "find_join_problem", "record_join"]
+from typing import TYPE_CHECKING
+
+from geartrain.numerics.lazy_names import public_names
+
+if TYPE_CHECKING:
+    from geartrain.search.join.inside_outside import AssignmentSums as AssignmentSums
+    from geartrain.search.join.inside_outside import BestFirst as BestFirst
+    from geartrain.search.join.inside_outside import record_join as record_join
+    from geartrain.search.join.join_plan import find_join_problem as find_join_problem
+    from geartrain.search.join.wheel_monomials import IntervalConstraint as IntervalConstraint
+
+__getattr__, __all__ = public_names(
+    __name__,
+    {
+        "inside_outside": "AssignmentSums BestFirst record_join",
+        "join_plan": "find_join_problem",
+        "wheel_monomials": "IntervalConstraint",
+    },
+)

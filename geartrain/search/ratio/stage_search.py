@@ -273,7 +273,7 @@ def _question(
             by in get_args(StageOrder),
             f"solutions cannot be sorted by '{by}'",
             "no such criterion is computed for a solution",
-            suggest(by, get_args(StageOrder)),
+            suggest(str(by), get_args(StageOrder)),
         ),
         (
             1 <= stages <= MOST_STAGES,

@@ -29,7 +29,7 @@ def candidate_likelihood(arbor: Arbor, geometry: SurvivingGeometry) -> float:
     """
     if not (geometry.wheels or geometry.arbors):
         return 1.0
-    modules = distances = 0.0
+    distances = 0.0
     for parent, wheel, child in arbor.meshes():
         assert child.driven is not None
         if not geometry.may_mesh(parent.name, wheel, child.name, child.driven):
@@ -38,9 +38,10 @@ def candidate_likelihood(arbor: Arbor, geometry: SurvivingGeometry) -> float:
         if square is not None and radii is not None:
             # log(a^2/b^2)^2 / 4 = log(a/b)^2, without the square root of the distance
             distances += math.log(radii**2 / square) ** 2 / 4
-    for each in arbor.arbors():
-        # wheels driven by an idler share the mesh in which it is driven, and are counted there
-        modules += sum(_module_misfit(wheel, children, geometry).misfit for wheel, children in each.drives)
+    # wheels driven by an idler share the mesh in which it is driven, and are counted there; the exact sum does not
+    # depend on the order of the arbors, so that equal trains have equal weights
+    drives = (drive for each in arbor.arbors() for drive in each.drives)
+    modules = math.fsum(_module_misfit(wheel, children, geometry).misfit for wheel, children in drives)
     misfit = modules / float(geometry.module) ** 2 + distances / float(geometry.distance) ** 2
     return math.exp(max(-misfit / 2, _MINIMUM))
 

@@ -295,6 +295,7 @@ def search_train(
         what = f"solutions cannot be sorted by '{by}'"
         raise QuestionError(Problem(what, "no such criterion is computed for a solution", suggest(by, get_args(By))))
     domains = find_domains(train, free)
+    train.check_state(state)
     if rules is None or isinstance(rules, ConstraintOptions):
         rules = find_constraints(train, domains, rules or ConstraintOptions())
     parts, remarks = find_parts(train, state, domains, rules, tolerance)

@@ -12,21 +12,29 @@ file_strokes         filing of teeth until pairs turn without a jam
 
 from __future__ import annotations
 
-from geartrain.workshop.cutting.cut_wheel import CutGearPair, CutWheel
-from geartrain.workshop.cutting.displaced_pair import DisplacedPair, DisplacedWheel
-from geartrain.workshop.cutting.file_strokes import file_to_fit
-from geartrain.workshop.cutting.meshing_cycle import batch_verdicts, jamming_bound, nominal_backlash
-from geartrain.workshop.cutting.wheel_estimate import closed_steps, stepped_covariance
+from typing import TYPE_CHECKING
 
-__all__ = [
-    "CutGearPair",
-    "CutWheel",
-    "DisplacedPair",
-    "DisplacedWheel",
-    "batch_verdicts",
-    "closed_steps",
-    "file_to_fit",
-    "jamming_bound",
-    "nominal_backlash",
-    "stepped_covariance",
-]
+from geartrain.numerics.lazy_names import public_names
+
+if TYPE_CHECKING:
+    from geartrain.workshop.cutting.cut_wheel import CutGearPair as CutGearPair
+    from geartrain.workshop.cutting.cut_wheel import CutWheel as CutWheel
+    from geartrain.workshop.cutting.displaced_pair import DisplacedPair as DisplacedPair
+    from geartrain.workshop.cutting.displaced_pair import DisplacedWheel as DisplacedWheel
+    from geartrain.workshop.cutting.file_strokes import file_to_fit as file_to_fit
+    from geartrain.workshop.cutting.meshing_cycle import batch_verdicts as batch_verdicts
+    from geartrain.workshop.cutting.meshing_cycle import jamming_bound as jamming_bound
+    from geartrain.workshop.cutting.meshing_cycle import nominal_backlash as nominal_backlash
+    from geartrain.workshop.cutting.wheel_estimate import closed_steps as closed_steps
+    from geartrain.workshop.cutting.wheel_estimate import stepped_covariance as stepped_covariance
+
+__getattr__, __all__ = public_names(
+    __name__,
+    {
+        "cut_wheel": "CutGearPair CutWheel",
+        "displaced_pair": "DisplacedPair DisplacedWheel",
+        "file_strokes": "file_to_fit",
+        "meshing_cycle": "batch_verdicts jamming_bound nominal_backlash",
+        "wheel_estimate": "closed_steps stepped_covariance",
+    },
+)

@@ -183,7 +183,8 @@ def schema(
         Literal["json", "markdown", "answers"],
         typer.Option(
             "--as",
-            help="JSON Schema of declarations (json), their reference (markdown), or JSON Schema of results (answers).",
+            help="Document to print: JSON Schema of declarations (json), their reference (markdown), or JSON Schema of "
+            "results (answers).",
         ),
     ] = "json",
     out: Out = None,

@@ -90,7 +90,7 @@ def decimal(value: Fraction, digits: int = 10) -> str:
     Returns
     -------
     str
-        Text in the format `g` of floats.
+        Number, formatted as a float is by the format specifier `g`.
 
     Examples
     --------

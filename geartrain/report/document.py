@@ -1,6 +1,7 @@
 """Document: titled sections of paragraphs and tables, independent of the output format.
 
-Tables are fitted into a width: cells wrap at words, and a table that is still too wide is split into strips of columns.
+Tables are fitted to a given width: text in cells wraps at word boundaries, and a table that is still too wide is split
+into strips of columns.
 """
 
 from __future__ import annotations

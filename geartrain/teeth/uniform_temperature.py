@@ -114,7 +114,7 @@ class UniformTemperature(ConjugateToothForm):
         return found[0], found[1]
 
     def _sides_of_depth(self, pitch: PitchSurfaces) -> tuple[PathSide, PathSide]:
-        """Return the approach side and the recess side with the requested working depth, which determines the heat."""
+        """Return the approach side and the recess side with the heat that gives the requested working depth."""
         from geartrain.teeth.conjugate.optimal_sides import involute
         from geartrain.teeth.conjugate.path_losses import depth, to_depth
         from geartrain.teeth.conjugate.path_of_contact import PathOfContact

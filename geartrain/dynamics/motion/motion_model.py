@@ -302,7 +302,7 @@ class Motion(Shown):
 
     @cached_property
     def advances(self) -> Mapping[str, float]:
-        """Mean speed ratio (link to input) of each link that clutches drive stepwise, by link [1]."""
+        """Mean speed ratio (link to input) of each link that clutches advance in steps, by link [1]."""
         stepped = self._problem.stepped
         if stepped is None:
             return {}

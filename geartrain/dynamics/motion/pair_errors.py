@@ -150,8 +150,8 @@ class PairErrors:
         if cycles > _FASTEST:
             raise GearTrainError(
                 Problem(
-                    f"pair '{circuit.id}' passes 10^{log10(cycles):.0f} teeth per turn of '{self.train.driving_link}'",
-                    "positions of the input in float64 do not resolve these teeth",
+                    f"10^{log10(cycles):.0f} teeth of pair '{circuit.id}' mesh per turn of '{self.train.driving_link}'",
+                    "float64 positions of the input are too coarse to resolve these teeth",
                     "choose an input nearer to this pair, or declare it without `tooth_form` (ideal teeth)",
                 )
             )

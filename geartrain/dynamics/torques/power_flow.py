@@ -36,7 +36,7 @@ class PowerNode(NamedTuple):
     kind: PowerNodeKind
     """Kind of the node. Power enters the train at the node `in` and leaves it at the node `out`."""
     name: str
-    """Name of the link, pair or shaft that is the node.
+    """Name of the link, pair or shaft that the node represents.
 
     A bearing has the name of the link that turns in it. Links that are locked together form one shaft, `a + b`.
     """

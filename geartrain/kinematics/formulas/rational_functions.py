@@ -120,7 +120,7 @@ class Formula:
     """
 
     label: str
-    """Name of the output whose speed the function gives, or cause of a condition."""
+    """Name of the output whose speed the function gives; if the function is a condition, the reason for it."""
     wheels: tuple[str, ...]
     """Names of the wheels on whose tooth counts the function depends, in the order of declaration."""
     numerator: tuple[Term, ...]

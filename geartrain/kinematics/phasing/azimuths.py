@@ -350,7 +350,7 @@ def rational_angle(u: IntegerVector, v: IntegerVector, turn: float) -> Fraction 
 
     The square of the cosine, (u.v)^2 / (u.u v.v), is rational. If the angle is a rational fraction of a turn, Niven's
     theorem requires this square to be 0, 1/4, 1/2, 3/4 or 1. The angle is therefore a multiple of 1/24 turn or
-    irrational. `turn` is the angle in floats, with an error below 1/48.
+    irrational. `turn` is a floating-point approximation of the angle [turn], with an error below 1/48.
     """
     along = dot(u, v)
     square = dot(u, u) * dot(v, v)

@@ -484,8 +484,8 @@ class MeshPhasing(Result):
     @cached_property
     def fits(self) -> bool | None:
         """True if all loops close, or if the backlash of each pair is sufficient for its phase error in `errors`; False
-        if the backlash of a pair is too small. None if a loop is unclear and none misses, or if a required backlash is
-        unknown.
+        if the backlash of a pair is too small. None if all loops that can be checked close but a loop cannot be
+        checked, or if a required backlash is unknown.
         """
         if not self.missing:
             return None if self.kind == "unclear" else True

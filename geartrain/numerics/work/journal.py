@@ -237,7 +237,7 @@ class Journal:
 
 @contextmanager
 def _only_writer(path: Path) -> Iterator[None]:
-    """Lock a journal for this process by a lock file. The lock is always released when the process ends."""
+    """Hold an exclusive lock on a journal by means of a lock file. The lock is released when the process ends."""
     from filelock import FileLock, Timeout
 
     lock = FileLock(f"{path}.lock", timeout=0, thread_local=False)

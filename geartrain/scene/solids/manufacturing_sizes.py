@@ -254,7 +254,9 @@ def _thicknesses(declared: Train, layout: Layout, making: ManufacturingSizes) ->
 
 
 def bores(layout: Layout, making: ManufacturingSizes) -> dict[str, float]:
-    """Return the diameters of arbors without plates [mm], by axis: as given, or 1/3 of the smallest root diameter."""
+    """Return the diameter of the arbor of each axis of a mechanism without plates [mm]: the given diameter, or 1/3 of
+    the smallest root diameter on the axis.
+    """
     if making.bore is not None:
         return dict.fromkeys(layout.axes, making.bore)
     found = {}

@@ -53,7 +53,7 @@ class SolidPart(Shown):
     turned: TurnedPart | None = None
     """Turned part about the z axis of the solid; None if the solid is not a body of revolution."""
     drawn: Solid | None = None
-    """Surface of a wheel, cut from its flat shape or approximate; None for other parts."""
+    """Surface mesh of a wheel: its flat shape extruded, or an approximation; None for other parts."""
 
     @cached_property
     def solid(self) -> Solid:

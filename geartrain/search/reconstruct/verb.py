@@ -69,8 +69,8 @@ def run(
         bool,
         typer.Option(
             "--seen",
-            help="With --lost: keep the observed meshes of the surviving wheels, and add at most the number of "
-            "arbors that --lost gives.",
+            help="With --lost: keep the observed meshes of the surviving wheels, and add no more arbors than "
+            "--lost specifies.",
         ),
     ] = False,
     most: Annotated[

@@ -207,11 +207,11 @@ class ClearanceWindow(Shown):
     run: float
     """Upper bound of the window: the maximum excess at which the pair turns."""
     run_kind: Literal["clash", "dwell"]
-    """Kind of the verdict on the pair if the excess is above `run`."""
+    """Kind of verdict on a pair with an excess above `run`: "clash" or "dwell"."""
     reach: float
     """Excess above which the tips of the two wheels no longer touch."""
     jam_kind: Literal["jam", "overhang", "clash", "dwell"] = "jam"
-    """Kind of the verdict on the pair if the excess is below `jam`."""
+    """Kind of verdict on a pair with an excess below `jam`."""
     side: int = 1
     """Sign of the pair: 1 for external, -1 for internal pairs, whose clearance factors are below 1."""
 

@@ -115,9 +115,9 @@ class TriangularSizes(Shown):
                     f"these parameters do not describe triangular teeth: {self.z1} and {self.z2} teeth, outer radii "
                     f"{self.R1:g} and {self.R2:g}, half angles {self.beta1:g} and {self.beta2:g} rad, clearance factor "
                     f"{1 + self.side * self.excess:g}",
-                    f"radii must be between {_MINIMUM:g} and {1 / _MINIMUM:g}, half angles between 0 and pi/2 rad, and "
-                    "the clearance factor must be positive",
-                    "give at least 3 teeth, radii and half angles above 0, and a clearance factor above 1",
+                    f"each wheel must have teeth, radii must be between {_MINIMUM:g} and {1 / _MINIMUM:g}, half angles "
+                    "between 0 and pi/2 rad, and the clearance factor must be positive",
+                    "give tooth counts, radii and half angles in these ranges, and a clearance factor such as 1.02",
                 )
             )
 

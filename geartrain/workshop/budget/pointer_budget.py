@@ -141,7 +141,7 @@ class PointerBudget(Result):
 
     @property
     def total(self) -> float:
-        """Sum of all known contributions [deg], without any cancellation between them."""
+        """Sum of the magnitudes of all known contributions [deg]."""
         return sum(cause.degrees or 0.0 for cause in self.ranked)
 
     @property
@@ -220,7 +220,7 @@ class TrainBudget(Tabular, Pictured, Result):
     @property
     def columns(self) -> Mapping[str, Sequence[Any]]:
         """Columns of a table that has a row for each cause of each pointer: names of pointer and cause, size and rms
-        value of the error [deg], and size as a time [d]; unknown values are None.
+        value of the error [deg], and the error as a time [d]; unknown values are None.
         """
         rows = [(pointer.name, cause) for pointer in self.pointers for cause in pointer.causes]
         return {

@@ -63,7 +63,7 @@ class TrialTransmissionFunction(TransmissionFunction):
 
     @property
     def measured(self) -> bool:  # type: ignore[override]
-        """True if all driver angles apply to the same trial, as in the motion of a train with measured wheels."""
+        """True if all driver angles belong to a single trial, as in a train with measured wheels."""
         return not np.ndim(self.rows)
 
     def reversed_motion(self) -> TrialTransmissionFunction:

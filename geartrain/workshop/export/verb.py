@@ -236,7 +236,9 @@ def _write_folder(
 
     if wheel is not None:
         what = "--wheel applies only to one file"
-        raise GearTrainError(Problem(what, "a folder contains all wheels", "give -o FILE instead of --to", "--wheel"))
+        raise GearTrainError(
+            Problem(what, "--to writes all wheels to a folder", "give -o FILE instead of --to", "--wheel")
+        )
     wanted = [kind.strip().lower() for kind in kinds.split(",")] if kinds is not None else list(KINDS)
     missing: list[Problem] = []
     if kinds is None:

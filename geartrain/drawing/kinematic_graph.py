@@ -248,7 +248,7 @@ class _Traces:
         return cls(points, steps * [_EDGE_STYLES[edge.kind][0] for edge in edges])
 
     def hidden(self, box: Box, own: int | None = None) -> float:
-        """Return the drawn area [in pt] that a box with a margin would hide, except that of the edge `own`."""
+        """Return the drawn area [in pt] that a box with a margin would hide, except the area of the edge `own`."""
         inside = (np.abs(self.points - box[:2]) < np.array(box[2:]) / 2 + _EDGE_MARGIN).all(2).sum(1)
         ink = inside * self.ink
         return float(ink.sum() - (0.0 if own is None else ink[own]))

@@ -277,7 +277,7 @@ def _row_order(train: GearTrain, axis_of: dict[str, str]) -> list[str]:
 def _set_heights(
     levels: Sequence[Sequence[str]], shafts: dict[str, StickShaft]
 ) -> tuple[dict[str, tuple[float, float]], float]:
-    """Set the heights of `shafts`; return those of the lowest and highest shaft, by axis, and the total height [in].
+    """Set the heights of `shafts`; return the lowest and highest shaft height of each axis, and the total height [in].
 
     Shafts of one axis that overlap are drawn above each other, with the longest shaft lowest.
     """

@@ -125,7 +125,7 @@ def axis_in(train: GearTrain, axis_of: dict[str, str], link: str, carrier: str) 
 
 
 def find_planes(train: GearTrain) -> list[list[Circuit] | str]:
-    """Return groups of meshes that share wheels, and names of brakes and clutches; those of one link are adjacent."""
+    """Return groups of meshes that share wheels, and names of brakes and clutches, with items of a link adjacent."""
     circuits = {circuit.id: circuit for circuit in train.circuits}
     by_wheel: dict[str, list[str]] = {}
     for circuit in train.circuits:

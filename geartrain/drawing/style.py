@@ -134,7 +134,7 @@ def render(figure: _Figure, suffix: str, dots: float = 100.0, theme: ThemeName =
 
 
 def _texts(artist: Artist) -> Iterator[Text]:
-    """Yield the text objects of an artist, except those of hidden axes, whose ticks are not created yet."""
+    """Yield the text objects of an artist, except texts of hidden axes, whose ticks are not created yet."""
     for child in artist.get_children():
         if isinstance(child, Text):
             yield child

@@ -72,7 +72,7 @@ class _Painter:
         for artist in _all(figure):
             if isinstance(artist, Collection) and artist.get_array() is not None:
                 self._scale(artist)
-            elif not isinstance(artist, (Figure, Axes)):  # their colours are those of their patches
+            elif not isinstance(artist, (Figure, Axes)):  # their patches have their colours
                 self._colours(artist)
             for effect in artist.get_path_effects() or ():
                 self._halo(effect)

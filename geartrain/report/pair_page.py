@@ -84,7 +84,7 @@ def collect_pair(
 def describe_pair(
     mesh: GearMesh, outlines: Sequence[WheelOutline] = (), operation: PairOperation | None = None
 ) -> Document:
-    """Return a document on one pair of wheels; the arguments are those of `collect_pair`."""
+    """Return a document on one pair of wheels. The arguments are the same as for `collect_pair`."""
     first, second = mesh.counts
     drives = f"The wheel of {first} drives the wheel of {second}."
     if isinstance(mesh, TriangularMesh):

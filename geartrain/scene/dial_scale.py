@@ -114,7 +114,7 @@ class DialScale:
         return ScaleReading(floor(along) + 1, floor(done) + 1, "", 0)
 
     def number(self, cell: int) -> int:
-        """Return the number read in a cell: that of the cell or, if lines are numbered, of the last line passed."""
+        """Return the number read in a cell: its own number or, if lines are numbered, the number of the last line."""
         if not self.counted:
             return cell
         return (cell - 2) % self.counted + 1 if self.radial else (cell - 1) % self.counted
@@ -385,7 +385,7 @@ def _spiral(scale: DialScale) -> Iterator[Engraving]:
 
 
 def _cell_names(scale: DialScale, pitch: float) -> Iterator[Engraving]:
-    """Yield the name of every cell of a spiral, on up to three lines, and that of each group in its first cell."""
+    """Yield the name of every cell of a spiral, on up to three lines, and the name of each group in its first cell."""
     starts = {first: name for name, first, _ in scale.names}
     glyphs = dict(scale.glyphs)
     for cell, name in enumerate(scale.cells):

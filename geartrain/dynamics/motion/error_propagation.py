@@ -221,7 +221,7 @@ class ErrorPropagation:
         return found
 
     def errors(self, deltas: Floats) -> Floats:
-        """Return the errors of all links [rad], shape (links, n), from those of all pairs [rad], shape (pairs, n)."""
+        """Return the errors of all links [rad], shape (links, n), from the errors of all pairs, shape (pairs, n)."""
         with np.errstate(invalid="ignore"):  # an infinite response times 0, which `sensitivity` refuses
             return np.asarray(self.response @ deltas)
 

@@ -64,7 +64,7 @@ class FlowDirections(NamedTuple):
         return bool(self.ahead or self.back or self.shared)
 
     def joined(self, other: FlowDirections) -> FlowDirections:
-        """Return the directions of power flow under the loads of this object and under those of another one."""
+        """Return the directions of power flow under the loads of this object and of another one."""
         return FlowDirections(self.ahead | other.ahead, self.back | other.back, self.shared or other.shared, self.note)
 
 

@@ -108,7 +108,7 @@ class MeanEfficiencies:
 
     @property
     def differ(self) -> bool:
-        """True if the efficiency depends on which torque is constant, that of the driver or of the driven link."""
+        """True if the efficiency depends on which torque is constant, the driver's or the driven link's."""
         return self.driver != self.load
 
     def given(self, side: int, driving: bool) -> tuple[Fraction, Fraction]:

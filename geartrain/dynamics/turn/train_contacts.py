@@ -357,7 +357,7 @@ def _coupling_losses(setting: LoadCase, circuit: Circuit) -> ContactLosses:
 def _gear_losses(
     setting: LoadCase, circuit: Circuit, first: bool, source: PairErrorSource | None, mesh: GearMesh | None
 ) -> ContactLosses:
-    """Return the losses of a gear pair: those of tooth friction at each position, or those of a constant efficiency."""
+    """Return the losses of a gear pair, due to tooth friction at each position or to a constant efficiency."""
     if source is None or mesh is None or not _by_friction(setting, mesh):
         means = find_mean_efficiencies(setting, circuit).load
         driver, driven = (float(each) for each in (means if first else means[::-1]))

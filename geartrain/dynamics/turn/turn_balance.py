@@ -556,7 +556,7 @@ class TurnBalance:
 
     @cached_property
     def relation_to_first(self) -> Mapping[str, tuple[bool, tuple[int, int]]]:
-        """Order and signs of each pair's links relative to those of the first pair with the same unknown torque.
+        """Order and signs of each pair's links relative to the links of the first pair with the same unknown torque.
 
         The order is True if both pairs name their links in the same order. The signs, 1 or -1, relate the torques on
         the two links to the torques of the first pair.
@@ -570,7 +570,7 @@ class TurnBalance:
         return found
 
     def _for_planet(self, name: str, force: PairForce) -> tuple[Floats, Floats]:
-        """Return the torques on both links of pair `name`, given those of the first pair with the same unknown."""
+        """Return the torques on both links of pair `name`, given `force`, the first pair with the same unknown."""
         alike, signs = self.relation_to_first[name]
         first, second = (force.first, force.second) if alike else (force.second, force.first)
         return signs[0] * first, signs[1] * second

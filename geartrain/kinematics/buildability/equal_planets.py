@@ -393,7 +393,7 @@ def neighbour_terms(root: Any, reach: Any, tips: Any, chord: Any) -> tuple[Any, 
     """Return two terms whose sum is the tip clearance of n equally spaced planets, 2 a sin(pi/n) - tips [unit of
     `reach`].
 
-    root    square root function, which is not used here; the signature corresponds to that of `passing_terms`
+    root    square root function, which is not used here: both functions of clearances have one signature
     reach   2 a, twice the distance of a planet's axis from the central axis: m (z_s + z_p), or m (z_r - z_p), with the
             module m and the tooth counts of sun, planet and ring
     tips    m (z_p + 2 h) plus the required clearance, with the addendum h [modules]

@@ -210,7 +210,7 @@ class _DeclaredCoupling(NamedTuple):
                 kind = self.coupling.kind
                 what = (
                     f"coupling '{name}': '{first.carrier}' carries the axes of '{first.j}' and '{first.i}', but "
-                    f"'{other.carrier}' those of '{other.j}' and '{other.i}'"
+                    f"'{other.carrier}' carries the axes of '{other.j}' and '{other.i}'"
                 )
                 why = f"the distance between '{first.i}' and '{other.i}' changes, and a {kind} keeps its length"
                 fix = f"connect all its links to one carrier, or declare a {kind} for each carrier"

@@ -245,7 +245,7 @@ def common_divisor(p: Laurent, q: Laurent) -> Laurent:
 
 
 def _remainders(p: Laurent, q: Laurent, at: int) -> Laurent:
-    """Return the greatest common divisor: that of the contents times that of the primitive parts in `at`."""
+    """Return the product of the greatest common divisors of the contents and of the primitive parts in `at`."""
     content_p, content_q = _content(p, at), _content(q, at)
     content = common_divisor(content_p, content_q)
     p, q = divide_exactly(p, content_p), divide_exactly(q, content_q)

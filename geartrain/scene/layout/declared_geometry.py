@@ -376,7 +376,7 @@ def _contact(
     sense = 0
     if screw:
         # a (w_i - w_k) + b (w_j - w_k) = 0: with equal signs of a and b the relative speeds are opposite; velocities
-        # do not give the sense, because those of worm and wheel are not parallel at the pitch point
+        # do not give the sense, because the velocities of worm and wheel are not parallel at the pitch point
         sense = -1 if circuit.a * circuit.b > 0 else 1
         for link, axis in zip((circuit.i, circuit.j), ends, strict=True):
             sense *= train.kinematics.signs.get(link, 1) if train.kinematics.tree.axis(link) == axis else 1

@@ -121,7 +121,7 @@ class _BlockBuilder:
     """Builder of the discs (`WheelBlock`) of all wheels in one group of parallel axes.
 
     crossing   gear pairs with one wheel on an axis of the group, with this wheel as their own wheel
-    met        reference point of each crossing axis in the plan: its declared point, or that of its first pair
+    met        reference point of each crossing axis in the plan: its declared point, or the point of its first pair
     number     index of each set of parts with fixed relative heights
     """
 

@@ -71,7 +71,7 @@ class PlanClearance:
     def cost(self, at: int, placed: Indices, candidates: Floats, points: Floats) -> Floats:
         """Return the cost of each candidate position of an axis: weighted overlaps with placed wheels [mm]."""
         near = placed[self.still[at, placed]]
-        # only axes whose wheels may overlap those of this axis at one of its candidate positions cause a cost
+        # only axes whose wheels may overlap the wheels of this axis at one of its candidate positions cause a cost
         low, high = candidates.min(axis=0), candidates.max(axis=0)
         away = np.maximum(np.maximum(low - points[near], points[near] - high), 0)
         reach = np.maximum(self.radius[at] + self.radius[near], self.need[at, near])

@@ -396,7 +396,7 @@ class WheelStack:
                 yield one.wheel, other.wheel
 
     def pierced(self, height: Mapping[str, float]) -> Iterator[tuple[str, str]]:
-        """Yield arbors, each with a wheel through which it passes, except those of a pin and its slot."""
+        """Yield arbors, each with a wheel through which it passes, except the arbors of a pin and its slot."""
         tied = {frozenset(pair) for pair in self.problem.pins}
         ends = {block.link: block.wheel for block in self.upright if any(block.wheel in pair for pair in tied)}
         spans: dict[str, list[float]] = {}

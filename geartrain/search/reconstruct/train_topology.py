@@ -116,7 +116,7 @@ class Branching:
             yield self.driven, chain
 
     def turned_dials(self, dials: Dials) -> Dials:
-        """Return those of the given dials whose speeds depend on the tooth count of the driven wheel: all except the
+        """Return the given dials whose speeds depend on the tooth count of the driven wheel: all except the
         dials that this wheel drives as an idler.
         """
         passed = dials_of(self.passes)

@@ -381,7 +381,7 @@ def find_parts(
     """Return the independent parts of a train in the order of declaration, and remarks. A part is a set of varied
     wheels that are connected by outputs, loops or constraints, directly or through further varied wheels.
 
-    The requirements are those of the given state, or of all states if `state` is None. The remarks describe outputs
+    Requirements of the given state are used, or of all states if `state` is None. The remarks describe outputs
     whose speeds are undetermined, and outputs that depend on no varied wheel and violate their requirements.
     """
     train.check_state(state)

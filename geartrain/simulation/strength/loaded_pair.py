@@ -128,8 +128,8 @@ class PairUnderLoad:
         return self.wheels[at].z / 2 * self.module * (1.0 if size is None else size.stretch)
 
     def _cone_factor(self, at: int) -> float:
-        """Return the cosine of the pitch cone angle of wheel `at` of a bevel pair, which relates its radii to those of
-        its virtual spur wheel; 1 for spur wheels.
+        """Return the cosine of the pitch cone angle of wheel `at` of a bevel pair, which relates its radii to the
+        radii of its virtual spur wheel; 1 for spur wheels.
         """
         return 1.0 if self.spurs is None else cos(self.spurs.middle.cone(self.wheels[at].gear))
 

@@ -235,8 +235,8 @@ class StrengthQuestion:
         )
 
     def _all_neglected(self) -> tuple[NeglectedEffect, ...]:
-        """Return all neglected effects: first those of gear pairs in the order of the declaration, then those of
-        arbors, then varying torques.
+        """Return all neglected effects: effects of gear pairs in the order of the declaration, of arbors, and of
+        varying torques.
         """
         swinging = [each for each in self.torques.neglected if each.what == "variation within a turn"]
         if self.over is None:

@@ -81,7 +81,7 @@ def fillet(
 
 
 Vertex = tuple[float, float, float]
-"""Vertex (x, y, bulge) of an outline. The bulge is that of the edge from this vertex to the next vertex."""
+"""Vertex (x, y, bulge) of an outline. The bulge describes the edge from this vertex to the next one."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -388,8 +388,8 @@ class PointerErrorStatistics(Result):
 
     @property
     def kept(self) -> Floats:
-        """Pointer errors used for the statistics [rad]: those of the trials in which the output can turn (`errors`) or,
-        if these are fewer than 30, of all trials in which teeth touch (`all`).
+        """Pointer errors used for the statistics [rad], from the trials in which the output can turn (`errors`) or, if
+        these are fewer than 30, from all trials in which teeth touch (`all`).
         """
         return self.all if self.of_all else self.errors  # few trials give no useful statistics
 

@@ -147,8 +147,8 @@ class _Motion:
     ) -> tuple[_Constraint, float]:
         """Return the constraint of a mesh for the link angles `angles`, and the angle by which its teeth overlap [rad].
 
-        The overlap is an angle of the second wheel; it is inf if that wheel is nowhere free. `senses` are those of
-        `_axis_senses`.
+        The overlap is an angle of the second wheel; it is inf if that wheel is nowhere free. `senses` are
+        computed by `_axis_senses`.
         """
         one, other = (self.wheels[name] for name in self.names[circuit.id])
         first, second, held = (one.body, other.body, self.bodies[circuit.carrier])

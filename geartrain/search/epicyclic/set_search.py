@@ -534,9 +534,9 @@ def places(kind: EpicyclicKind, columns: Columns) -> Ints:
     where f is the speed of a wheel relative to the carrier, and its teeth must align where the next planet is inserted.
     Let z be the tooth count of a central wheel and P the tooth count of the planet wheel that it meshes with. If both
     central wheels mesh with the same planet wheel, (z_y + z_x)/n must be an integer if f_x and f_y have opposite signs,
-    and (z_y - z_x)/n if they have equal signs. For a stepped planet, the condition is that (z_y P_x + z_x P_y)/(n gcd(P_x,
-    P_y)), or the same expression with a minus sign, is an integer. Well-known cases are (s + r)/n for a sun and a ring,
-    and (s1 p2 + r2 p1)/(n gcd(p1, p2)) for stepped planets.
+    and (z_y - z_x)/n if they have equal signs. For a stepped planet, the condition is that (z_y P_x + z_x P_y)/(n
+    gcd(P_x, P_y)), or the same expression with a minus sign, is an integer. Well-known cases are (s + r)/n for a sun
+    and a ring, and (s1 p2 + r2 p1)/(n gcd(p1, p2)) for stepped planets.
     """
     number: Ints = np.zeros_like(columns[kind.members[0].wheel])
     for x, y in combinations(kind.members, 2):
